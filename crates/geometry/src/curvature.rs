@@ -2,9 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use mesh::blocks::BLOCK;
+use mesh::parallel;
 use mesh::{DVec3, Domain, EdgeId, Mesh, VertexId, angle_between};
-use rayon::prelude::*;
 
 /// Returns the Gaussian curvature at each vertex, by vertex index, in 1 / scene unit². The curvature is 1 / r²
 /// on a sphere of radius r, and 0 on a cylinder. The value is NaN for dead vertices, for isolated vertices, and
@@ -121,19 +120,10 @@ fn fill_vertices<T: Copy + Send + Sync>(
     none: T,
     value: impl Fn(VertexId) -> T + Sync,
 ) -> Vec<T> {
-    let mut values = vec![none; mesh.domain_len(Domain::Vertex)];
-    values
-        .par_chunks_mut(BLOCK)
-        .enumerate()
-        .for_each(|(b, block)| {
-            for (i, slot) in block.iter_mut().enumerate() {
-                let v = VertexId::new(b * BLOCK + i);
-                if mesh.has_vertex(v) {
-                    *slot = value(v);
-                }
-            }
-        });
-    values
+    parallel::collect(mesh.domain_len(Domain::Vertex), |v| {
+        let v = VertexId::new(v);
+        if mesh.has_vertex(v) { value(v) } else { none }
+    })
 }
 
 #[cfg(test)]

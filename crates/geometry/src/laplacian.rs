@@ -14,9 +14,8 @@
 //! weights; Bunge, Herholz, Kazhdan, Botsch, "Polygon Laplacian Made Simple", 2020, for polygons; Sharp, Crane,
 //! "A Laplacian for Nonmanifold Triangle Meshes", 2020, section 4.5, for degenerate triangles.
 
-use mesh::{DVec3, Domain, FaceId, Mesh};
+use mesh::{DVec3, Domain, FaceId, Mesh, parallel};
 use progress::{Cancelled, Meter, Progress};
-use rayon::prelude::*;
 
 use crate::sparse::SymmetricMatrix;
 use crate::triangulate::Cutter;
@@ -74,62 +73,57 @@ impl Laplacian {
     /// Returns [`Cancelled`] if `progress` asks to stop.
     pub fn new(mesh: &Mesh, progress: &dyn Progress) -> Result<Self, Cancelled> {
         let exponent = exponent(mesh.positions());
-        let points: Vec<DVec3> = mesh
-            .positions()
-            .par_iter()
-            .map(|&p| scaled(p, -exponent))
-            .collect();
+        let positions = mesh.positions();
+        let points = parallel::collect(positions.len(), |v| scaled(positions[v], -exponent));
         let n_faces = mesh.domain_len(Domain::Face);
         let meter = Meter::new(progress, "measure faces", 2 * n_faces as u64).every(65_536);
-        let blocks = || (0..n_faces.div_ceil(FACES)).into_par_iter();
+        let n_blocks = n_faces.div_ceil(FACES);
         let faces = |b: usize| {
             let all = (b * FACES..n_faces.min((b + 1) * FACES)).map(FaceId::new);
             all.filter(|&f| mesh.has_face(f))
         };
         // For each block of faces, the sum and the count of the lengths.
-        let sums: Result<Vec<[f64; 2]>, Cancelled> = blocks()
-            .map(|b| {
-                let (mut sum, mut n, mut pieces) = (0.0, 0.0, Pieces::default());
-                for f in faces(b) {
-                    pieces.set(mesh, &points, f);
-                    for lengths in pieces.triangles.iter().map(|t| lengths(pieces.points(*t))) {
-                        sum += lengths.iter().sum::<f64>();
-                        n += 3.0;
-                    }
+        let sums: Result<Vec<[f64; 2]>, Cancelled> = parallel::map(n_blocks, |b| {
+            let (mut sum, mut n, mut pieces) = (0.0, 0.0, Pieces::default());
+            for f in faces(b) {
+                pieces.set(mesh, &points, f);
+                for lengths in pieces.triangles.iter().map(|t| lengths(pieces.points(*t))) {
+                    sum += lengths.iter().sum::<f64>();
+                    n += 3.0;
                 }
-                meter.add(FACES)?;
-                Ok([sum, n])
-            })
-            .collect();
+            }
+            meter.add(FACES)?;
+            Ok([sum, n])
+        })
+        .into_iter()
+        .collect();
         let [sum, n] = sums?
             .iter()
             .fold([0.0, 0.0], |a, b| [a[0] + b[0], a[1] + b[1]]);
         let slack = if sum > 0.0 { SLACK * (sum / n) } else { 1.0 };
-        let missing: Vec<f64> = blocks()
-            .map(|b| {
-                let (mut missing, mut pieces) = (0.0, Pieces::default());
-                for f in faces(b) {
-                    pieces.set(mesh, &points, f);
-                    for [a, b, c] in pieces.triangles.iter().map(|t| lengths(pieces.points(*t))) {
-                        let least = (a + b - c).min(b + c - a).min(c + a - b);
-                        missing = f64::max(missing, slack - least);
-                    }
+        let missing: Vec<f64> = parallel::map(n_blocks, |b| {
+            let (mut missing, mut pieces) = (0.0, Pieces::default());
+            for f in faces(b) {
+                pieces.set(mesh, &points, f);
+                for [a, b, c] in pieces.triangles.iter().map(|t| lengths(pieces.points(*t))) {
+                    let least = (a + b - c).min(b + c - a).min(c + a - b);
+                    missing = f64::max(missing, slack - least);
                 }
-                missing
-            })
-            .collect();
+            }
+            missing
+        });
         let more = missing.into_iter().fold(0.0, f64::max);
-        let parts: Result<Vec<Entries>, Cancelled> = blocks()
-            .map(|b| {
-                let (mut entries, mut pieces) = (Entries::default(), Pieces::default());
-                for f in faces(b) {
-                    pieces.set(mesh, &points, f);
-                    pieces.entries(more, &mut entries);
-                }
-                meter.add(FACES)?;
-                Ok(entries)
-            })
-            .collect();
+        let parts: Result<Vec<Entries>, Cancelled> = parallel::map(n_blocks, |b| {
+            let (mut entries, mut pieces) = (Entries::default(), Pieces::default());
+            for f in faces(b) {
+                pieces.set(mesh, &points, f);
+                pieces.entries(more, &mut entries);
+            }
+            meter.add(FACES)?;
+            Ok(entries)
+        })
+        .into_iter()
+        .collect();
         let n = mesh.domain_len(Domain::Vertex);
         let (mut areas, mut stiffness) = (vec![0.0; n], Vec::new());
         for part in parts? {
@@ -149,8 +143,12 @@ impl Laplacian {
 /// Returns the exponent of the largest power of two that is not above the largest absolute coordinate; 0 if all
 /// coordinates are 0 or one is infinite.
 pub(crate) fn exponent(points: &[DVec3]) -> i32 {
-    let largest = points.par_iter().map(|p| p.abs().max_element());
-    match largest.reduce(|| 0.0, f64::max) {
+    match parallel::fold(
+        points.len(),
+        0.0,
+        |i| points[i].abs().max_element(),
+        f64::max,
+    ) {
         largest if largest > 0.0 && largest.is_finite() => libm::ilogb(largest),
         _ => 0,
     }

@@ -1,8 +1,7 @@
 //! The edges that simplification and remeshing preserve as lines, and how these lines restrict the vertices on
 //! them.
 
-use mesh::{CREASE, Column, Domain, EdgeId, FaceId, Mesh, Values, VertexId};
-use rayon::prelude::*;
+use mesh::{CREASE, Column, Domain, EdgeId, FaceId, Mesh, Values, VertexId, parallel};
 
 /// How a vertex may move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,10 +32,9 @@ pub(crate) fn lines(mesh: &Mesh, features: &[EdgeId]) -> Vec<bool> {
         let mut columns = faces.iter();
         columns.any(|column| !column.values.are_equal(f.index(), g.index()))
     };
-    let mut lines: Vec<bool> = (0..mesh.n_edges())
-        .into_par_iter()
-        .map(EdgeId::new)
-        .map(|e| match mesh.edge_faces(e) {
+    let mut lines: Vec<bool> = parallel::collect(mesh.n_edges(), |e| {
+        let e = EdgeId::new(e);
+        match mesh.edge_faces(e) {
             [Some(f), Some(g)] => {
                 mesh.is_seam(e)
                     || differ(f, g)
@@ -44,8 +42,8 @@ pub(crate) fn lines(mesh: &Mesh, features: &[EdgeId]) -> Vec<bool> {
                     || creases.is_some_and(|creases| creases[e.index()] > 0.0)
             }
             _ => true,
-        })
-        .collect();
+        }
+    });
     for e in features {
         lines[e.index()] = true;
     }
@@ -55,23 +53,19 @@ pub(crate) fn lines(mesh: &Mesh, features: &[EdgeId]) -> Vec<bool> {
 /// Returns how each vertex may move. The mesh must be dense.
 pub(crate) fn kinds(mesh: &Mesh, lines: &[bool], pinned: &[VertexId]) -> Vec<Kind> {
     let columns = mesh.attributes().of(Domain::Edge);
-    let mut kinds: Vec<Kind> = (0..mesh.n_vertices())
-        .into_par_iter()
-        .map(VertexId::new)
-        .map(|v| {
-            let mut around = mesh
-                .vertex_half_edges(v)
-                .map(|h| h.edge().index())
-                .filter(|&e| lines[e]);
-            match (around.next(), around.next(), around.next()) {
-                (None, ..) => Kind::Inside,
-                (Some(e), Some(f), None) if columns.iter().all(|c| c.values.are_equal(e, f)) => {
-                    Kind::Line
-                }
-                _ => Kind::Fixed,
+    let mut kinds: Vec<Kind> = parallel::collect(mesh.n_vertices(), |v| {
+        let mut around = mesh
+            .vertex_half_edges(VertexId::new(v))
+            .map(|h| h.edge().index())
+            .filter(|&e| lines[e]);
+        match (around.next(), around.next(), around.next()) {
+            (None, ..) => Kind::Inside,
+            (Some(e), Some(f), None) if columns.iter().all(|c| c.values.are_equal(e, f)) => {
+                Kind::Line
             }
-        })
-        .collect();
+            _ => Kind::Fixed,
+        }
+    });
     for v in pinned {
         kinds[v.index()] = Kind::Fixed;
     }

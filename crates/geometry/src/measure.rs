@@ -1,6 +1,6 @@
 //! Measures of whole meshes: area, volume, bounding box, genus and components.
 
-use mesh::{DVec3, Domain, FaceId, Mesh, VertexId, blocks};
+use mesh::{DVec3, Domain, FaceId, Mesh, VertexId, parallel};
 
 /// Returns the sum of the areas of all faces.
 pub fn area(mesh: &Mesh) -> f64 {
@@ -30,7 +30,7 @@ pub fn volume(mesh: &Mesh) -> f64 {
 }
 
 fn sum_over_faces(mesh: &Mesh, term: impl Fn(FaceId) -> f64 + Sync) -> f64 {
-    blocks::sum(mesh.domain_len(Domain::Face), |i| {
+    parallel::sum(mesh.domain_len(Domain::Face), |i| {
         let f = FaceId::new(i);
         if mesh.has_face(f) { term(f) } else { 0.0 }
     })
@@ -42,7 +42,7 @@ pub fn bounds(mesh: &Mesh) -> Option<[DVec3; 2]> {
         let v = VertexId::new(v);
         mesh.has_vertex(v).then(|| [mesh.position(v); 2])
     };
-    blocks::fold(mesh.positions().len(), None, bounds, |a, b| match (a, b) {
+    parallel::fold(mesh.positions().len(), None, bounds, |a, b| match (a, b) {
         (Some([min, max]), Some([low, high])) => Some([min.min(low), max.max(high)]),
         (a, b) => a.or(b),
     })

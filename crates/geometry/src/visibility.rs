@@ -2,9 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use mesh::{DVec3, FaceId, HalfEdgeId, Mesh, VertexId};
+use mesh::{DVec3, FaceId, HalfEdgeId, Mesh, VertexId, parallel};
 use progress::{Cancelled, Meter, Progress};
-use rayon::prelude::*;
 
 use crate::deform::noise::random;
 use crate::deform::vertex_directions;
@@ -135,13 +134,13 @@ fn at_vertices(
 ) -> Result<Vec<f64>, Cancelled> {
     let meter = Meter::new(progress, what, mesh.n_vertices() as u64);
     let mut values = vec![0.0; mesh.n_vertices()];
-    let blocks = values.par_chunks_mut(BLOCK).enumerate();
-    blocks.try_for_each(|(b, block)| {
-        for (i, slot) in block.iter_mut().enumerate() {
-            *slot = value(VertexId::new(b * BLOCK + i));
+    let blocks = parallel::consume(values.chunks_mut(BLOCK), |b, block| {
+        for (i, slot) in (b * BLOCK..).zip(block.iter_mut()) {
+            *slot = value(VertexId::new(i));
         }
         meter.add(block.len())
-    })?;
+    });
+    blocks.into_iter().collect::<Result<(), Cancelled>>()?;
     Ok(values)
 }
 

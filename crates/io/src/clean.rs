@@ -6,7 +6,8 @@ use glam::DVec3;
 use mesh::{Attributes, Domain, Elements, VertexId};
 
 use crate::note::{NoteKind, Notes};
-use crate::{CleanupPolicy, Policies, Polygons, parallel};
+use crate::{CleanupPolicy, Policies, Polygons};
+use mesh::parallel;
 
 /// A face is degenerate if its area is at most this multiple of the square of its longest side. The bound allows for
 /// rounding errors: the computed area of a zero-area face is rarely exactly zero.

@@ -3,7 +3,7 @@
 use std::sync::atomic::AtomicU32;
 use std::sync::atomic::Ordering::Relaxed;
 
-use crate::parallel;
+use mesh::parallel;
 use mesh::{FaceId, HalfEdgeId, Mesh, VertexId};
 
 /// The maximum number of distinct values at a vertex that a corner is compared with.

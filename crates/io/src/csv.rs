@@ -21,7 +21,8 @@ use crate::decimal::{push_number, push_whole};
 use crate::error::Unwritable;
 use crate::joined::{Names, joined};
 use crate::loss::Losses;
-use crate::{SingleFile, WriteOptions, parallel};
+use crate::{SingleFile, WriteOptions};
+use mesh::parallel;
 
 /// The kind of elements of a `.csv` file. Each element has a row.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]

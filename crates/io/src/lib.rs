@@ -38,7 +38,6 @@
 //! | `polygons`, `clean`, `weld` | building a mesh from polygons with attributes |
 //! | `joined`, `corners`, `writing` | reducing a scene to what a format can store |
 //! | `assets`, `save` | the files that a file refers to; writing files atomically |
-//! | `parallel` | work on all threads |
 //!
 //! # Examples
 //!
@@ -82,7 +81,6 @@ mod npz;
 mod obj;
 mod off;
 mod packing;
-mod parallel;
 mod peek;
 mod placed;
 mod ply;

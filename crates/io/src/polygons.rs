@@ -14,7 +14,8 @@ use crate::clean::{SourcePolygons, clean, gather};
 use crate::error::ReadError;
 use crate::note::{NoteKind, Notes, PolygonArrays};
 use crate::writing::COPY_DISTANCE;
-use crate::{NonManifold, Orientation, Policies, ReadOptions, parallel};
+use crate::{NonManifold, Orientation, Policies, ReadOptions};
+use mesh::parallel;
 
 /// Polygons as flat arrays in the order of a file. They need not form a manifold.
 #[derive(Clone, Debug, PartialEq)]

@@ -8,7 +8,7 @@ use store::Store;
 
 use crate::error::WriteError;
 use crate::gzip;
-use crate::parallel::consume;
+use mesh::parallel::consume;
 
 /// The content of a file that is about to be written.
 pub(crate) enum Content<'a> {

@@ -13,7 +13,7 @@ use mesh::{Attributes, Domain, Mesh, Values, VertexId};
 use rayon::prelude::*;
 
 use crate::clean::gather;
-use crate::parallel;
+use mesh::parallel;
 
 /// The number of positions that are hashed and indexed at a time.
 const CHUNK: usize = 1 << 15;

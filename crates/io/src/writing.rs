@@ -8,8 +8,8 @@ use mesh::{Column, Domain, Mesh, Value, Values, VertexId};
 use scene::{Geometry, Object, Scene};
 
 use crate::loss::Losses;
-use crate::parallel;
 use crate::polygons::vertex_values;
+use mesh::parallel;
 
 /// Returns the mesh, or a compacted copy if it has removed elements.
 pub(crate) fn dense(mesh: &Mesh) -> Cow<'_, Mesh> {

@@ -109,7 +109,6 @@ use crate::geometry::{shapes, volume};
 
 mod arrays;
 mod attribute;
-pub mod blocks;
 pub mod build;
 mod compact;
 mod edit;
@@ -117,6 +116,7 @@ mod id;
 mod journal;
 mod marks;
 mod measure;
+pub mod parallel;
 mod prefetch;
 mod reverse;
 mod traverse;

@@ -1,4 +1,4 @@
-//! Large zeroed arrays.
+//! Large arrays.
 //!
 //! The system maps each page of memory when it is first touched. For an array that is written once, mapping
 //! pages of 4 KiB takes as long as writing the array; mapping pages of 2 MiB takes a third of that time.
@@ -25,18 +25,37 @@ pub struct OutOfMemory {
 /// Unwinds with [`OutOfMemory`] if the system has no memory for the array.
 pub fn zeroed<T: Zeroable>(n: usize) -> Vec<T> {
     let Ok(new) = bytemuck::try_zeroed_vec(n) else {
-        let bytes = n.saturating_mul(size_of::<T>());
-        // The panic hook is not called: it would print a backtrace, for which there may be no memory either.
-        std::panic::resume_unwind(Box::new(OutOfMemory { bytes }));
+        out_of_memory::<T>(n);
     };
-    if size_of_val(new.as_slice()) >= LARGE {
-        ask_for_large_pages(&new);
-    }
+    ask_for_large_pages(&new);
     new
+}
+
+/// Returns an empty list with space for `n` values, in large pages as [`zeroed`].
+///
+/// # Panics
+///
+/// Unwinds with [`OutOfMemory`] if the system has no memory for the values.
+pub(crate) fn reserved<T>(n: usize) -> Vec<T> {
+    let mut new = Vec::new();
+    if new.try_reserve_exact(n).is_err() {
+        out_of_memory::<T>(n);
+    }
+    ask_for_large_pages(new.spare_capacity_mut());
+    new
+}
+
+fn out_of_memory<T>(n: usize) -> ! {
+    let bytes = n.saturating_mul(size_of::<T>());
+    // The panic hook is not called: it would print a backtrace, for which there may be no memory either.
+    std::panic::resume_unwind(Box::new(OutOfMemory { bytes }));
 }
 
 #[cfg(target_os = "linux")]
 fn ask_for_large_pages<T>(array: &[T]) {
+    if size_of_val(array) < LARGE {
+        return;
+    }
     const PAGE: usize = 4096;
     let start = array.as_ptr().addr().next_multiple_of(PAGE);
     let end = (array.as_ptr().addr() + size_of_val(array)) / PAGE * PAGE;

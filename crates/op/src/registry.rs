@@ -205,8 +205,13 @@ impl<T: Operation> Step for T {
     }
 
     fn canonical(&self) -> String {
-        ron::to_string(self).expect("parameters are plain data")
+        canonical(self)
     }
+}
+
+/// Writes the parameters of an operation as RON. They are a trait object, so that the serializer is compiled only once.
+fn canonical(parameters: &dyn erased_serde::Serialize) -> String {
+    ron::to_string(parameters).expect("parameters are plain data")
 }
 
 /// Returns the loss of channels of animations. `before` is the number of channels before the step.

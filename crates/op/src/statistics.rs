@@ -1,6 +1,6 @@
 //! Statistics of values of elements.
 
-use mesh::blocks;
+use mesh::parallel;
 
 /// Statistics of the finite values in a list. Values that are not finite count as missing.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,7 +31,7 @@ impl Statistics {
             n,
             min: finite().fold(first, f64::min),
             max: finite().fold(first, f64::max),
-            mean: blocks::sum(values.len(), share),
+            mean: parallel::sum(values.len(), share),
         })
     }
 }

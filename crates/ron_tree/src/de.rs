@@ -66,18 +66,30 @@ pub fn from_str<T: DeserializeOwned>(source: &str) -> Result<T> {
 
 impl Value {
     fn expected<T>(&self, what: &str) -> Result<T> {
-        Err(Error {
+        Err(self.unexpected(what))
+    }
+
+    // Generic code is compiled for each type that is deserialized, so the generic functions here are short.
+
+    #[cold]
+    fn unexpected(&self, what: &str) -> Error {
+        Error {
             message: format!("expected {what}, found {}", self.describe()),
             span: Some(self.span),
-        })
+        }
     }
 
     /// If the result is an error without a span, sets the span of the error to the span of this value.
     fn locate<T>(&self, result: Result<T>) -> Result<T> {
-        result.map_err(|error| Error {
+        result.map_err(|error| self.located(error))
+    }
+
+    #[cold]
+    fn located(&self, error: Error) -> Error {
+        Error {
             span: error.span.or(Some(self.span)),
             ..error
-        })
+        }
     }
 
     /// Deserializes the value into the type of `seed`.
@@ -327,9 +339,9 @@ impl<'de> Key<'de> {
             Self::Value(key) => key.read(seed),
             Self::Name(name, span) => {
                 let read = seed.deserialize(BorrowedStrDeserializer::<Error>::new(name));
-                read.map_err(|error| Error {
+                read.map_err(|Error { message, .. }| Error {
+                    message,
                     span: Some(span),
-                    ..error
                 })
             }
         }

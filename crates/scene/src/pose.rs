@@ -3,8 +3,7 @@
 use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3};
-use mesh::{Attributes, Mesh};
-use rayon::prelude::*;
+use mesh::{Attributes, Mesh, parallel};
 
 use crate::placed::{LinearMap, mapped};
 use crate::{Graph, Node};
@@ -76,13 +75,7 @@ impl Pose {
                 translation: shift / sum,
             }
         };
-        Some(
-            (0..n)
-                .into_par_iter()
-                .with_min_len(4096)
-                .map(blend)
-                .collect(),
-        )
+        Some(parallel::collect(n, blend))
     }
 
     /// Moves points by the weighted deltas of the morph targets.

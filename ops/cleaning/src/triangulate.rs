@@ -17,9 +17,9 @@ mod assemble;
 mod duplicates;
 
 use geometry::triangulate::{Cut, Cutter};
+use mesh::parallel;
 use op::Refusal;
 use op::prelude::*;
-use rayon::prelude::*;
 
 /// Cuts polygons into triangles.
 ///
@@ -67,19 +67,15 @@ impl MeshOperation for Triangulate {
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
         let chosen = self.faces.mask(mesh, cx)?;
         cx.advance("triangulate", 0, 3)?;
-        let mut cuts: Vec<Cut> = (0..mesh.n_faces())
-            .into_par_iter()
-            .with_min_len(256)
-            .map_init(Cutter::default, |cutter, f| {
-                if chosen[f] {
-                    cutter.cut(mesh, mesh::FaceId::new(f))
-                } else {
-                    Cut::Keep
-                }
-            })
-            .collect();
-        let diagonals: usize = cuts.par_iter().map(Cut::n_diagonals).sum();
-        let n_cut = cuts.par_iter().filter(|cut| cut.n_diagonals() > 0).count();
+        let mut cuts = vec![Cut::Keep; mesh.n_faces()];
+        parallel::fill(&mut cuts, |first, cuts| {
+            let mut cutter = Cutter::default();
+            for (f, cut) in (first..).zip(cuts).filter(|(f, _)| chosen[*f]) {
+                *cut = cutter.cut(mesh, mesh::FaceId::new(f));
+            }
+        });
+        let diagonals = parallel::sum(cuts.len(), |f| cuts[f].n_diagonals());
+        let n_cut = parallel::count(cuts.len(), |f| cuts[f].n_diagonals() > 0);
         if n_cut == 0 {
             return Ok(Report::default());
         }

@@ -1,10 +1,9 @@
 //! Code shared by the operations of this group: coordinates along an axis, and moving vertices in parallel.
 
 use geometry::deform::Frame;
-use mesh::{DVec3, VertexId};
+use mesh::{DVec3, VertexId, parallel};
 use op::Axis;
 use op::prelude::*;
-use rayon::prelude::*;
 
 /// Moves the vertices of `mask` to new positions, and removes the normals. The report counts the vertices that moved.
 /// `parameters` names the parameters that can make a coordinate too large.
@@ -15,22 +14,15 @@ pub(crate) fn moved(
     parameters: &str,
     position: impl Fn(VertexId, DVec3) -> DVec3 + Sync,
 ) -> Result<Report, OpError> {
-    let places = mesh
-        .positions()
-        .par_iter()
-        .zip(mask)
-        .enumerate()
-        .with_min_len(1024);
-    let new: Vec<DVec3> = places
-        .map(|(v, (&p, &is_selected))| {
-            if is_selected {
-                position(VertexId::new(v), p)
-            } else {
-                p
-            }
-        })
-        .collect();
-    if !new.par_iter().all(|p| p.is_finite()) {
+    let old = mesh.positions();
+    let new: Vec<DVec3> = parallel::collect(old.len(), |v| {
+        if mask[v] {
+            position(VertexId::new(v), old[v])
+        } else {
+            old[v]
+        }
+    });
+    if !parallel::all(new.len(), |v| new[v].is_finite()) {
         return Err(OpError::overflow(operation, parameters));
     }
     let moved = new

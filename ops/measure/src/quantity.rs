@@ -2,10 +2,9 @@
 
 use geometry::sparse::SolveError;
 use geometry::surface_index::{SurfaceIndex, Winding};
-use mesh::{Domain, FaceId, VertexId};
+use mesh::{Domain, FaceId, VertexId, parallel};
 use op::prelude::*;
 use op::{Operation, named_object};
-use rayon::prelude::*;
 
 use crate::Measure;
 
@@ -151,8 +150,7 @@ impl MeasureOf {
         cx: &Context,
     ) -> Result<Vec<f64>, OpError> {
         let faces = |value: &(dyn Fn(FaceId) -> f64 + Sync)| {
-            let all = (0..mesh.n_faces()).into_par_iter().with_min_len(1024);
-            all.map(|f| value(FaceId::new(f))).collect()
+            parallel::collect(mesh.n_faces(), |f| value(FaceId::new(f)))
         };
         let principal = |i: usize| {
             let both = geometry::principal_curvatures(mesh);
@@ -165,9 +163,8 @@ impl MeasureOf {
             Self::PrincipalCurvature(Principal::Largest) => principal(1),
             Self::Area => faces(&|f| mesh.face_area(f)),
             Self::VertexArea => {
-                let all = (0..mesh.n_vertices()).into_par_iter().with_min_len(1024);
-                all.map(|v| geometry::vertex_area(mesh, VertexId::new(v)))
-                    .collect()
+                let area = |v| geometry::vertex_area(mesh, VertexId::new(v));
+                parallel::collect(mesh.n_vertices(), area)
             }
             Self::MinAngle => faces(&|f| geometry::min_angle(mesh, f).to_degrees()),
             Self::AspectRatio => faces(&|f| geometry::aspect_ratio(mesh, f)),

@@ -18,10 +18,9 @@ use std::sync::Arc;
 
 use bezier::{Curve, Patch};
 use glam::DVec3;
-use mesh::{Domain, Rule, Values, morph_name};
+use mesh::{Domain, Rule, Values, morph_name, parallel};
 use op::prelude::*;
 use op::{Loss, Operation, target_names};
-use rayon::prelude::*;
 use scene::Geometry;
 
 use crate::transform::map::Map;
@@ -116,9 +115,9 @@ impl Transform {
             Geometry::Mesh(mesh) => {
                 let center = self.center(mesh.positions().iter().copied());
                 let mesh = Arc::make_mut(mesh);
-                let moved = mesh.positions_mut().par_iter_mut().with_min_len(4096);
-                moved.for_each(|p| *p = map.point(*p, center));
-                if !mesh.positions().par_iter().all(|p| p.is_finite()) {
+                parallel::change(mesh.positions_mut(), |p| *p = map.point(*p, center));
+                let points = mesh.positions();
+                if !parallel::all(points.len(), |v| points[v].is_finite()) {
                     return Err(too_large());
                 }
                 if !map.only_moves() {
@@ -251,8 +250,7 @@ fn transform_normals(mesh: &mut Mesh, map: &Map) {
     for (domain, name) in normals {
         let mut column = mesh.remove_column(domain, &name).expect("listed above");
         if let Values::Vec3(values) = &mut column.values {
-            let normals = values.par_iter_mut().with_min_len(4096);
-            normals.for_each(|n| *n = map.normal(*n));
+            parallel::change(values, |n| *n = map.normal(*n));
         }
         mesh.insert_column(domain, column);
     }
@@ -265,8 +263,7 @@ fn transform_deltas(mesh: &mut Mesh, map: &Map) {
     for name in morphs {
         let mut column = (mesh.remove_column(Domain::Vertex, &name)).expect("listed above");
         if let Values::Vec3(values) = &mut column.values {
-            let deltas = values.par_iter_mut().with_min_len(4096);
-            deltas.for_each(|delta| *delta = map.vector(*delta));
+            parallel::change(values, |delta| *delta = map.vector(*delta));
         }
         mesh.insert_column(Domain::Vertex, column);
     }

@@ -321,7 +321,7 @@ fn longest_edge(mesh: &Mesh) -> f64 {
         let [a, b] = mesh.edge_vertices(EdgeId::new(e));
         mesh.position(a).distance_squared(mesh.position(b))
     };
-    mesh::blocks::fold(mesh.n_edges(), 0.0, squared, f64::max).sqrt()
+    mesh::parallel::fold(mesh.n_edges(), 0.0, squared, f64::max).sqrt()
 }
 
 /// Moves the vertices to the limit surface and stores its normals and tangents.

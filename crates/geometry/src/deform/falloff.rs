@@ -1,7 +1,6 @@
 //! Weights that decrease with the distance from selected points.
 
-use mesh::DVec3;
-use rayon::prelude::*;
+use mesh::{DVec3, parallel};
 
 /// Returns a weight for each point: 1 for selected points, (1 - (d / radius)²)² for a point at a distance d
 /// from the nearest selected point, and 0 if d is `radius` or more. The weight and its derivative are
@@ -10,23 +9,17 @@ pub fn falloff(points: &[DVec3], is_selected: &[bool], radius: f64) -> Vec<f64> 
     let selected = points.iter().zip(is_selected).filter(|p| *p.1);
     let mut selected: Vec<DVec3> = selected.map(|p| *p.0).collect();
     sort(&mut selected, 0);
-    let weight = |(p, &is_selected): (&DVec3, &bool)| {
-        if is_selected {
+    parallel::collect(points.len(), |i| {
+        if is_selected[i] {
             return 1.0;
         }
-        let square = nearest(&selected, *p, radius * radius, 0) / (radius * radius);
+        let square = nearest(&selected, points[i], radius * radius, 0) / (radius * radius);
         if square < 1.0 {
             (1.0 - square) * (1.0 - square)
         } else {
             0.0
         }
-    };
-    points
-        .par_iter()
-        .zip(is_selected)
-        .with_min_len(256)
-        .map(weight)
-        .collect()
+    })
 }
 
 /// The largest number of points in a part of the tree that is searched point by point.

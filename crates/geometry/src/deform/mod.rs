@@ -13,8 +13,7 @@ mod falloff;
 mod lattice;
 pub mod noise;
 
-use mesh::{DVec3, Domain, Mesh, VertexId};
-use rayon::prelude::*;
+use mesh::{DVec3, Domain, Mesh, VertexId, parallel};
 
 pub use barr::{Bend, Frame, Taper, Twist};
 pub use falloff::falloff;
@@ -50,8 +49,7 @@ pub fn vertex_directions(mesh: &Mesh) -> Vec<DVec3> {
             DVec3::ZERO
         }
     };
-    let vertices = (0..mesh.domain_len(Domain::Vertex)).into_par_iter();
-    vertices.with_min_len(1024).map(direction).collect()
+    parallel::collect(mesh.domain_len(Domain::Vertex), direction)
 }
 
 #[cfg(test)]

@@ -20,10 +20,9 @@
 
 mod piece;
 
-use mesh::{DVec3, Domain, Element, FaceId, Mesh, VertexId, blocks};
+use mesh::{DVec3, Domain, Element, FaceId, Mesh, VertexId, parallel};
 
 use progress::{Cancelled, NoProgress, Progress};
-use rayon::prelude::*;
 
 use crate::surface_index::{Nearest, SurfaceIndex, Triangle, triangulate};
 use crate::triangulate::Cutter;
@@ -191,25 +190,25 @@ impl OneSided {
         // The largest area that one sample represents.
         let area_per_sample = area(from) / SAMPLES;
         let threshold = farthest.lower_bound() + tolerance;
-        let blocks: Vec<Block> = (0..slots.div_ceil(BLOCK))
-            .into_par_iter()
-            .map(|b| {
-                let (mut block, mut triangles) = (Block::default(), Vec::new());
-                let mut cutter = Cutter::default();
-                let faces = (b * BLOCK..slots.min((b + 1) * BLOCK)).map(FaceId::new);
-                for f in faces.filter(|&f| from.has_face(f)) {
-                    triangles.clear();
-                    triangulate(from, f, &mut cutter, &mut triangles);
-                    for (i, triangle) in triangles.iter().enumerate() {
-                        if i % 64 == 0 {
-                            ask()?;
-                        }
-                        block.add(triangle, &hits, to, area_per_sample, threshold, ask)?;
+        let blocks: Result<Vec<Block>, Cancelled> = parallel::map(slots.div_ceil(BLOCK), |b| {
+            let (mut block, mut triangles) = (Block::default(), Vec::new());
+            let mut cutter = Cutter::default();
+            let faces = (b * BLOCK..slots.min((b + 1) * BLOCK)).map(FaceId::new);
+            for f in faces.filter(|&f| from.has_face(f)) {
+                triangles.clear();
+                triangulate(from, f, &mut cutter, &mut triangles);
+                for (i, triangle) in triangles.iter().enumerate() {
+                    if i % 64 == 0 {
+                        ask()?;
                     }
+                    block.add(triangle, &hits, to, area_per_sample, threshold, ask)?;
                 }
-                Ok(block)
-            })
-            .collect::<Result<_, Cancelled>>()?;
+            }
+            Ok(block)
+        })
+        .into_iter()
+        .collect();
+        let blocks = blocks?;
         let (mut area, mut weighted) = (0.0, 0.0);
         let mut ceiling = hits
             .iter()
@@ -361,7 +360,7 @@ fn farthest_vertex(from: &Mesh, hits: &[Option<Nearest>]) -> Option<Farthest> {
 fn mean_of(hits: &[Option<Nearest>]) -> f64 {
     let distance = |i: usize| hits[i].map_or(0.0, |hit| hit.distance);
     let count = hits.iter().flatten().count();
-    blocks::sum(hits.len(), distance) / count as f64
+    parallel::sum(hits.len(), distance) / count as f64
 }
 
 #[cfg(test)]

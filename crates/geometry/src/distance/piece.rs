@@ -1,8 +1,7 @@
 //! Pieces of triangles, with upper bounds on their distance to the other surface.
 
-use mesh::{DVec3, Element, FaceId};
+use mesh::{DVec3, Element, FaceId, parallel};
 use progress::Cancelled;
-use rayon::prelude::*;
 
 use super::{Ask, SurfacePoint};
 use crate::surface_index::triangle::between_segments;
@@ -229,13 +228,14 @@ pub(super) fn refine(
             let waiting = pieces.iter().fold(ceiling, |c, piece| c.max(piece.upper));
             return Ok((farthest, waiting.max(farthest.lower_bound())));
         }
-        let cut: Vec<_> = pieces
-            .par_chunks(BLOCK)
-            .map(|pieces| {
+        let cut: Result<Vec<_>, Cancelled> =
+            parallel::consume(pieces.chunks(BLOCK), |_, pieces| {
                 ask()?;
                 Ok(cut_all(pieces, farthest, threshold, to))
             })
-            .collect::<Result<_, Cancelled>>()?;
+            .into_iter()
+            .collect();
+        let cut = cut?;
         let (n_cut, left_before) = (pieces.len() as u64, visits_left);
         pieces = Vec::with_capacity(2 * pieces.len());
         for (halves, candidate, visits) in cut {

@@ -11,7 +11,7 @@
 //! Sources: Bobenko, Springborn, "A Discrete Laplace-Beltrami Operator for Simplicial Surfaces", 2007; Sharp, Crane, "A
 //! Laplacian for Nonmanifold Triangle Meshes", 2020, section 4.5, for degenerate triangles.
 
-use mesh::{DVec3, Mesh};
+use mesh::{DVec3, Mesh, parallel};
 use progress::{Cancelled, Progress};
 use rayon::prelude::*;
 
@@ -85,7 +85,7 @@ impl Intrinsic {
         }
         let length = |a: u32, b: u32| points[a as usize].distance(points[b as usize]);
         let of = |&[a, b, c]: &[u32; 3]| [length(a, b), length(b, c), length(c, a)];
-        let lengths = corners.par_iter().map(of).collect();
+        let lengths = parallel::collect(corners.len(), |t| of(&corners[t]));
         let mut all = Self {
             corners,
             lengths,
@@ -98,7 +98,7 @@ impl Intrinsic {
     /// Returns the mean length of the sides; 0 if there are none.
     pub(super) fn mean_length(&self) -> f64 {
         let n = self.lengths.len();
-        let sum = mesh::blocks::sum(n, |t| self.lengths[t].iter().sum::<f64>());
+        let sum = parallel::sum(n, |t| self.lengths[t].iter().sum::<f64>());
         if n == 0 { 0.0 } else { sum / (3 * n) as f64 }
     }
 
@@ -108,7 +108,8 @@ impl Intrinsic {
         let mean = self.mean_length();
         let slack = if mean > 0.0 { SLACK * mean } else { 1.0 };
         let missing = |&[a, b, c]: &[f64; 3]| slack - (a + b - c).min(b + c - a).min(c + a - b);
-        let more = (self.lengths.par_iter().map(missing)).reduce(|| 0.0, f64::max);
+        let n = self.lengths.len();
+        let more = parallel::fold(n, 0.0, |t| missing(&self.lengths[t]), f64::max);
         for sides in &mut self.lengths {
             *sides = sides.map(|length| length + more);
         }
@@ -234,10 +235,10 @@ pub(super) fn cotangent([a, b, c]: [f64; 3]) -> f64 {
 
 /// Returns the points of a mesh, scaled.
 pub(super) fn scaled_points(mesh: &Mesh, exponent: i32) -> Vec<DVec3> {
-    let points = mesh.positions().par_iter();
-    points
-        .map(|&p| crate::laplacian::scaled(p, exponent))
-        .collect()
+    let points = mesh.positions();
+    parallel::collect(points.len(), |v| {
+        crate::laplacian::scaled(points[v], exponent)
+    })
 }
 
 #[cfg(test)]

@@ -14,9 +14,8 @@ mod intrinsic;
 #[cfg(test)]
 pub(crate) mod tests;
 
-use mesh::{Domain, Mesh};
+use mesh::{Domain, Mesh, parallel};
 use progress::Progress;
-use rayon::prelude::*;
 
 use crate::components;
 use crate::laplacian::exponent;
@@ -156,8 +155,9 @@ fn flow(surface: &Intrinsic, heat: &[f64], n: usize) -> Vec<f64> {
         let unit = gradient.map(|g| if norm > 0.0 { -g / norm } else { 0.0 });
         hats.map(|hat| 0.5 * (hat[0] * unit[0] + hat[1] * unit[1]))
     };
-    let triangles = surface.corners.par_iter().zip(&surface.lengths);
-    let shares: Vec<[f64; 3]> = triangles.map(of_triangle).collect();
+    let shares: Vec<[f64; 3]> = parallel::collect(surface.corners.len(), |t| {
+        of_triangle((&surface.corners[t], &surface.lengths[t]))
+    });
     let mut flow = vec![0.0; n];
     for (corners, shares) in surface.corners.iter().zip(shares) {
         for (&v, share) in corners.iter().zip(shares) {

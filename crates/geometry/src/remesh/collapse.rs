@@ -1,6 +1,6 @@
 //! Collapsing edges that are too short.
 
-use mesh::{DVec3, EdgeId, FaceId, HalfEdgeId, VertexId};
+use mesh::{DVec3, EdgeId, FaceId, HalfEdgeId, VertexId, parallel};
 use progress::{Cancelled, Progress};
 use rayon::prelude::*;
 
@@ -32,15 +32,12 @@ impl Work<'_> {
         let mut n_collapses = 0;
         let mut short: Vec<EdgeId> = self.mesh.edges().collect();
         while !short.is_empty() {
-            let mut sorted: Vec<(f64, EdgeId)> = short
-                .par_iter()
-                .filter(|&&e| self.mesh.has_edge(e))
-                .map(|&e| (self.relative_length(e), e))
-                .filter(|&(length, _)| length < SHORT)
-                .collect();
+            short.retain(|&e| self.mesh.has_edge(e));
+            let lengths = parallel::collect(short.len(), |i| self.relative_length(short[i]));
+            let mut sorted: Vec<(f64, EdgeId)> = lengths.into_iter().zip(short.drain(..)).collect();
+            sorted.retain(|&(length, _)| length < SHORT);
             sorted.par_sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
             sorted.dedup();
-            short.clear();
             for (i, (_, e)) in sorted.into_iter().enumerate() {
                 if i % 1024 == 0 {
                     progress.report(WHAT, self.counts.passes, self.counts.max_passes)?;

@@ -8,10 +8,9 @@
 //!     X-------X-------+-------X
 //! ```
 
-use mesh::{Connectivity, DVec3};
+use mesh::{Connectivity, DVec3, parallel};
 use mesh::{Domain, EdgeId, FaceId, HalfEdgeId, Mesh, VERTEX_SHARPNESS, Values, VertexId};
 use progress::{Cancelled, Progress};
-use rayon::prelude::*;
 
 use super::Options;
 use crate::lines::{Kind, inverse_power_of_two, kinds, labels, lines};
@@ -142,10 +141,9 @@ impl<'a> Original<'a> {
             mesh,
         };
         this.add_chains(&lines, &kinds);
-        this.valences = (0..this.mesh.n_vertices())
-            .into_par_iter()
-            .map(|v| this.ideal_valence(VertexId::new(v)))
-            .collect();
+        this.valences = parallel::collect(this.mesh.n_vertices(), |v| {
+            this.ideal_valence(VertexId::new(v))
+        });
         this.add_charts(&lines, progress)?;
         for v in this.mesh.vertices() {
             let face = this.mesh.vertex_faces(v).next();
@@ -349,10 +347,7 @@ fn fixed_kinds(source: &Mesh, mesh: &Mesh, lines: &[bool], pinned: &[VertexId]) 
             || loses_tag(v, kind);
         if is_fixed { Kind::Fixed } else { kind }
     };
-    (0..mesh.n_vertices())
-        .into_par_iter()
-        .map(|v| kind(VertexId::new(v)))
-        .collect()
+    parallel::collect(mesh.n_vertices(), |v| kind(VertexId::new(v)))
 }
 
 /// Returns the first half of an edge if it runs along its chain, otherwise the second half.

@@ -58,7 +58,7 @@ impl Sizes {
     /// its area, and s is the number of splits along its longest side.
     pub(super) fn n_faces(&self, original: &Original) -> f64 {
         let mesh = &original.mesh;
-        mesh::blocks::sum(mesh.n_faces(), |f| {
+        mesh::parallel::sum(mesh.n_faces(), |f| {
             let f = FaceId::new(f);
             let vertices = mesh.face_vertices(f).map(|v| self.at_vertex(v));
             let size = vertices.fold(f64::INFINITY, f64::min);

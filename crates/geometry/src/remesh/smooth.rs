@@ -1,8 +1,7 @@
 //! Moving vertices along the surface, so that triangles become nearly equilateral.
 
-use mesh::{DVec3, VertexId};
+use mesh::{DVec3, VertexId, parallel};
 use progress::{Cancelled, Progress};
-use rayon::prelude::*;
 
 use super::WHAT;
 use super::original::Place;
@@ -28,11 +27,7 @@ impl Work<'_> {
     pub(super) fn smooth(&mut self, progress: &dyn Progress) -> Result<f64, Cancelled> {
         progress.report(WHAT, self.counts.passes, self.counts.max_passes)?;
         let n = self.places.len();
-        let mut steps: Vec<Option<Step>> = (0..n)
-            .into_par_iter()
-            .with_min_len(256)
-            .map(|v| self.step(VertexId::new(v)))
-            .collect();
+        let mut steps: Vec<Option<Step>> = parallel::collect(n, |v| self.step(VertexId::new(v)));
         // Undoing the movement of a vertex can turn another triangle. Each round undoes at least one movement.
         let mut is_changed = vec![true; n];
         loop {
@@ -40,53 +35,42 @@ impl Work<'_> {
             let position = |v: VertexId| {
                 steps[v.index()].map_or(self.mesh.position(v), |step: Step| step.point)
             };
-            let turned: Vec<bool> = (0..self.charts.len())
-                .into_par_iter()
-                .with_min_len(256)
-                .map(|f| {
-                    let f = mesh::FaceId::new(f);
-                    if !self.mesh.has_face(f) {
-                        return false;
-                    }
-                    let h = self.mesh.face_half_edge(f);
+            let turned: Vec<bool> = parallel::collect(self.charts.len(), |f| {
+                let f = mesh::FaceId::new(f);
+                if !self.mesh.has_face(f) {
+                    return false;
+                }
+                let h = self.mesh.face_half_edge(f);
+                let next = self.mesh.next(h);
+                let corners = [h, next, self.mesh.next(next)].map(|h| self.mesh.origin(h));
+                if !corners.iter().any(|v| is_changed[v.index()]) {
+                    return false;
+                }
+                let before = corners.map(|v| self.mesh.position(v));
+                let after = corners.map(position);
+                let own = cross(after);
+                let beside = |h: mesh::HalfEdgeId| {
+                    let h = h.twin();
                     let next = self.mesh.next(h);
-                    let corners = [h, next, self.mesh.next(next)].map(|h| self.mesh.origin(h));
-                    if !corners.iter().any(|v| is_changed[v.index()]) {
-                        return false;
-                    }
-                    let before = corners.map(|v| self.mesh.position(v));
-                    let after = corners.map(position);
-                    let own = cross(after);
-                    let beside = |h: mesh::HalfEdgeId| {
-                        let h = h.twin();
-                        let next = self.mesh.next(h);
-                        let corners = [h, next, self.mesh.next(next)];
-                        cross(corners.map(|h| position(self.mesh.origin(h))))
-                    };
-                    let is_bent = || {
-                        let sides = [h, next, self.mesh.next(next)].into_iter();
-                        let mut inner = sides.filter(|h| self.mesh.face(h.twin()).is_some());
-                        inner.any(|h| is_bent(own, beside(h)))
-                    };
-                    before != after
-                        && (is_turned(cross(before), own)
-                            || ((self.limit.is_some() || is_bent())
-                                && self.is_far(&[(f, after)], &[])))
-                })
-                .collect();
+                    let corners = [h, next, self.mesh.next(next)];
+                    cross(corners.map(|h| position(self.mesh.origin(h))))
+                };
+                let is_bent = || {
+                    let sides = [h, next, self.mesh.next(next)].into_iter();
+                    let mut inner = sides.filter(|h| self.mesh.face(h.twin()).is_some());
+                    inner.any(|h| is_bent(own, beside(h)))
+                };
+                before != after
+                    && (is_turned(cross(before), own)
+                        || ((self.limit.is_some() || is_bent()) && self.is_far(&[(f, after)], &[])))
+            });
             if !turned.contains(&true) {
                 break;
             }
-            let taken_back: Vec<usize> = (0..n)
-                .into_par_iter()
-                .filter(|&v| {
-                    steps[v].is_some()
-                        && self
-                            .mesh
-                            .vertex_faces(VertexId::new(v))
-                            .any(|f| turned[f.index()])
-                })
-                .collect();
+            let taken_back = parallel::filter(n, |v| {
+                let mut faces = self.mesh.vertex_faces(VertexId::new(v));
+                steps[v].is_some() && faces.any(|f| turned[f.index()])
+            });
             if taken_back.is_empty() {
                 break;
             }

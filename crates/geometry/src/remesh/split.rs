@@ -1,6 +1,6 @@
 //! Splitting edges that are too long.
 
-use mesh::{EdgeId, HalfEdgeId};
+use mesh::{EdgeId, HalfEdgeId, parallel};
 use progress::Progress;
 use rayon::prelude::*;
 
@@ -19,13 +19,10 @@ impl Work<'_> {
         let mut n_splits = 0;
         let mut long: Vec<EdgeId> = self.mesh.edges().collect();
         while !long.is_empty() {
-            let mut sorted: Vec<(f64, EdgeId)> = long
-                .par_iter()
-                .map(|&e| (self.relative_length(e), e))
-                .filter(|&(length, _)| length > LONG)
-                .collect();
+            let lengths = parallel::collect(long.len(), |i| self.relative_length(long[i]));
+            let mut sorted: Vec<(f64, EdgeId)> = lengths.into_iter().zip(long.drain(..)).collect();
+            sorted.retain(|&(length, _)| length > LONG);
             sorted.par_sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-            long.clear();
             for (i, (_, e)) in sorted.into_iter().enumerate() {
                 if i % 1024 == 0 {
                     progress.report(WHAT, self.counts.passes, self.counts.max_passes)?;

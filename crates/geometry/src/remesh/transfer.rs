@@ -4,10 +4,11 @@
 //! vertex on a line lies on an edge. Corners at a line get their values from the side of the line on which they lie, so
 //! that values are never mixed across a seam.
 
-use mesh::{Attributes, Column, DVec3, Domain, EdgeId, FaceId, HalfEdgeId, Mesh, Rule, VertexId};
+use mesh::{
+    Attributes, Column, DVec3, Domain, EdgeId, FaceId, HalfEdgeId, Mesh, Rule, VertexId, parallel,
+};
 use mesh::{VERTEX_SHARPNESS, Values};
 use progress::{Cancelled, Progress};
-use rayon::prelude::*;
 
 use super::WHAT;
 use super::original::{Original, Place, Track, along};
@@ -46,13 +47,8 @@ impl Work<'_> {
     pub(super) fn finish(self, progress: &dyn Progress) -> Result<Mesh, Cancelled> {
         progress.report(WHAT, self.counts.passes, self.counts.max_passes)?;
         let old = self.original.source.attributes();
-        let vertices: Vec<(DVec3, Blend)> = self
-            .mesh
-            .vertices()
-            .collect::<Vec<_>>()
-            .into_par_iter()
-            .map(|v| self.vertex(v))
-            .collect();
+        let vertices: Vec<(DVec3, Blend)> =
+            parallel::collect(self.mesh.n_vertices(), |v| self.vertex(VertexId::new(v)));
         let mut new = Attributes::default();
         for column in old.of(Domain::Vertex) {
             let values = self.vertex_values(column, &vertices);
@@ -60,10 +56,9 @@ impl Work<'_> {
         }
         if !old.of(Domain::Corner).is_empty() {
             progress.report(WHAT, self.counts.passes, self.counts.max_passes)?;
-            let corners: Vec<Option<Blend>> = (0..self.mesh.n_half_edges())
-                .into_par_iter()
-                .map(|h| self.corner(HalfEdgeId::new(h), &vertices))
-                .collect();
+            let corners: Vec<Option<Blend>> = parallel::collect(self.mesh.n_half_edges(), |h| {
+                self.corner(HalfEdgeId::new(h), &vertices)
+            });
             for column in old.of(Domain::Corner) {
                 let values = column.values.blend(corners.len(), |i, add| {
                     if let Some(blend) = corners[i] {
@@ -74,10 +69,9 @@ impl Work<'_> {
             }
         }
         if !old.of(Domain::Edge).is_empty() {
-            let edges: Vec<Option<usize>> = (0..self.mesh.n_edges())
-                .into_par_iter()
-                .map(|e| self.edge(EdgeId::new(e)).map(EdgeId::index))
-                .collect();
+            let edges: Vec<Option<usize>> = parallel::collect(self.mesh.n_edges(), |e| {
+                self.edge(EdgeId::new(e)).map(EdgeId::index)
+            });
             for column in old.of(Domain::Edge) {
                 let values = column.values.gather(edges.len(), |i| edges[i]);
                 new.insert(Domain::Edge, column.with_values(values));
@@ -85,10 +79,8 @@ impl Work<'_> {
         }
         if !old.of(Domain::Face).is_empty() {
             progress.report(WHAT, self.counts.passes, self.counts.max_passes)?;
-            let faces: Vec<usize> = (0..self.mesh.n_faces())
-                .into_par_iter()
-                .map(|f| self.face(FaceId::new(f)).index())
-                .collect();
+            let faces: Vec<usize> =
+                parallel::collect(self.mesh.n_faces(), |f| self.face(FaceId::new(f)).index());
             for column in old.of(Domain::Face) {
                 let values = column.values.gather(faces.len(), |i| Some(faces[i]));
                 new.insert(Domain::Face, column.with_values(values));

@@ -17,8 +17,8 @@ use std::ops::Range;
 
 use mesh::{
     Column, DVec2, DVec3, DVec4, Domain, EdgeId, FaceId, HalfEdgeId, Mesh, Rule, Values, VertexId,
+    parallel,
 };
-use rayon::prelude::*;
 
 use super::quadric::Quadric;
 use crate::lines::inverse_power_of_two;
@@ -152,11 +152,16 @@ impl Appearance {
         }
         this.bases = this.values.iter().copied().take(n).collect();
         let mut fits = std::mem::take(&mut this.fits);
-        (this.areas, (this.placing, this.normals)) = firsts
-            .par_iter()
-            .zip(fits.par_chunks_mut(n))
-            .map(|(&first, fits)| this.measure(mesh, lines, first, fits, |v| place(mesh, v)))
-            .unzip();
+        let parts = firsts
+            .chunks(parallel::BLOCK)
+            .zip(fits.chunks_mut(n * parallel::BLOCK));
+        let measured = parallel::consume(parts, |_, (firsts, fits)| {
+            let wedges = firsts.iter().zip(fits.chunks_mut(n));
+            wedges
+                .map(|(&first, fits)| this.measure(mesh, lines, first, fits, |v| place(mesh, v)))
+                .collect::<Vec<_>>()
+        });
+        (this.areas, (this.placing, this.normals)) = measured.into_iter().flatten().unzip();
         this.fits = fits;
         Some(this)
     }

@@ -9,9 +9,8 @@
 //! 4. The chosen edges are collapsed. They are so far from each other that no collapse changes the results of the third
 //!    stage for another edge.
 
-use mesh::{DVec3, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
+use mesh::{DVec3, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId, parallel};
 use progress::{Cancelled, Progress};
-use rayon::prelude::*;
 
 use crate::lines::{Kind, inverse_power_of_two, kinds, lines};
 
@@ -25,9 +24,6 @@ use super::{Blocked, Options};
 /// The number of edges in a batch. With smaller batches, threads wait for each other more often: with 1024 edges, a
 /// torus of 1,000,000 triangles takes 1.3 times as long on two processors.
 const BATCH: usize = 16_384;
-
-/// The smallest number of edges that one parallel job handles.
-const PER_THREAD: usize = 64;
 
 /// The state of an edge in the queue.
 #[derive(Clone, Copy, PartialEq)]
@@ -130,10 +126,9 @@ impl<'a> Collapser<'a> {
             options,
             mesh,
         };
-        let costs: Vec<Result<f64, Blocked>> = (0..this.mesh.n_edges())
-            .into_par_iter()
-            .map(|e| this.target(EdgeId::new(e)).map(|target| target.cost))
-            .collect();
+        let costs = parallel::collect(this.mesh.n_edges(), |e| {
+            this.target(EdgeId::new(e)).map(|target| target.cost)
+        });
         for (e, cost) in costs.into_iter().enumerate() {
             this.enqueue(EdgeId::new(e), cost);
         }
@@ -179,17 +174,9 @@ impl<'a> Collapser<'a> {
     }
 
     fn visit(&mut self, batch: &[Entry]) {
-        let costs: Vec<Cost> = batch
-            .par_iter()
-            .with_min_len(PER_THREAD)
-            .map(|&entry| self.cost(entry))
-            .collect();
+        let costs = parallel::collect(batch.len(), |i| self.cost(batch[i]));
         let chosen = self.choose(batch, &costs);
-        let plans: Vec<Result<Plan, Blocked>> = chosen
-            .par_iter()
-            .with_min_len(PER_THREAD)
-            .map(|&e| self.plan(e))
-            .collect();
+        let plans = parallel::collect(chosen.len(), |i| self.plan(chosen[i]));
         for (e, plan) in chosen.into_iter().zip(plans) {
             if self.n_faces <= self.options.faces {
                 break;
@@ -354,8 +341,9 @@ fn nodes(
         let next = mesh.next(h);
         [h, next, mesh.next(next)].map(|h| place(mesh.origin(h)))
     };
-    let node = |(v, kind): (usize, Kind)| {
-        let v = VertexId::new(v);
+    let kinds = kinds(mesh, lines, pinned);
+    parallel::collect(mesh.n_vertices(), |v| {
+        let (v, kind) = (VertexId::new(v), kinds[v]);
         let (mut quadric, mut spread) = (Quadric::default(), Spread::default());
         for h in mesh.vertex_half_edges(v) {
             // Each triangle contributes a third of its area to each of its vertices.
@@ -383,9 +371,7 @@ fn nodes(
             spread,
             kind,
         }
-    };
-    let kinds = kinds(mesh, lines, pinned);
-    kinds.into_par_iter().enumerate().map(node).collect()
+    })
 }
 
 /// Returns the squared distance to the plane that contains the side from `a` to `b` of a triangle and is perpendicular

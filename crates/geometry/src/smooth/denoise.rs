@@ -10,9 +10,8 @@
 //! of adjacent faces, and t = sin(angle / 2) is half the distance between two unit normals that enclose the angle
 //! of the method.
 
-use mesh::{DVec3, Domain, FaceId, Mesh, VertexId};
+use mesh::{DVec3, Domain, FaceId, Mesh, VertexId, parallel};
 use progress::{Cancelled, Meter, Progress};
-use rayon::prelude::*;
 
 use super::{SmoothError, Smoother};
 use crate::sin_cos_degrees;
@@ -51,19 +50,14 @@ pub(super) fn denoise(
 
 /// Computes a value for each face index. Dead faces get the default value.
 fn of_faces<T: Send + Default>(mesh: &Mesh, value: impl Fn(&Mesh, FaceId) -> T + Sync) -> Vec<T> {
-    let faces = (0..mesh.domain_len(Domain::Face))
-        .into_par_iter()
-        .with_min_len(1024);
-    faces
-        .map(|f| {
-            let f = FaceId::new(f);
-            if mesh.has_face(f) {
-                value(mesh, f)
-            } else {
-                T::default()
-            }
-        })
-        .collect()
+    parallel::collect(mesh.domain_len(Domain::Face), |f| {
+        let f = FaceId::new(f);
+        if mesh.has_face(f) {
+            value(mesh, f)
+        } else {
+            T::default()
+        }
+    })
 }
 
 fn filtered_normals(
@@ -76,17 +70,14 @@ fn filtered_normals(
     let areas: Vec<f64> = vectors.iter().map(|v| v.length()).collect();
     let mut normals: Vec<DVec3> = vectors.iter().map(|v| v.normalize_or_zero()).collect();
     let centers = of_faces(mesh, Mesh::face_center);
-    let fans: Vec<u8> = (0..mesh.domain_len(Domain::Vertex))
-        .into_par_iter()
-        .map(|v| {
-            let v = VertexId::new(v);
-            if !mesh.has_vertex(v) {
-                return 0;
-            }
-            let n = mesh.vertex_half_edges(v).take(usize::from(u8::MAX)).count();
-            u8::try_from(n).expect("at most 255")
-        })
-        .collect();
+    let fans: Vec<u8> = parallel::collect(mesh.domain_len(Domain::Vertex), |v| {
+        let v = VertexId::new(v);
+        if !mesh.has_vertex(v) {
+            return 0;
+        }
+        let n = mesh.vertex_half_edges(v).take(usize::from(u8::MAX)).count();
+        u8::try_from(n).expect("at most 255")
+    });
     let spread = spread_of_centers(mesh, &centers);
     // Half of the distance between the ends of two unit normals that enclose this angle.
     let (tolerance, _) = sin_cos_degrees(0.5 * angle);
@@ -104,25 +95,27 @@ fn filtered_normals(
     let meter = Meter::new(progress, "filter normals", total);
     for _ in 0..passes {
         let old = &normals;
-        let filtered: Result<Vec<DVec3>, Cancelled> = (0..old.len())
-            .into_par_iter()
-            .with_min_len(256)
-            .map_init(Vec::new, |around, f| {
-                if f.is_multiple_of(CHECK) {
-                    meter.add(CHECK)?;
-                }
-                neighbors(mesh, &fans, FaceId::new(f), around);
-                let weighted = around.iter().map(|&g| {
-                    let g = g.index();
-                    let near = falloff(centers[f].distance_squared(centers[g]), spread);
-                    let alike = falloff(old[f].distance_squared(old[g]), tolerance);
-                    areas[g] * near * alike * old[g]
-                });
-                let sum: DVec3 = weighted.sum();
-                Ok(sum.try_normalize().unwrap_or(old[f]))
-            })
-            .collect();
-        normals = filtered?;
+        let filter = |f: usize, around: &mut Vec<FaceId>| {
+            neighbors(mesh, &fans, FaceId::new(f), around);
+            let weighted = around.iter().map(|&g| {
+                let g = g.index();
+                let near = falloff(centers[f].distance_squared(centers[g]), spread);
+                let alike = falloff(old[f].distance_squared(old[g]), tolerance);
+                areas[g] * near * alike * old[g]
+            });
+            let sum: DVec3 = weighted.sum();
+            sum.try_normalize().unwrap_or(old[f])
+        };
+        let mut new = vec![DVec3::ZERO; old.len()];
+        let parts = parallel::consume(new.chunks_mut(CHECK), |i, part| {
+            let mut around = Vec::new();
+            for (f, normal) in (i * CHECK..).zip(part.iter_mut()) {
+                *normal = filter(f, &mut around);
+            }
+            meter.add(part.len())
+        });
+        parts.into_iter().collect::<Result<(), Cancelled>>()?;
+        normals = new;
     }
     Ok(normals)
 }
@@ -147,7 +140,7 @@ fn neighbors(mesh: &Mesh, fans: &[u8], f: FaceId, around: &mut Vec<FaceId>) {
 
 /// Returns the mean distance between the centers of adjacent faces.
 fn spread_of_centers(mesh: &Mesh, centers: &[DVec3]) -> f64 {
-    let [sum, n] = mesh::blocks::fold(
+    let [sum, n] = parallel::fold(
         mesh.domain_len(Domain::Edge),
         [0.0, 0.0],
         |e| {

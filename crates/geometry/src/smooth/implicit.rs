@@ -1,8 +1,7 @@
 //! A backward Euler step of mean curvature flow.
 
-use mesh::{DVec3, Mesh};
+use mesh::{DVec3, Mesh, parallel};
 use progress::Progress;
-use rayon::prelude::*;
 
 use super::{Role, SmoothError, Smoother};
 use crate::sparse::{Factor, SymmetricMatrix};
@@ -69,11 +68,7 @@ fn solve(
         let terms = row.map(|(j, entry)| -entry * time * (positions[j as usize] - p));
         terms.fold(DVec3::ZERO, |sum, term| sum + term)
     };
-    let forces: Vec<DVec3> = (0..positions.len())
-        .into_par_iter()
-        .with_min_len(4096)
-        .map(force)
-        .collect();
+    let forces: Vec<DVec3> = parallel::collect(positions.len(), force);
     let mut moves = vec![DVec3::ZERO; positions.len()];
     factor.solve(&forces, &mut moves)?;
     for (p, by) in mesh.positions_mut().iter_mut().zip(moves) {

@@ -17,9 +17,8 @@ mod implicit;
 #[cfg(test)]
 mod tests;
 
-use mesh::{DVec3, Domain, Mesh, VertexId};
+use mesh::{DVec3, Domain, Mesh, VertexId, parallel};
 use progress::{Cancelled, Progress};
-use rayon::prelude::*;
 
 use crate::laplacian::{exponent, scaled};
 use crate::sparse::SolveError;
@@ -186,15 +185,13 @@ pub fn smooth(
     // change the result.
     let exponent = exponent(&before);
     let scale = |points: &mut [DVec3], e: i32| {
-        points
-            .par_iter_mut()
-            .with_min_len(4096)
-            .for_each(|p| *p = scaled(*p, e));
+        parallel::change(points, |p| *p = scaled(*p, e));
     };
     scale(mesh.positions_mut(), -exponent);
     let done = Smoother::new(mesh, smoothing).run(mesh, exponent, progress);
     scale(mesh.positions_mut(), exponent);
-    let is_finite = |mesh: &Mesh| mesh.positions().par_iter().all(|p| p.is_finite());
+    let is_finite =
+        |mesh: &Mesh| parallel::all(mesh.positions().len(), |v| mesh.positions()[v].is_finite());
     let is_good = match done {
         Ok(()) if is_finite(mesh) => Ok(()),
         Ok(()) => Err(SmoothError::Overflow),
@@ -231,7 +228,8 @@ struct Smoother<'a> {
 
 impl<'a> Smoother<'a> {
     fn new(mesh: &Mesh, smoothing: &'a Smoothing<'a>) -> Self {
-        let role = |(v, &is_free): (usize, &bool)| {
+        let role = |v: usize| {
+            let is_free = smoothing.is_free[v];
             let v = VertexId::new(v);
             if !is_free || !mesh.has_vertex(v) || mesh.vertex_half_edge(v).is_none() {
                 return Role::Pinned;
@@ -242,10 +240,9 @@ impl<'a> Smoother<'a> {
                 Boundary::Free => Role::Rim,
             }
         };
-        let roles = smoothing.is_free.par_iter().enumerate().with_min_len(4096);
         Self {
             smoothing,
-            roles: roles.map(role).collect(),
+            roles: parallel::collect(smoothing.is_free.len(), role),
         }
     }
 
@@ -296,13 +293,10 @@ impl<'a> Smoother<'a> {
 
     /// Computes new positions for all vertices that are not pinned, from the old ones.
     fn gather(&self, mesh: &mut Mesh, position: impl Fn(&Mesh, VertexId, Role) -> DVec3 + Sync) {
-        let roles = self.roles.par_iter().enumerate().with_min_len(1024);
-        let new: Vec<DVec3> = roles
-            .map(|(v, &role)| match role {
-                Role::Pinned => mesh.positions()[v],
-                role => position(mesh, VertexId::new(v), role),
-            })
-            .collect();
+        let new: Vec<DVec3> = parallel::collect(self.roles.len(), |v| match self.roles[v] {
+            Role::Pinned => mesh.positions()[v],
+            role => position(mesh, VertexId::new(v), role),
+        });
         mesh.positions_mut().copy_from_slice(&new);
     }
 
@@ -320,22 +314,16 @@ impl<'a> Smoother<'a> {
             let faces = mesh.vertex_faces(v).map(|f| mesh.area_vector(f));
             faces.sum::<DVec3>() / 3.0
         };
-        let vectors: Vec<DVec3> = self
-            .roles
-            .par_iter()
-            .enumerate()
-            .map(|(v, &role)| match role {
-                Role::Pinned => DVec3::ZERO,
-                _ => area_vector(VertexId::new(v)),
-            })
-            .collect();
-        let slope = mesh::blocks::sum(vectors.len(), |v| vectors[v].length());
+        let vectors: Vec<DVec3> = parallel::collect(self.roles.len(), |v| match self.roles[v] {
+            Role::Pinned => DVec3::ZERO,
+            _ => area_vector(VertexId::new(v)),
+        });
+        let slope = parallel::sum(vectors.len(), |v| vectors[v].length());
         let start = mesh.positions().to_vec();
         let volume_at = |distance: f64, mesh: &mut Mesh| {
-            let moved = start.par_iter().zip(&vectors).with_min_len(4096);
-            let moved: Vec<DVec3> = moved
-                .map(|(p, n)| *p + distance * n.normalize_or_zero())
-                .collect();
+            let moved: Vec<DVec3> = parallel::collect(start.len(), |v| {
+                start[v] + distance * vectors[v].normalize_or_zero()
+            });
             mesh.positions_mut().copy_from_slice(&moved);
             volume(mesh)
         };

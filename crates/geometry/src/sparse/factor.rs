@@ -12,8 +12,8 @@
 
 mod front;
 
+use mesh::parallel;
 use progress::{Meter, Progress};
-use rayon::prelude::*;
 
 use super::order::minimum_degree;
 use super::symbolic::{Supernode, Symbolic, inverse};
@@ -151,24 +151,23 @@ impl<'a> Factor<'a> {
         let n = self.free.len();
         // First computes the subtrees in parallel, then the supernodes above them one after another. The
         // parallel loops inside a large front compute each number in the same way for any number of threads.
-        let subtrees: Result<Vec<_>, SolveError> = units
-            .par_iter()
-            .map(|unit| {
-                let mut front = Front::new(n);
-                if !unit.is_subtree {
-                    return Ok((front, Vec::new()));
-                }
-                let mut updates = Vec::new();
-                for s in &supernodes[unit.range.clone()] {
-                    meter.add(usize::try_from(s.work()).unwrap_or(usize::MAX))?;
-                    front
-                        .eliminate(s, &column, &mut updates)
-                        .map_err(|e| self.at_row(e))?;
-                }
-                front.finish();
-                Ok((front, updates))
-            })
-            .collect();
+        let subtrees: Result<Vec<_>, SolveError> = parallel::consume(&units, |_, unit| {
+            let mut front = Front::new(n);
+            if !unit.is_subtree {
+                return Ok((front, Vec::new()));
+            }
+            let mut updates = Vec::new();
+            for s in &supernodes[unit.range.clone()] {
+                meter.add(usize::try_from(s.work()).unwrap_or(usize::MAX))?;
+                front
+                    .eliminate(s, &column, &mut updates)
+                    .map_err(|e| self.at_row(e))?;
+            }
+            front.finish();
+            Ok((front, updates))
+        })
+        .into_iter()
+        .collect();
         let mut updates: Vec<Update> = Vec::new();
         let (mut values, mut diagonals) = (Vec::new(), Vec::new());
         let mut top = Front::new(n);
@@ -244,16 +243,16 @@ impl<'a> Factor<'a> {
 
     /// Returns b - A x for the free rows, and the largest sum of absolute terms of a row.
     fn residual<T: Entry>(&self, b: &[T], x: &[T]) -> (Vec<T>, f64) {
-        let rows = self.free.par_iter().with_min_len(4096).map(|&i| {
-            let (mut r, mut size) = (b[i as usize], b[i as usize].magnitude());
-            for (j, a) in self.matrix.row(i as usize) {
+        let rows: Vec<(T, f64)> = parallel::collect(self.free.len(), |i| {
+            let i = self.free[i] as usize;
+            let (mut r, mut size) = (b[i], b[i].magnitude());
+            for (j, a) in self.matrix.row(i) {
                 let term = x[j as usize] * a;
                 r = r - term;
                 size += term.magnitude();
             }
             (r, size)
         });
-        let rows: Vec<(T, f64)> = rows.collect();
         let size = rows.iter().map(|r| r.1).fold(0.0, f64_max);
         (rows.into_iter().map(|r| r.0).collect(), size)
     }

@@ -18,10 +18,10 @@ mod symbolic;
 #[cfg(test)]
 mod tests;
 
+use mesh::parallel;
 use std::ops::{Add, Mul, Sub};
 
 use progress::Cancelled;
-use rayon::prelude::*;
 
 pub use factor::Factor;
 
@@ -148,29 +148,25 @@ impl SymmetricMatrix {
     /// in any order; entries of the same column are added up in this order. The entries at (i, j) and (j, i) must
     /// be identical bit for bit.
     pub(crate) fn from_rows(n: usize, row: impl Fn(usize, &mut Vec<(u32, f64)>) + Sync) -> Self {
-        const ROWS: usize = 4096;
-        let blocks: Vec<_> = (0..n.div_ceil(ROWS))
-            .into_par_iter()
-            .map(|b| {
-                let mut lengths: Vec<usize> = Vec::new();
-                let mut entries: Vec<(u32, f64)> = Vec::new();
-                let mut buffer = Vec::new();
-                for i in b * ROWS..n.min((b + 1) * ROWS) {
-                    buffer.clear();
-                    row(i, &mut buffer);
-                    buffer.sort_by_key(|&(j, _)| j);
-                    let before = entries.len();
-                    for &(j, value) in &buffer {
-                        match entries[before..].last_mut() {
-                            Some((last, sum)) if *last == j => *sum += value,
-                            _ => entries.push((j, value)),
-                        }
+        let blocks = parallel::blocks(n, |rows| {
+            let mut lengths: Vec<usize> = Vec::new();
+            let mut entries: Vec<(u32, f64)> = Vec::new();
+            let mut buffer = Vec::new();
+            for i in rows {
+                buffer.clear();
+                row(i, &mut buffer);
+                buffer.sort_by_key(|&(j, _)| j);
+                let before = entries.len();
+                for &(j, value) in &buffer {
+                    match entries[before..].last_mut() {
+                        Some((last, sum)) if *last == j => *sum += value,
+                        _ => entries.push((j, value)),
                     }
-                    lengths.push(entries.len() - before);
                 }
-                (lengths, entries)
-            })
-            .collect();
+                lengths.push(entries.len() - before);
+            }
+            (lengths, entries)
+        });
         let mut matrix = Self {
             starts: Vec::with_capacity(n + 1),
             ..Self::default()
@@ -230,12 +226,10 @@ impl SymmetricMatrix {
     /// Panics if `x` does not have one entry for each row.
     pub fn times<T: Entry>(&self, x: &[T]) -> Vec<T> {
         assert_eq!(x.len(), self.len(), "one entry for each row");
-        let product = |i| {
+        parallel::collect(self.len(), |i| {
             let terms = self.row(i).map(|(j, a)| x[j as usize] * a);
             terms.fold(T::default(), |sum, term| sum + term)
-        };
-        let rows = (0..self.len()).into_par_iter().with_min_len(4096);
-        rows.map(product).collect()
+        })
     }
 
     /// Returns this matrix times `factor`, plus the diagonal matrix with the entries `diagonal`.

@@ -1,8 +1,7 @@
 //! Building the tree.
 
-use mesh::{DVec3, FaceId, HalfEdgeId, Mesh};
+use mesh::{DVec3, FaceId, HalfEdgeId, Mesh, parallel};
 use progress::{Cancelled, Progress};
-use rayon::prelude::*;
 
 use super::{Node, Origin, Slab, SurfaceIndex, Triangle};
 use crate::triangulate::Cutter;
@@ -82,12 +81,12 @@ impl SurfaceIndex {
             node: 0,
         }
         .build(&triangles, &|| progress.report(WHAT, 1, 2))?;
-        let sorted = || keys.par_iter().map(|&(_, i)| &triangles[i as usize]);
+        let sorted = |i: usize| &triangles[keys[i].1 as usize];
         Ok(Some(Self {
             nodes,
             slabs,
-            positions: sorted().map(|t| t.positions).collect(),
-            origins: sorted().map(Origin::of).collect(),
+            positions: parallel::collect(keys.len(), |i| sorted(i).positions),
+            origins: parallel::collect(keys.len(), |i| Origin::of(sorted(i))),
         }))
     }
 }

@@ -3,9 +3,8 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use mesh::{DVec3, Domain, Mesh, VertexId};
+use mesh::{DVec3, Domain, Mesh, VertexId, parallel};
 use progress::{Cancelled, Meter, Progress};
-use rayon::prelude::*;
 
 use super::triangle::nearest_on_triangle;
 use super::{Node, SurfaceIndex};
@@ -170,22 +169,20 @@ impl SurfaceIndex {
         done: &(dyn Fn(usize) -> Result<(), Cancelled> + Sync),
     ) -> Result<Vec<Option<Nearest>>, Cancelled> {
         let mut found = vec![None; n];
-        found
-            .par_chunks_mut(BLOCK)
-            .enumerate()
-            .try_for_each(|(b, block)| {
-                // Consecutive points are often near each other, so the triangle of the previous point is a good
-                // first guess.
-                let mut hint = 0;
-                for (part, slots) in block.chunks_mut(128).enumerate() {
-                    for (i, slot) in slots.iter_mut().enumerate() {
-                        *slot = point(b * BLOCK + part * 128 + i).map(|p| self.nearest(p, hint));
-                        hint = slot.map_or(hint, |nearest| nearest.triangle);
-                    }
-                    done(slots.len())?;
+        let blocks = parallel::consume(found.chunks_mut(BLOCK), |b, block| {
+            // Consecutive points are often near each other, so the triangle of the previous point is a good
+            // first guess.
+            let mut hint = 0;
+            for (part, slots) in block.chunks_mut(128).enumerate() {
+                for (i, slot) in slots.iter_mut().enumerate() {
+                    *slot = point(b * BLOCK + part * 128 + i).map(|p| self.nearest(p, hint));
+                    hint = slot.map_or(hint, |nearest| nearest.triangle);
                 }
-                Ok(())
-            })?;
+                done(slots.len())?;
+            }
+            Ok(())
+        });
+        blocks.into_iter().collect::<Result<(), Cancelled>>()?;
         Ok(found)
     }
 

@@ -1,8 +1,7 @@
 //! Pairs of triangles that are near each other.
 
-use mesh::DVec3;
+use mesh::{DVec3, parallel};
 use progress::{Cancelled, Meter, Progress};
-use rayon::prelude::*;
 
 use super::SurfaceIndex;
 
@@ -73,16 +72,15 @@ impl SurfaceIndex {
             tasks = parts;
         }
         let meter = Meter::new(progress, "find overlapping triangles", tasks.len() as u64);
-        let found: Vec<Vec<[u32; 2]>> = tasks
-            .into_par_iter()
-            .map(|task| {
-                let mut found = Vec::new();
-                pairs.collect(task, &mut found, &|| meter.add(0))?;
-                meter.add(1)?;
-                Ok(found)
-            })
-            .collect::<Result<_, Cancelled>>()?;
-        let mut found = found.concat();
+        let found: Result<Vec<Vec<[u32; 2]>>, Cancelled> = parallel::consume(tasks, |_, task| {
+            let mut found = Vec::new();
+            pairs.collect(task, &mut found, &|| meter.add(0))?;
+            meter.add(1)?;
+            Ok(found)
+        })
+        .into_iter()
+        .collect();
+        let mut found = found?.concat();
         found.sort_unstable();
         Ok(found)
     }

@@ -2,9 +2,8 @@
 
 use std::cmp::Ordering::{self, Equal, Less};
 
-use mesh::{DVec2, DVec3};
+use mesh::{DVec2, DVec3, parallel};
 use progress::{Cancelled, Meter, Progress};
-use rayon::prelude::*;
 
 use super::{Node, SurfaceIndex};
 use crate::predicates::orient2d;
@@ -72,14 +71,14 @@ impl SurfaceIndex {
     ) -> Result<Vec<Option<RayHit>>, Cancelled> {
         let meter = Meter::new(progress, "cast rays", rays.len() as u64);
         let mut hits = vec![None; rays.len()];
-        hits.par_chunks_mut(256)
-            .zip(rays.par_chunks(256))
-            .try_for_each(|(hits, rays)| {
-                for (hit, [origin, direction]) in hits.iter_mut().zip(rays) {
-                    *hit = self.ray(*origin, *direction);
-                }
-                meter.add(rays.len())
-            })?;
+        let parts = hits.chunks_mut(256).zip(rays.chunks(256));
+        let done = parallel::consume(parts, |_, (hits, rays)| {
+            for (hit, [origin, direction]) in hits.iter_mut().zip(rays) {
+                *hit = self.ray(*origin, *direction);
+            }
+            meter.add(rays.len())
+        });
+        done.into_iter().collect::<Result<(), Cancelled>>()?;
         Ok(hits)
     }
 

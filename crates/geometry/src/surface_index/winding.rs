@@ -2,9 +2,8 @@
 
 use std::f64::consts::PI;
 
-use mesh::DVec3;
+use mesh::{DVec3, parallel};
 use progress::{Cancelled, Meter, Progress};
-use rayon::prelude::*;
 
 use super::{Node, SurfaceIndex, unit_scale};
 
@@ -72,17 +71,16 @@ impl<'a> Winding<'a> {
             index.nodes.len() as u64,
         );
         let mut moments = vec![Moments::default(); index.nodes.len()];
-        moments
-            .par_chunks_mut(BLOCK)
-            .zip(index.nodes.par_chunks(BLOCK))
-            .try_for_each(|(moments, nodes)| {
-                for (moments, node) in moments.iter_mut().zip(nodes) {
-                    if node.right != 0 {
-                        *moments = Moments::of(index.triangles_of(node), node, scale);
-                    }
+        let parts = moments.chunks_mut(BLOCK).zip(index.nodes.chunks(BLOCK));
+        let done = parallel::consume(parts, |_, (moments, nodes)| {
+            for (moments, node) in moments.iter_mut().zip(nodes) {
+                if node.right != 0 {
+                    *moments = Moments::of(index.triangles_of(node), node, scale);
                 }
-                meter.add(nodes.len())
-            })?;
+            }
+            meter.add(nodes.len())
+        });
+        done.into_iter().collect::<Result<(), Cancelled>>()?;
         Ok(Self {
             index,
             scale,
@@ -144,15 +142,14 @@ impl<'a> Winding<'a> {
     ) -> Result<Vec<f64>, Cancelled> {
         let meter = Meter::new(progress, "compute winding numbers", points.len() as u64);
         let mut found = vec![0.0; points.len()];
-        found
-            .par_chunks_mut(BLOCK)
-            .zip(points.par_chunks(BLOCK))
-            .try_for_each(|(found, points)| {
-                for (found, p) in found.iter_mut().zip(points) {
-                    *found = self.at(*p);
-                }
-                meter.add(points.len())
-            })?;
+        let parts = found.chunks_mut(BLOCK).zip(points.chunks(BLOCK));
+        let done = parallel::consume(parts, |_, (found, points)| {
+            for (found, p) in found.iter_mut().zip(points) {
+                *found = self.at(*p);
+            }
+            meter.add(points.len())
+        });
+        done.into_iter().collect::<Result<(), Cancelled>>()?;
         Ok(found)
     }
 }

@@ -2,9 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use mesh::{DVec2, DVec3, FaceId};
+use mesh::{DVec2, DVec3, FaceId, parallel};
 use progress::{Cancelled, Meter, Progress};
-use rayon::prelude::*;
 
 use super::flatten::{flatten, project};
 use super::grow::{Totals, grow, meetings, smooth_normals};
@@ -99,17 +98,17 @@ pub(super) fn charts(
     let meter = Meter::new(progress, "flatten charts", surface.areas.len() as u64);
     let mut charts = Vec::new();
     while !open.is_empty() {
-        let results: Vec<_> = open
-            .into_par_iter()
-            .map(|faces| {
-                let n = faces.len();
-                let result = chart(surface, faces, limits, &Quiet(&meter))?;
-                if result.is_ok() {
-                    meter.add(n)?;
-                }
-                Ok(result.map_err(|(part, failure)| split(surface, &part.faces, &failure)))
-            })
-            .collect::<Result<_, Cancelled>>()?;
+        let results: Result<Vec<_>, Cancelled> = parallel::consume(open, |_, faces| {
+            let n = faces.len();
+            let result = chart(surface, faces, limits, &Quiet(&meter))?;
+            if result.is_ok() {
+                meter.add(n)?;
+            }
+            Ok(result.map_err(|(part, failure)| split(surface, &part.faces, &failure)))
+        })
+        .into_iter()
+        .collect();
+        let results = results?;
         open = Vec::new();
         for result in results {
             match result {
@@ -337,15 +336,15 @@ fn join(
         if pairs.is_empty() {
             return Ok(charts);
         }
-        let joined: Vec<_> = pairs
-            .par_iter()
-            .map(|&(_, a, b)| {
-                let mut faces = charts[a].part.faces.clone();
-                faces.extend(&charts[b].part.faces);
-                faces.sort_unstable();
-                Ok(chart(surface, faces, limits, progress)?.ok())
-            })
-            .collect::<Result<_, Cancelled>>()?;
+        let joined: Result<Vec<_>, Cancelled> = parallel::consume(&pairs, |_, &(_, a, b)| {
+            let mut faces = charts[a].part.faces.clone();
+            faces.extend(&charts[b].part.faces);
+            faces.sort_unstable();
+            Ok(chart(surface, faces, limits, progress)?.ok())
+        })
+        .into_iter()
+        .collect();
+        let joined = joined?;
         let mut charts_left: Vec<Option<Chart>> = charts.into_iter().map(Some).collect();
         for (&(_, a, b), joined) in pairs.iter().zip(joined) {
             if joined.is_some() {

@@ -12,7 +12,7 @@ use super::document::get;
 use super::numbers::{kinds, number, one_of, type_name, whole};
 use super::views::Reader;
 use crate::fault::Fault;
-use crate::parallel;
+use mesh::parallel;
 
 /// The number of elements that an accessor without a buffer view can always have, even in a tiny file. All elements of
 /// such an accessor are zero, except sparse ones.

@@ -8,7 +8,7 @@ use scene::Object;
 
 use super::split::Split;
 use crate::loss::Losses;
-use crate::parallel;
+use mesh::parallel;
 
 /// Triangles in the order of the faces.
 pub(super) struct Faces {

@@ -6,7 +6,7 @@ use mesh::{FaceId, Mesh, VertexId};
 use super::faces::{Faces, corners};
 use super::split::Split;
 use super::streams::Stream;
-use crate::parallel::{self, BLOCK};
+use mesh::parallel::{self, BLOCK};
 
 /// Writes elements of N bytes each.
 fn fill<const N: usize>(out: &mut [u8], value: impl Fn(usize) -> [u8; N] + Sync) {

@@ -19,7 +19,7 @@ use super::rig_json::Deformers;
 use super::views::Reader;
 use crate::fault::Fault;
 use crate::note::Notes;
-use crate::parallel;
+use mesh::parallel;
 
 /// The cost in bytes of searching for an attribute that a primitive does not have. The cost of missing attributes
 /// limits time rather than memory.

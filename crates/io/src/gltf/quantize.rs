@@ -32,7 +32,8 @@ use super::prepare::PreparedObject;
 use super::streams::Stream;
 use crate::loss::Losses;
 use crate::packing::{Bits, PackingReport, Quantization};
-use crate::{parallel, weld};
+use crate::weld;
+use mesh::parallel;
 
 /// The name of the extension.
 pub(super) const QUANTIZATION: &str = "KHR_mesh_quantization";

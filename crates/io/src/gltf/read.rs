@@ -23,7 +23,8 @@ use crate::clean::gather;
 use crate::fault::Fault;
 use crate::note::Notes;
 use crate::text::{BYTE_ORDER_MARK, TextPosition};
-use crate::{Parsed, ParsedObject, Placements, Polygons, Shape, parallel, weld};
+use crate::{Parsed, ParsedObject, Placements, Polygons, Shape, weld};
+use mesh::parallel;
 
 /// Reads the objects of a glTF file from its bytes and from separate buffer files.
 ///

@@ -7,7 +7,7 @@ use mesh::{Domain, HalfEdgeId, Mesh, VertexId};
 
 use super::streams::Stream;
 use crate::loss::Losses;
-use crate::parallel::{self, BLOCK};
+use mesh::parallel::{self, BLOCK};
 
 /// The maximum number of comparisons for a corner. A corner is compared with the other corners around its vertex,
 /// beginning with the latest one. This limit keeps the time for a vertex with a million corners linear. If a vertex has

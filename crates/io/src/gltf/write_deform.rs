@@ -8,7 +8,7 @@ use scene::{Graph, Object};
 
 use super::deform::WEIGHT_TOLERANCE;
 use crate::loss::Losses;
-use crate::parallel;
+use mesh::parallel;
 
 /// The joints, weights and morph targets of an object, in the form that glTF requires.
 #[derive(Default)]

@@ -13,9 +13,9 @@ use super::states::{FaceState, FaceStates, TextState, one_word};
 use crate::corners::CornerNumbers;
 use crate::decimal::push_whole;
 use crate::loss::Losses;
-use crate::parallel;
 use crate::save::Block;
 use crate::writing::{FileVertices, NOT_FINITE, is_mark};
+use mesh::parallel;
 
 /// The number of vertices, values or faces in a block.
 const BLOCK: usize = 8192;

@@ -9,8 +9,8 @@ use super::corner::Counts;
 use super::file::{LeftOut, NONE, ObjFile, Run};
 use super::part::{Indices, Names, Part, PartRun, to_u32};
 use super::statement::MAX_LISTED_WORDS;
-use crate::parallel;
 use crate::text::TextPosition;
+use mesh::parallel;
 
 /// Whether every index refers to an existing element and all counts fit in 32 bits.
 pub(super) fn fits(parts: &[Part]) -> bool {

@@ -6,8 +6,8 @@ use super::join::{fits, join};
 use super::part::Part;
 use super::statement::{read_part, read_whole};
 use crate::fault::Fault;
-use crate::parallel;
 use crate::text::{TextPosition, check_encoding, quoted};
+use mesh::parallel;
 
 /// The approximate size of a part in bytes. The size is chosen so that the arrays of a part fit in the cache of a
 /// processor core. Each part ends at the end of a line.

@@ -12,9 +12,9 @@ use crate::assets::Assets;
 use crate::fault::Fault;
 use crate::images::note_missing;
 use crate::note::Notes;
-use crate::parallel;
 use crate::peek::{PeekGeometry, PeekMesh, PeekObject};
 use crate::text::{Cursor, TextPosition, name};
+use mesh::parallel;
 
 /// Returns the counts and the materials of an OBJ file, and notes on statements, images and material libraries that are
 /// left out. Numbers and indices are not checked, so an invalid file can also have counts.

@@ -16,7 +16,8 @@ use crate::assets::Assets;
 use crate::fault::Fault;
 use crate::note::Notes;
 use crate::polygons::{OBJECT_TAG, most_tags};
-use crate::{Polygons, Shape, parallel};
+use crate::{Polygons, Shape};
+use mesh::parallel;
 
 /// The note about polylines in a file with faces.
 pub(super) const POLYLINES: &str = "polylines (`l`) left out: the object is a mesh";

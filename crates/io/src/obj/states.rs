@@ -6,8 +6,8 @@ use mesh::{Column, Domain, FaceId, Mesh, Values};
 
 use super::corner::Counts;
 use crate::loss::Losses;
-use crate::parallel;
 use crate::polygons::OBJECT_TAG;
+use mesh::parallel;
 
 /// The groups, object, material and smoothing group that apply to the following faces.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -10,7 +10,7 @@ use mesh::{Value, Values, zeroed};
 use super::table::Table;
 use super::types::{read, read_all, whole, with_type};
 use crate::Polygons;
-use crate::parallel::{self, BLOCK};
+use mesh::parallel::{self, BLOCK};
 
 /// The type of a mesh attribute.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -13,11 +13,12 @@ use super::roles::{self, Roles};
 use super::strips::triangles_of_strips;
 use super::table::Table;
 use super::types::Type;
+use crate::Polygons;
 use crate::clean::keep;
 use crate::fault::Fault;
 use crate::note::Notes;
 use crate::writing::zero_non_finite;
-use crate::{Polygons, parallel};
+use mesh::parallel;
 
 /// Reads a PLY file from its bytes.
 ///

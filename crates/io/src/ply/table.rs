@@ -3,7 +3,7 @@
 use super::header::{Element, Property};
 use super::types::{Type, number, read_all, whole};
 use crate::fault::{Fault, counted};
-use crate::parallel;
+use mesh::parallel;
 
 /// The rows of one element, and the positions of their values.
 #[derive(Debug)]

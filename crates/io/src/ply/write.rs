@@ -18,12 +18,12 @@ use super::types::Type;
 use crate::error::WriteError;
 use crate::joined::{Names, joined};
 use crate::loss::Losses;
-use crate::parallel;
 use crate::save::{Block, Content, save};
 use crate::writing::{
     FileVertices, finite, is_byte, is_mark, push_comment, to_byte, uvs_of_vertices,
 };
 use crate::{WriteOptions, WriteReport, fail_if_lost};
+use mesh::parallel;
 
 /// The number of rows in a block of the file, which is then a few hundred kilobytes.
 const BLOCK: usize = 8192;

@@ -5,7 +5,7 @@ use mesh::zeroed;
 
 use super::facets::{Facets, compare};
 use crate::fault::Fault;
-use crate::parallel::{self, BLOCK};
+use mesh::parallel::{self, BLOCK};
 
 pub(super) const HEADER: usize = 80;
 /// The position at which the triangles begin. The number of triangles, in 4 bytes, precedes them.

@@ -9,9 +9,9 @@ use super::binary::{FACET, HEADER};
 use crate::error::Unwritable;
 use crate::joined::{Names, joined};
 use crate::loss::Losses;
-use crate::parallel;
 use crate::weld::n_merged;
 use crate::{SingleFile, WriteOptions};
+use mesh::parallel;
 
 /// Writes `scene`, and lists the content that the file does not store.
 ///

@@ -270,7 +270,7 @@ pub(crate) fn pop_value<T: CheckedBitPattern>(bytes: &mut Vec<u8>) -> T {
 fn filled<T: Value>(n: usize, fill: impl Fn(usize, &mut T) + Sync) -> Values {
     let mut new = crate::zeroed(n);
     new.par_iter_mut()
-        .with_min_len(crate::blocks::BLOCK)
+        .with_min_len(crate::parallel::BLOCK)
         .enumerate()
         .for_each(|(i, slot)| fill(i, slot));
     T::wrap(new)

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 use rayon::prelude::*;
 
 use super::polygons::{NONE, Polygons, pieces, sums_before, to_id};
-use crate::blocks::BLOCK;
+use crate::parallel::BLOCK;
 use crate::{Connectivity, FaceId, HalfEdgeId, VertexId};
 
 /// The edges, numbered in the order of their first sides.

@@ -19,7 +19,7 @@ use rayon::prelude::*;
 
 use super::buckets::Buckets;
 use super::polygons::{NONE, Polygons};
-use crate::blocks::BLOCK;
+use crate::parallel::BLOCK;
 
 /// The polygons to reverse.
 #[derive(Default)]

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::buckets::Buckets;
 use super::polygons::{NONE, Polygons, to_id};
 use super::star::Star;
-use crate::blocks::BLOCK;
+use crate::parallel::BLOCK;
 use crate::{HalfEdgeId, VertexId};
 
 /// The pairs of sides, and the vertices and edges at which the polygons are not a manifold.

@@ -4,7 +4,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::BuildError;
-use crate::blocks::BLOCK;
+use crate::parallel::BLOCK;
 
 /// Marks a missing corner.
 pub(super) const NONE: u32 = u32::MAX;

@@ -10,7 +10,7 @@
 //! split at these edges.
 
 use geometry::triangulate::Cut;
-use mesh::{FaceId, Mesh, VertexId};
+use mesh::{FaceId, Mesh, VertexId, parallel};
 use rayon::prelude::*;
 
 /// A diagonal: its vertices, the lower first, and its face.
@@ -49,34 +49,29 @@ pub(crate) fn avoid(mesh: &Mesh, cuts: &mut [Cut]) -> usize {
 
 /// Returns all diagonals, sorted.
 fn all(mesh: &Mesh, cuts: &[Cut]) -> Vec<Diagonal> {
-    let mut diagonals: Vec<Diagonal> = cuts
-        .par_iter()
-        .enumerate()
-        .with_min_len(256)
-        .filter(|(_, cut)| cut.n_diagonals() > 0)
-        .flat_map_iter(|(f, cut)| {
-            let f = FaceId::new(f);
-            let corners: Vec<VertexId> = mesh.face_vertices(f).collect();
-            let mut pairs = Vec::new();
-            cut.diagonals(&mut pairs);
-            pairs
-                .into_iter()
-                .map(move |[i, j]| (sorted_pair(corners[i as usize], corners[j as usize]), f))
-        })
-        .collect();
+    let blocks = parallel::blocks(cuts.len(), |faces| {
+        let (mut diagonals, mut pairs) = (Vec::new(), Vec::new());
+        for f in faces.filter(|&f| cuts[f].n_diagonals() > 0) {
+            let corners: Vec<VertexId> = mesh.face_vertices(FaceId::new(f)).collect();
+            pairs.clear();
+            cuts[f].diagonals(&mut pairs);
+            let ends = pairs.iter().map(|pair| pair.map(|i| corners[i as usize]));
+            diagonals.extend(ends.map(|[v, w]| (sorted_pair(v, w), FaceId::new(f))));
+        }
+        diagonals
+    });
+    let mut diagonals: Vec<Diagonal> = blocks.concat();
     diagonals.par_sort_unstable();
     diagonals
 }
 
 /// Returns the diagonals whose vertices are also joined by an edge or by an earlier diagonal. `diagonals` is sorted.
 fn duplicates(mesh: &Mesh, diagonals: &[Diagonal]) -> Vec<Diagonal> {
-    diagonals
-        .par_iter()
-        .enumerate()
-        .with_min_len(256)
-        .filter(|&(i, (ends, _))| (i > 0 && diagonals[i - 1].0 == *ends) || are_joined(mesh, *ends))
-        .map(|(_, diagonal)| *diagonal)
-        .collect()
+    let is_repeated = |i: usize| i > 0 && diagonals[i - 1].0 == diagonals[i].0;
+    let repeated = parallel::filter(diagonals.len(), |i| {
+        is_repeated(i) || are_joined(mesh, diagonals[i].0)
+    });
+    repeated.into_iter().map(|i| diagonals[i]).collect()
 }
 
 fn are_joined(mesh: &Mesh, [v, w]: [VertexId; 2]) -> bool {

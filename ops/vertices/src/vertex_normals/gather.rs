@@ -1,8 +1,6 @@
 //! Computes vertex normals: first a vector for each face, then a weighted sum around each vertex.
 
-use mesh::blocks::BLOCK;
-use mesh::{DVec3, FaceId, Mesh, VertexId, angle_between};
-use rayon::prelude::*;
+use mesh::{DVec3, FaceId, Mesh, VertexId, angle_between, parallel};
 
 use crate::vertex_normals::Weight;
 
@@ -16,29 +14,21 @@ const CANCELLED: f64 = 1e-14;
 /// are scaled by a power of two, so the result does not depend on the size of the mesh.
 pub fn normals(mesh: &Mesh, weight: Weight) -> (Vec<DVec3>, usize) {
     let scale = scale(mesh);
-    let face_vectors: Vec<DVec3> = (0..mesh.n_faces())
-        .into_par_iter()
-        .with_min_len(BLOCK)
-        .map(|f| {
-            let area = area_vector(mesh, FaceId::new(f), scale);
-            match weight {
-                Weight::Area => area,
-                Weight::Angle | Weight::Uniform => area.normalize_or_zero(),
-            }
-        })
-        .collect();
-    let normals: Vec<DVec3> = (0..mesh.n_vertices())
-        .into_par_iter()
-        .with_min_len(BLOCK)
-        .map(|v| {
-            let v = VertexId::new(v);
-            match weight {
-                Weight::Area | Weight::Uniform => summed(mesh, v, &face_vectors),
-                Weight::Angle => summed_by_angle(mesh, v, &face_vectors, scale),
-            }
-        })
-        .collect();
-    let without = normals.par_iter().filter(|&&n| n == DVec3::ZERO).count();
+    let face_vectors: Vec<DVec3> = parallel::collect(mesh.n_faces(), |f| {
+        let area = area_vector(mesh, FaceId::new(f), scale);
+        match weight {
+            Weight::Area => area,
+            Weight::Angle | Weight::Uniform => area.normalize_or_zero(),
+        }
+    });
+    let normals: Vec<DVec3> = parallel::collect(mesh.n_vertices(), |v| {
+        let v = VertexId::new(v);
+        match weight {
+            Weight::Area | Weight::Uniform => summed(mesh, v, &face_vectors),
+            Weight::Angle => summed_by_angle(mesh, v, &face_vectors, scale),
+        }
+    });
+    let without = parallel::count(normals.len(), |v| normals[v] == DVec3::ZERO);
     (normals, without)
 }
 

@@ -1,8 +1,7 @@
 //! Dense fronts: assembly, and elimination of their pivots.
 
-use rayon::prelude::*;
-
 use crate::sparse::symbolic::Supernode;
+use mesh::parallel;
 
 /// The number of columns of a tile. The columns of a tile are updated together, and this is also the number of columns
 /// that are subtracted from a tile at a time.
@@ -101,7 +100,7 @@ impl Front {
             if rest * rest * k < PARALLEL_WORK {
                 tiles.into_iter().for_each(subtract);
             } else {
-                tiles.into_par_iter().for_each(subtract);
+                parallel::consume(tiles, |_, tile| subtract(tile));
             }
             updates.push(Update {
                 rows: supernode.rows[k..].to_vec(),
@@ -131,7 +130,7 @@ fn factor_panel(panel: &mut [f64], m: usize, pivots: &mut [f64]) -> Result<(), (
             if m * (end - block) * block < PARALLEL_WORK {
                 tiles.into_iter().for_each(subtract);
             } else {
-                tiles.into_par_iter().for_each(subtract);
+                parallel::consume(tiles, |_, tile| subtract(tile));
             }
         }
         for c in block..end {

@@ -1,7 +1,7 @@
 //! Writes streams of attributes, version 0 of the codec; see [`attributes`](super::attributes) for the layout.
 
 use super::attributes::{BLOCK, GROUP, elements_in_block};
-use crate::parallel;
+use mesh::parallel;
 
 /// The minimum size of the tail. If an element is longer, the tail is as long as the element.
 const TAIL: usize = 32;

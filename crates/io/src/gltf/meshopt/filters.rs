@@ -7,7 +7,7 @@
 
 use serde::Deserialize;
 
-use crate::parallel;
+use mesh::parallel;
 
 /// The number of bytes that a task processes.
 const BLOCK: usize = 1 << 15;

@@ -11,7 +11,7 @@ pub struct FieldDoc {
     pub name: String,
     /// The kind of value that the parameter takes, with its range.
     pub kind: String,
-    /// The default as RON. `None` if the parameter is required.
+    /// The default as RON, or `none` if the parameter is optional and has no default. `None` if it is required.
     pub default: Option<String>,
     /// The description of the parameter.
     pub doc: String,
@@ -148,19 +148,38 @@ fn form(schema: &Schema) -> String {
     }
 }
 
+/// Describes the range of a number, such as ` from 2 to 720`, ` above 0` or `, at least 3`. Empty if every number is
+/// allowed.
 fn range(schema: &Schema) -> String {
-    let above = [("minimum", "from"), ("exclusiveMinimum", "above")];
-    let below = [("maximum", "to"), ("exclusiveMaximum", "below")];
-    let is_number = schema.own("type").is_some_and(|name| name == "number");
-    let mut text = String::new();
-    for (key, word) in above.into_iter().chain(below) {
-        // The minimum 0 of an unsigned integer is not shown.
-        let is_relevant = |bound: &&serde_json::Number| is_number || bound.as_u64() != Some(0);
-        if let Some(bound) = schema.numbers(key).next().filter(is_relevant) {
-            text += &format!(" {word} {bound}");
-        }
+    let bound = |keyword| schema.numbers(keyword).next();
+    let lowest = bound("minimum");
+    let highest = bound("maximum").map(number);
+    let above = bound("exclusiveMinimum").map(|x| format!("above {}", number(x)));
+    let below = bound("exclusiveMaximum").map(|x| format!("below {}", number(x)));
+    if let (Some(lowest), Some(highest)) = (lowest, &highest) {
+        return format!(" from {} to {highest}", number(lowest));
     }
-    text
+    // The minimum 0 of an unsigned integer is not shown alone.
+    let is_number = schema.own("type").is_some_and(|name| name == "number");
+    let lowest = lowest.filter(|x| is_number || x.as_u64() != Some(0));
+    let is_inclusive = lowest.is_some() || highest.is_some();
+    let lowest = lowest.map(|x| format!("at least {}", number(x)));
+    let highest = highest.map(|x| format!("at most {x}"));
+    let bounds: Vec<String> = [lowest, above, highest, below]
+        .into_iter()
+        .flatten()
+        .collect();
+    match (bounds.is_empty(), is_inclusive) {
+        (true, _) => String::new(),
+        (false, true) => format!(", {}", bounds.join(" and ")),
+        (false, false) => format!(" {}", bounds.join(" and ")),
+    }
+}
+
+/// Formats a number of a schema. Whole numbers have no decimal point.
+fn number(x: &serde_json::Number) -> String {
+    let text = x.to_string();
+    text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
 }
 
 /// Returns the variants of an enumeration.
@@ -222,7 +241,7 @@ fn default_of(schema: &Schema, value: &Json) -> String {
 }
 
 /// Formats a JSON value as RON. An object with one key, which is capitalized, is a variant, and an array of 1 to 4
-/// numbers is a tuple.
+/// numbers is a tuple. Fields without a value are left out.
 fn to_ron(value: &Json) -> String {
     match value {
         Json::Null => "none".to_owned(),
@@ -247,6 +266,7 @@ fn to_ron(value: &Json) -> String {
                     .all(|k| k.chars().next().is_some_and(char::is_uppercase));
             let parts: Vec<String> = members
                 .iter()
+                .filter(|(_, value)| !value.is_null())
                 .map(|(key, value)| {
                     if variant {
                         format!("{key}{}", bracketed(value))
@@ -261,6 +281,7 @@ fn to_ron(value: &Json) -> String {
                 format!("({})", parts.join(", "))
             }
         }
+        Json::Number(x) => number(x),
         other => other.to_string(),
     }
 }
@@ -302,6 +323,12 @@ mod tests {
         /// Two numbers.
         #[serde(default)]
         two: [u8; 2],
+        /// How large.
+        #[schemars(range(min = 3))]
+        size: u32,
+        /// How much.
+        #[schemars(extend("exclusiveMinimum" = 0.0, "exclusiveMaximum" = 1.0))]
+        part: f64,
     }
 
     fn half() -> Vec<f64> {
@@ -320,10 +347,12 @@ mod tests {
             [
                 "edges: EdgeSelection = None, Which edges.",
                 "times: whole number from 1 to 9 = Some(\"0\"), How often.",
-                "at: (number, number, number) = Some(\"(0.0, 0.0, 0.0)\"), Where.",
+                "at: (number, number, number) = Some(\"(0, 0, 0)\"), Where.",
                 "on_refusal: OnRefusal = Some(\"Error\"), What then.",
                 "some: [number, ..] = Some(\"[0.5]\"), Some numbers.",
-                "two: (whole number to 255, whole number to 255) = Some(\"(0, 0)\"), Two numbers.",
+                "two: (whole number from 0 to 255, whole number from 0 to 255) = Some(\"(0, 0)\"), Two numbers.",
+                "size: whole number, at least 3 = None, How large.",
+                "part: number above 0 and below 1 = None, How much.",
             ]
         );
         assert!(

@@ -72,7 +72,7 @@ fn selections() -> String {
 
 fn operation(name: &str, registry: &Registry) -> anyhow::Result<String> {
     if let Some((name, schema)) = step_kinds().into_iter().find(|(kind, _)| *kind == name) {
-        return Ok(format!("{name}: {}", described(&schema)));
+        return Ok(format!("{name}: {}", described(&schema, "")));
     }
     let Some(entry) = registry.get(name) else {
         let is_selection = |t: &TypeDoc| {
@@ -98,7 +98,7 @@ fn detail(entry: &Entry) -> String {
         entry.name,
         entry.version,
         entry.summary,
-        described(&entry.schema())
+        described(&entry.schema(), entry.summary)
     );
     if entry.takes_on {
         text += "\n`on: [\"name\", ..]` chooses the objects to act on. If omitted, all objects of a suitable kind.\n";
@@ -106,11 +106,16 @@ fn detail(entry: &Entry) -> String {
     text + &format!("\nExample: {}\n", entry.example)
 }
 
-/// Returns the description, the parameters and their types. Selection types are only named.
-fn described(schema: &Json) -> String {
+/// Returns the description, the parameters and their types. Selection types are only named. The first paragraph of the
+/// description is left out if it repeats `summary`.
+fn described(schema: &Json, summary: &str) -> String {
     let mut text = String::new();
     if let Some(description) = schema["description"].as_str() {
-        text += &format!("{description}\n");
+        let rest = match description.split_once("\n\n") {
+            Some((first, rest)) if repeats(first, summary) => rest,
+            _ => description,
+        };
+        text += &format!("{rest}\n");
     }
     let fields = fields(schema);
     text += if fields.is_empty() {
@@ -132,6 +137,20 @@ fn described(schema: &Json) -> String {
     text
 }
 
+/// Whether a sentence such as "Creates a cube." has the words of a summary such as "Create a cube". Verbs can have a
+/// different form.
+fn repeats(sentence: &str, summary: &str) -> bool {
+    let sentence: Vec<&str> = sentence.trim_end_matches('.').split_whitespace().collect();
+    let summary: Vec<&str> = summary.split_whitespace().collect();
+    let is_same = |(word, base): (&&str, &&str)| {
+        let stem = base.strip_suffix('y').map(|stem| format!("{stem}ies"));
+        word == base
+            || matches!(word.strip_prefix(*base), Some("s" | "es"))
+            || stem.is_some_and(|third_person| third_person == *word)
+    };
+    sentence.len() == summary.len() && sentence.iter().zip(&summary).all(is_same)
+}
+
 fn type_text(t: &TypeDoc) -> String {
     let mut text = format!("{}: {}\n", t.name, t.doc);
     text.extend(t.fields.iter().map(|field| field_text(field, "  ")));
@@ -140,8 +159,9 @@ fn type_text(t: &TypeDoc) -> String {
 
 fn field_text(field: &FieldDoc, indent: &str) -> String {
     let mut text = format!("{indent}{}: {}", field.name, field.kind);
-    match &field.default {
-        Some(default) => text += &format!(" = {default}"),
+    match field.default.as_deref() {
+        Some("none") => text += " (optional)",
+        Some(default) => text += &format!(", defaults to {default}"),
         None => text += " (required)",
     }
     text.push('\n');

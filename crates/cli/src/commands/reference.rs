@@ -84,7 +84,8 @@ fn fields_table(fields: &[FieldDoc]) -> String {
     let mut text =
         "| parameter | type | default | meaning |\n| --- | --- | --- | --- |\n".to_owned();
     for field in fields {
-        let default = match &field.default {
+        let default = match field.default.as_deref() {
+            Some("none") => "optional".to_owned(),
             Some(default) => format!("`{default}`"),
             None => "required".to_owned(),
         };

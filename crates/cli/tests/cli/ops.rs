@@ -25,7 +25,7 @@ fn one_operation_is_shown_with_its_parameters() {
         "SplitEdges (version 1): ",
         "Parameters:\n",
         "  edges: EdgeSelection",
-        "  at: number above 0.0 below 1.0 = 0.5\n",
+        "  at: number above 0 and below 1, defaults to 0.5\n",
         "  on_refusal: ",
         "`meshwright ops --selections` lists the selections.",
         "`on: [\"name\", ..]` chooses the objects to act on.",
@@ -36,6 +36,15 @@ fn one_operation_is_shown_with_its_parameters() {
         "  times: ",
         "  steps: ",
     ]);
+}
+
+#[test]
+fn a_description_does_not_repeat_the_summary() {
+    let shown = Folder::new().run("ops Cube").with_code(0).stdout;
+    assert!(
+        shown.starts_with("Cube (version 1): Create a cube\n\nThe cube has 8 vertices"),
+        "{shown}"
+    );
 }
 
 #[test]
@@ -61,7 +70,7 @@ fn an_expectation_is_shown_with_its_fields() {
     folder.run("expectations Area").with_code(0).prints(&[
         "Area(eq: .., min: .., max: .., tolerance: ..)\n",
         "Fields:\n",
-        "  tolerance: number from 0.0 = 1e-9\n",
+        "  tolerance: number, at least 0, defaults to 1e-9\n",
     ]);
     let unknown = folder.run("expectations Aera").with_code(1);
     assert_eq!(
@@ -98,7 +107,7 @@ fn every_type_of_a_parameter_is_described() {
         "\nColorBy: ",
         "  of: Quantity (required)",
         "\nStyle: ",
-        "  shading: Shading = Smooth",
+        "  shading: Shading, defaults to Smooth",
         "\nTurntable: ",
     ]);
 }

@@ -45,7 +45,7 @@ pub(crate) enum Command {
     Info(InfoArgs),
     /// Draw files or the results of recipes as an image
     Picture(PictureArgs),
-    /// Show which elements of a mesh a selection matches
+    /// Show the mesh elements that a selection matches
     Select(SelectArgs),
     /// Compare two files, or the results of two recipes
     ///
@@ -143,7 +143,9 @@ pub(crate) struct InfoArgs {
     pub(crate) format: Format,
 }
 
+// A conversion repairs nothing unless an option requests a repair.
 #[derive(Debug, ClapArgs)]
+#[command(mut_arg("orientation", |arg| arg.default_value("Keep")))]
 pub(crate) struct ConvertArgs {
     /// The file to read; `-` reads standard input
     pub(crate) input: PathBuf,
@@ -158,8 +160,8 @@ pub(crate) struct ConvertArgs {
     /// The format of standard output, such as `ply`
     #[arg(long, value_name = "FORMAT")]
     pub(crate) to: Option<String>,
-    /// Images of materials: Embed, Copy (next to the file) or Keep (only the paths); by default, Embed for .glb files
-    /// and Copy for other files
+    /// How the images of materials are written: Embed, Copy (next to the file) or Keep (only the paths); defaults to
+    /// Embed for .glb files and to Copy for other files
     #[arg(long, value_name = "POLICY", value_parser = read::policy::<Images>)]
     pub(crate) images: Option<Images>,
     /// Compress the geometry of .glb and .gltf files without loss; the only codec is Meshopt
@@ -177,7 +179,8 @@ pub(crate) struct ConvertArgs {
         value_parser = bits
     )]
     pub(crate) quantize: Option<Quantization>,
-    /// The elements that are the rows of a .csv file: Vertices, Faces or Corners; by default, Vertices
+    /// The elements that are the rows of a .csv file: Vertices, Faces or Corners; defaults to
+    /// Vertices
     #[arg(long, value_name = "ELEMENTS", value_parser = read::policy::<Rows>)]
     pub(crate) rows: Option<Rows>,
     /// Output format

@@ -22,7 +22,7 @@ pub(crate) struct DrawArgs {
     /// Use a camera without perspective
     #[arg(long)]
     pub(crate) orthographic: bool,
-    /// Draw the z axis upwards; by default, the y axis points upwards, unless the model stands on the plane z = 0 and
+    /// Draw the z axis upwards; if omitted, the y axis points upwards, unless the model stands on the plane z = 0 and
     /// not on the plane y = 0
     #[arg(long)]
     pub(crate) z_up: bool,

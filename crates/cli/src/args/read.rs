@@ -12,23 +12,23 @@ pub(crate) struct ReadArgs {
     /// the written file does not store
     #[arg(long)]
     pub(crate) strict: bool,
-    /// Handling of non-manifold edges and vertices: Split or Refuse
+    /// How non-manifold edges and vertices are read: Split (copy vertices until the faces form a manifold) or Refuse
+    /// (fail)
     #[arg(long, default_value = "Split", value_name = "POLICY", value_parser = policy::<NonManifold>)]
     non_manifold: NonManifold,
-    /// Handling of neighboring faces with opposite orientations: Orient or Keep; by default, Keep for `convert` and
-    /// Orient for other commands
-    #[arg(long, value_name = "POLICY", value_parser = policy::<Orientation>)]
-    pub(crate) orientation: Option<Orientation>,
-    /// Handling of faces with the same vertices as an earlier face: Keep or Drop
+    /// How neighboring faces with opposite orientations are read: Orient (reverse faces until neighbors agree) or Keep
+    #[arg(long, default_value = "Orient", value_name = "POLICY", value_parser = policy::<Orientation>)]
+    orientation: Orientation,
+    /// How faces with the same vertices as an earlier face are read: Keep or Drop
     #[arg(long, default_value = "Keep", value_name = "POLICY", value_parser = policy::<CleanupPolicy>)]
     duplicates: CleanupPolicy,
-    /// Handling of faces with zero area: Keep or Drop
+    /// How faces with zero area are read: Keep or Drop
     #[arg(long, default_value = "Keep", value_name = "POLICY", value_parser = policy::<CleanupPolicy>)]
     degenerate: CleanupPolicy,
-    /// Handling of vertices without faces: Keep or Drop
+    /// How vertices without faces are read: Keep or Drop
     #[arg(long, default_value = "Keep", value_name = "POLICY", value_parser = policy::<CleanupPolicy>)]
     isolated: CleanupPolicy,
-    /// Handling of the nodes of glTF files: Keep them, or Bake their transforms into the points
+    /// How the nodes of glTF files are read: Keep, or Bake (apply their transforms to the points)
     #[arg(long, default_value = "Keep", value_name = "POLICY", value_parser = policy::<Placements>)]
     placements: Placements,
 }
@@ -39,7 +39,7 @@ impl ReadArgs {
             name: None,
             policies: Policies {
                 non_manifold: self.non_manifold,
-                orientation: self.orientation.unwrap_or_default(),
+                orientation: self.orientation,
                 duplicates: self.duplicates,
                 degenerate: self.degenerate,
                 isolated: self.isolated,

@@ -1,6 +1,5 @@
 //! `meshwright convert`: converts a file to another format. Files can be standard input and standard output.
 
-use mesh_io::Orientation;
 use serde_json::json;
 
 use crate::args::{ConvertArgs, Format};
@@ -11,8 +10,6 @@ use crate::scenes::read_file_or_input;
 
 pub(crate) fn run(args: &ConvertArgs) -> anyhow::Result<bool> {
     let mut options = args.read.options();
-    // A conversion repairs nothing unless an option requests a repair.
-    options.policies.orientation = args.read.orientation.unwrap_or(Orientation::Keep);
     options.keep_vertices = true;
     let input = pipes::mesh_name(&args.input, args.from.as_deref(), "stdin", "--from")?;
     let output = pipes::mesh_name(&args.output, args.to.as_deref(), "stdout", "--to")?;

@@ -381,10 +381,6 @@ mod tests {
                 "use of the extension \"a uses\" left out",
             ),
             ("node named `values` renamed", "node named `values` renamed"),
-            (
-                "copy made of a non-manifold vertex",
-                "copy made of a non-manifold vertex",
-            ),
         ] {
             assert_eq!(singular(many), one);
         }

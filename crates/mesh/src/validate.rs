@@ -41,17 +41,21 @@ pub enum Defect {
     /// A face has fewer than three corners.
     #[error("{0} has fewer than three corners")]
     FewCorners(FaceId),
-    /// The half-edge of a face lies on a different face, or the face's half-edges form several loops.
-    #[error("the half-edges of {0} are not one loop")]
+    /// The half-edge stored at a face lies on a different face, or the half-edges of the face form several loops.
+    #[error(
+        "the half-edge stored at {0} does not lead around a single loop of all half-edges of {0}"
+    )]
     FaceHalfEdge(FaceId),
-    /// The half-edge of a vertex leaves a different vertex, or a vertex with edges has no half-edge.
-    #[error("the half-edge of {0} is missing or does not leave {0}")]
+    /// The half-edge stored at a vertex leaves a different vertex, or a vertex with edges stores no half-edge.
+    #[error("the half-edge stored at {0} is missing or does not leave {0}")]
     VertexHalfEdge(VertexId),
-    /// The half-edge of a boundary vertex has a face.
-    #[error("the half-edge of the boundary vertex {0} has a face")]
+    /// The half-edge stored at a boundary vertex has a face.
+    #[error(
+        "the half-edge stored at the boundary vertex {0} must be a boundary half-edge, but it has a face"
+    )]
     NotBoundaryFirst(VertexId),
     /// Walking around a vertex does not reach all of its outgoing half-edges, or meets more than one gap.
-    #[error("the faces around {0} are not one fan")]
+    #[error("the faces around {0} do not form a single fan")]
     SeveralFans(VertexId),
     /// A coordinate of a position is infinite or not a number.
     #[error("the position of {0} is not finite")]

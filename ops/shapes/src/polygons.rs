@@ -181,7 +181,7 @@ mod tests {
         );
         assert_eq!(op::test::made(&step).n_vertices(), 6);
         let report = op::test::run(&step, &mut Scene::new()).unwrap();
-        assert_eq!(report.notes, ["1 copy made of a non-manifold vertex (v0)"]);
+        assert_eq!(report.notes, ["1 non-manifold vertex split (v0)"]);
         let files = op::Files::default();
         let cx = PlanContext {
             files: &files,

@@ -40,7 +40,10 @@ impl BuildReport {
     /// Returns all repairs except dropped polygons.
     pub fn repairs(&self) -> Vec<Repair> {
         let faces = |faces: &[usize]| Elements::Faces(faces.to_vec());
-        let copied = self.split_vertices.iter().map(|&(v, _)| v).collect();
+        let mut split: Vec<VertexId> = self.split_vertices.iter().map(|&(v, _)| v).collect();
+        // A vertex with several copies is listed once.
+        split.sort_unstable();
+        split.dedup();
         let repairs = [
             Repair::new(
                 "faces-reversed",
@@ -62,9 +65,9 @@ impl BuildReport {
             ),
             Repair::new(
                 "vertices-split",
-                "copy made of a non-manifold vertex",
-                "copies made of non-manifold vertices",
-                Elements::Vertices(copied),
+                "non-manifold vertex split",
+                "non-manifold vertices split",
+                Elements::Vertices(split),
             ),
         ];
         repairs.into_iter().flatten().collect()
@@ -203,7 +206,7 @@ mod tests {
             "1 face reversed to agree with its neighbors (face 3), \
              1 part has no consistent orientation (face 4), \
              1 non-manifold edge split (v0-v1), \
-             1 copy made of a non-manifold vertex (v2), \
+             1 non-manifold vertex split (v2), \
              1 face dropped because it has fewer than 3 corners or contains a vertex twice (face 5)"
         );
         report.split_edges.push([v(7), v(8)]);
@@ -216,7 +219,7 @@ mod tests {
             "2 faces reversed to agree with their neighbors (faces 3, 7), \
              2 parts have no consistent orientation (faces 4, 7), \
              2 non-manifold edges split (v0-v1, v7-v8), \
-             2 copies made of non-manifold vertices (v2, v7), \
+             2 non-manifold vertices split (v2, v7), \
              2 faces dropped because they have fewer than 3 corners or contain a vertex twice (faces 5, 7)"
         );
     }

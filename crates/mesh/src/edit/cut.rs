@@ -30,7 +30,7 @@ impl Mesh {
     /// corners keep their values. Positions do not change: both sides of a cut coincide.
     /// [`stitch_edges`](Self::stitch_edges) is the inverse.
     ///
-    /// An edge is refused if neither of its ends would be split. The cut would then be a hole with two edges (a
+    /// An edge cannot be cut if neither of its ends would be split. The cut would then be a hole with two edges (a
     /// slit). A slit cannot be opened, and a list of polygons cannot represent it.
     /// [`slits`](Self::slits) lists these edges.
     ///

@@ -143,7 +143,7 @@ fn a_moebius_strip_is_not_reversed_but_split() {
     assert_eq!(
         strip.report.summary(),
         "1 part has no consistent orientation (face 0), 1 non-manifold edge split (v0-v1), \
-         2 copies made of non-manifold vertices (v0, v1)"
+         2 non-manifold vertices split (v0, v1)"
     );
 }
 

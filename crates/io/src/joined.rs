@@ -6,7 +6,7 @@ use mesh::{Attributes, Column, Connectivity, Domain, Mesh, Rule, Value, Values};
 use scene::{Geometry, Object, Scene};
 
 use crate::error::Unwritable;
-use crate::loss::{Loss, Losses};
+use crate::loss::{Loss, Losses, n_values};
 use crate::polygons::OBJECT_TAG;
 use crate::writing::dense;
 
@@ -151,7 +151,7 @@ fn appended(
                 "object `{}` has this attribute with a different type",
                 object.name
             );
-            losses.add(domain, &name, part[domain as usize], reason);
+            losses.add(domain, &name, n_values(mesh, domain), reason);
         }
         len = std::array::from_fn(|i| len[i] + part[i]);
     }

@@ -20,17 +20,54 @@ pub struct Loss {
     pub reason: String,
 }
 
+/// Parts of a mesh whose losses have a domain, but which are not single attributes.
+const NOT_ATTRIBUTES: [&str; 4] = ["influences", "joint weights", "morph targets", "polygon"];
+
+impl Loss {
+    /// Returns the lost content in words, such as `the corner attribute "uv" (3 corners)`.
+    pub fn what(&self) -> String {
+        let (name, count) = (&self.attribute, self.count);
+        let Some(domain) = self.domain else {
+            return format!("\"{name}\" ({count})");
+        };
+        let unit = match (domain, count) {
+            (Domain::Vertex, 1) => "vertex",
+            (Domain::Vertex, _) => "vertices",
+            (Domain::Corner, 1) => "corner",
+            (Domain::Corner, _) => "corners",
+            (Domain::Edge, 1) => "edge",
+            (Domain::Edge, _) => "edges",
+            (Domain::Face, 1) => "face",
+            (Domain::Face, _) => "faces",
+        };
+        if NOT_ATTRIBUTES.contains(&name.as_str()) {
+            format!("\"{name}\" ({count} {unit})")
+        } else {
+            format!("the {domain} attribute \"{name}\" ({count} {unit})")
+        }
+    }
+}
+
 impl fmt::Display for Loss {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.object.is_empty() {
-            write!(f, "scene: ")?;
+            write!(f, "the scene lost ")?;
         } else {
-            write!(f, "object `{}`: ", self.object)?;
+            write!(f, "\"{}\" lost ", self.object)?;
         }
-        if let Some(domain) = self.domain {
-            write!(f, "{domain} ")?;
+        write!(f, "{}: {}", self.what(), self.reason)
+    }
+}
+
+/// Returns the number of values of an attribute that elements of the mesh use. Boundary half-edges have an entry in the
+/// arrays of corners, but are not corners.
+pub(crate) fn n_values(mesh: &Mesh, domain: Domain) -> usize {
+    match domain {
+        Domain::Corner => {
+            let faces = mesh.connectivity().face.iter();
+            faces.filter(|f| f.some().is_some()).count()
         }
-        write!(f, "`{}` ({}): {}", self.attribute, self.count, self.reason)
+        _ => mesh.domain_len(domain),
     }
 }
 
@@ -93,7 +130,7 @@ impl<'a> Losses<'a> {
             if !(is_stored(domain, column) || domain == Domain::Vertex && is_deformer) {
                 let kind = column.values.type_name();
                 let reason = format!("{format} cannot store this {domain} attribute ({kind})");
-                let count = column.values.len().max(1);
+                let count = n_values(mesh, domain).max(1);
                 self.add(domain, &column.name, count, reason);
             }
         }

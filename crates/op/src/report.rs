@@ -76,11 +76,10 @@ impl fmt::Display for Loss {
         if self.reason.is_empty() {
             return f.write_str(&self.what);
         }
-        let object = match self.object.as_str() {
-            "" => "the scene",
-            object => object,
-        };
-        write!(f, "{object} lost {}: {}", self.what, self.reason)
+        match self.object.as_str() {
+            "" => write!(f, "the scene lost {}: {}", self.what, self.reason),
+            object => write!(f, "\"{object}\" lost {}: {}", self.what, self.reason),
+        }
     }
 }
 

@@ -20,7 +20,7 @@ pub struct Save {
     /// The file. The path is relative to the output folder. `{name.stem}` is replaced by the name, without
     /// extension, of the file in the recipe parameter `name`.
     pub path: String,
-    /// What to do with the images of materials. By default, images are embedded in `.glb` files. For `.gltf` and
+    /// What to do with the images of materials. If omitted, images are embedded in `.glb` files. For `.gltf` and
     /// `.obj`, images in the folder of the source model are copied to the folder of the output file. OBJ cannot embed
     /// images, so embedded images are also written to files.
     #[serde(default)]
@@ -68,7 +68,10 @@ impl Save {
             plan.losses.push(Loss {
                 object: self.path.clone(),
                 name: name.to_owned(),
-                what: format!("\"{name}\" ({count})"),
+                what: match count {
+                    1 => format!("1 {}", name.trim_end_matches('s')),
+                    _ => format!("{count} {name}"),
+                },
                 reason: format!("the format has no {name}"),
             });
         }
@@ -145,15 +148,11 @@ impl Operation for Save {
         report.losses = written
             .losses
             .into_iter()
-            .map(|loss| {
-                let domain = loss.domain.map(|d| format!("{d} ")).unwrap_or_default();
-                let what = format!("{domain}\"{}\" ({})", loss.attribute, loss.count);
-                Loss {
-                    object: loss.object,
-                    name: loss.attribute,
-                    what,
-                    reason: loss.reason,
-                }
+            .map(|loss| Loss {
+                what: loss.what(),
+                object: loss.object,
+                name: loss.attribute,
+                reason: loss.reason,
             })
             .collect();
         cx.advance("write", 1, 1)?;

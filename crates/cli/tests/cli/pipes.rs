@@ -128,7 +128,7 @@ fn standard_output_takes_one_file() {
         .complains(&["standard output takes only one file: use --to glb"]);
     let ended = folder.run("convert in.obj - --to obj").with_code(0);
     assert!(!ended.stdout.contains("mtl") && ended.stdout.contains("f 1 2 3 4"));
-    ended.complains(&["object `in`: `materials` (1): OBJ stores materials in a second file"]);
+    ended.complains(&["\"in\" lost \"materials\" (1): OBJ stores materials in a second file"]);
     let ended = folder
         .run("convert in.obj - --to obj --strict")
         .with_code(1);

@@ -10,7 +10,7 @@ use super::read::COLOR_INDEX;
 use crate::decimal::{push_number, push_whole};
 use crate::error::Unwritable;
 use crate::joined::{Names, joined};
-use crate::loss::Losses;
+use crate::loss::{Losses, n_values};
 use crate::writing::{
     FileVertices, NOT_FINITE, finite, is_byte, is_mark, push_comment, to_byte, uvs_of_vertices,
     zero_non_finite,
@@ -62,7 +62,7 @@ impl<'a> Content<'a> {
         if uvs.is_none() && of_corners.is_some() {
             let reason =
                 "OFF stores texture coordinates at vertices, but corners of the same vertex differ";
-            losses.add(Domain::Corner, "uv", mesh.n_half_edges(), reason);
+            losses.add(Domain::Corner, "uv", n_values(mesh, Domain::Corner), reason);
         }
         let of_faces = column(Domain::Face, "color").or(column(Domain::Face, COLOR_INDEX));
         let is_other = |column| of_faces.is_none_or(|one| !std::ptr::eq(one, column));

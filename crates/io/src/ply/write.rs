@@ -17,7 +17,7 @@ use super::roles;
 use super::types::Type;
 use crate::error::WriteError;
 use crate::joined::{Names, joined};
-use crate::loss::Losses;
+use crate::loss::{Losses, n_values};
 use crate::save::{Block, Content, save};
 use crate::writing::{
     FileVertices, finite, is_byte, is_mark, push_comment, to_byte, uvs_of_vertices,
@@ -55,7 +55,7 @@ pub(crate) fn write(
         };
         if to.properties.len() + 4 > MAX_PROPERTIES / 2 {
             let reason = "too many attributes for one file";
-            losses.add(domain, &column.name, column.values.len(), reason);
+            losses.add(domain, &column.name, n_values(mesh, domain), reason);
             continue;
         }
         let values = finite(domain, column, &mut losses);

@@ -222,7 +222,11 @@ fn formats_without_nodes_are_written_with_placed_instances() {
         let mut losses = report.losses.iter();
         let cameras = losses.find(|l| l.attribute == "cameras").unwrap();
         assert!(cameras.object.is_empty());
-        assert!(cameras.to_string().starts_with("scene: `cameras` (2): "));
+        assert!(
+            cameras
+                .to_string()
+                .starts_with("the scene lost \"cameras\" (2): ")
+        );
         let strict = WriteOptions {
             strict: true,
             ..WriteOptions::default()

@@ -214,7 +214,8 @@ def lines_of(report: Mapping[str, Any]) -> Iterator[str]:
     for refused in report["refused"]:
         yield f"{refused['count']} refused: {refused['first']}"
     for loss in report["losses"]:
-        yield f"{loss['object']} lost {loss['what']}: {loss['reason']}" if loss["object"] else f"lost {loss['what']}"
+        object = f'"{loss["object"]}"' if loss["object"] else "the scene"
+        yield f"{object} lost {loss['what']}: {loss['reason']}" if loss["reason"] else loss["what"]
     for change in report["changes"]:
         yield change["message"]
     yield from report["notes"]

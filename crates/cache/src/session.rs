@@ -5,9 +5,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use op::{FileUse, Files};
-use recipe::{
-    CachedRun, CompletedStep, RecipeExpectation, RecipeStep, RerunReason, StepResult, mebibytes,
-};
+use recipe::{CachedRun, CompletedStep, RecipeExpectation, RecipeStep, RerunReason, StepResult};
 use scene::{Digest, Geometry, Scene};
 
 use super::{ALWAYS_STORED, BYTES_PER_SECOND, Caching, evict};
@@ -368,7 +366,7 @@ impl<'a> Session<'a> {
             ""
         };
         if !why.is_empty() {
-            let size = mebibytes(bytes);
+            let size = op::readable_bytes(bytes);
             self.notes.push(format!(
                 "the scene after step {number} {label} ({size}) is not stored: {why}"
             ));
@@ -450,8 +448,7 @@ fn is_worth_storing(bytes: u64, time: Duration) -> bool {
     bytes < ALWAYS_STORED || bytes as f64 / BYTES_PER_SECOND <= time.as_secs_f64()
 }
 
-/// Whether all meshes are dense, which means that they have no removed elements. Only a scene of dense meshes is
-/// unchanged after it is stored and loaded.
+/// Whether all meshes are dense: they have no removed elements. Storing and loading changes meshes that are not dense.
 fn is_dense(scene: &Scene) -> bool {
     let mut meshes = scene.objects().iter().filter_map(|o| o.as_mesh());
     meshes.all(|mesh| mesh.is_dense())

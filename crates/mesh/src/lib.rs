@@ -27,7 +27,7 @@
 //!    hole), and starts where the half-edge ends: `origin(next(h)) == target(h)`.
 //! 4. The two ends of an edge are different vertices, and each edge has a face on at least one side. Both
 //!    halves of an edge always exist; on the boundary `face(h)` is `None`.
-//! 5. A face has at least three corners, and its half-edges are one loop through its
+//! 5. A face has at least three corners, and its half-edges form one loop through its
 //!    [`face_half_edge`](Mesh::face_half_edge).
 //! 6. The [`vertex_half_edge`](Mesh::vertex_half_edge) of a vertex is an outgoing half-edge of that vertex. On
 //!    the boundary, it is the outgoing half-edge without a face. Only an isolated vertex has no half-edge.
@@ -118,6 +118,7 @@ mod marks;
 mod measure;
 pub mod parallel;
 mod prefetch;
+mod readable;
 mod reverse;
 mod traverse;
 mod validate;
@@ -137,6 +138,7 @@ pub use glam::{DMat3, DVec2, DVec3, DVec4};
 pub use id::{Domain, EdgeId, Element, FaceId, HalfEdgeId, Id, VertexId};
 pub use journal::Change;
 pub use measure::angle_between;
+pub use readable::{readable, readable_bytes};
 pub use traverse::Orbit;
 pub use validate::Defect;
 pub use zeroed::{OutOfMemory, zeroed};

@@ -51,7 +51,6 @@ mod operation;
 mod parameter;
 mod plan;
 pub mod prelude;
-mod readable;
 mod registry;
 mod report;
 mod selection;
@@ -67,6 +66,7 @@ pub use edit::{EditTarget, OnRefusal, Seams, edit_each};
 pub use error::{OpError, Refusal};
 pub use error_location::ErrorLocation;
 pub use files::{FileError, FileLog, FileUse, Files};
+pub use mesh::{readable, readable_bytes};
 pub use operation::{MeshOperation, Operation};
 pub use parameter::{
     Angle, AngleBetween, Axis, BadVector, ClosedFraction, Count, Direction, Distance, Factors,
@@ -77,7 +77,6 @@ pub use plan::{
     MeshPlan, Plan, PlanContext, PlannedAttribute, PlannedGeometry, PlannedObject, Problem, Range,
 };
 pub use progress::{Cancelled, NoProgress, Progress};
-pub use readable::readable;
 pub use registry::{DuplicateOperation, Entry, Registry, Step};
 pub use report::{Loss, ReadingChange, ReadingElements, Refused, Report};
 pub use selection::{

@@ -1,7 +1,7 @@
 //! Helpers for operations that work on a whole scene: sources, which create an object, and checks of object names.
 
 use glam::DVec3;
-use mesh::Mesh;
+use mesh::{Mesh, readable_bytes};
 use scene::{Object, Scene};
 
 use crate::{Context, MeshPlan, OpError, Plan, PlannedGeometry, Problem, Report, Vector};
@@ -119,8 +119,9 @@ impl<'a> Source<'a> {
         let bytes = self.counts.bytes().min;
         if bytes > cx.budget {
             let message = format!(
-                "the mesh takes {bytes} bytes, but the memory budget is {} bytes",
-                cx.budget
+                "the mesh takes {}, but the memory budget is {}",
+                readable_bytes(bytes),
+                readable_bytes(cx.budget)
             );
             return Err(OpError::Budget(message));
         }

@@ -1,4 +1,5 @@
-//! Reads, checks and runs recipes.
+//! The recipe language: parses recipes, checks them and forecasts their results, runs their steps, and tests their
+//! expectations.
 //!
 //! ```text
 //! text --read--> Recipe + diagnostics --check--> Forecast + diagnostics --run--> Outcome
@@ -31,7 +32,7 @@ mod source;
 mod substitute;
 mod sweep;
 
-pub use check::{Forecast, StepForecast, check, check_from, mebibytes};
+pub use check::{Forecast, StepForecast, check, check_from};
 pub use describe::{
     FieldDoc, TypeDoc, VariantDoc, expectations, fields, refusals, selections, types,
 };

@@ -1,5 +1,7 @@
 //! The errors of this crate.
 
+use mesh::readable_bytes;
+
 /// The reason why a picture cannot be made or read.
 #[derive(Debug, thiserror::Error)]
 pub enum PictureError {
@@ -16,8 +18,9 @@ pub enum PictureError {
     },
     /// The picture needs more memory than the budget allows.
     #[error(
-        "the picture needs {needed} bytes of memory, which exceeds the memory budget of {budget} bytes; make the \
-         image smaller or raise the budget"
+        "the picture needs {} of memory, which exceeds the memory budget of {}; make the image smaller or raise the \
+         budget",
+        readable_bytes(*.needed), readable_bytes(*.budget)
     )]
     Budget {
         /// The memory that the picture needs, in bytes.

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use mesh::{Domain, Mesh, VertexId};
+use mesh::{Domain, Mesh, VertexId, readable_bytes};
 
 use crate::attributes;
 use crate::parallel::of_blocks;
@@ -263,8 +263,9 @@ impl TooLarge {
     fn excess(&self) -> String {
         match self.bytes {
             Some(bytes) => format!(
-                "take {bytes} bytes, but the memory budget is {} bytes",
-                self.budget
+                "take {}, but the memory budget is {}",
+                readable_bytes(bytes),
+                readable_bytes(self.budget)
             ),
             None => format!(
                 "{} half-edges, but the highest id is 2^32 - 2",

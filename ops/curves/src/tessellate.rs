@@ -165,10 +165,12 @@ impl Tessellate {
         let present: u64 = meshes.map(|mesh| mesh.bytes() as u64).sum();
         let needed = self.planned(patches.len() as u64).bytes().max;
         if present.saturating_add(needed) > cx.budget {
-            let budget = cx.budget;
             return Err(OpError::Budget(format!(
-                "tessellating \"{name}\" needs up to {needed} bytes in addition to the {present} bytes of the \
-                 scene, which exceeds the memory budget of {budget} bytes"
+                "tessellating \"{name}\" needs up to {} in addition to the {} of the scene, which exceeds the memory \
+                 budget of {}",
+                op::readable_bytes(needed),
+                op::readable_bytes(present),
+                op::readable_bytes(cx.budget)
             )));
         }
         Ok(())

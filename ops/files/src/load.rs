@@ -108,8 +108,10 @@ impl Operation for Load {
             let bytes = object.as_mesh().map_or(0, |mesh| mesh.bytes() as u64);
             if bytes > cx.budget {
                 let message = format!(
-                    "\"{}\" needs {bytes} bytes, which exceeds the memory budget of {} bytes",
-                    object.name, cx.budget
+                    "\"{}\" needs {}, which exceeds the memory budget of {}",
+                    object.name,
+                    op::readable_bytes(bytes),
+                    op::readable_bytes(cx.budget)
                 );
                 return Err(OpError::Budget(message));
             }

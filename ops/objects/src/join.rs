@@ -186,8 +186,11 @@ impl Join {
         let bytes: usize = meshes.iter().map(|m| m.bytes()).sum();
         let budget = cx.budget;
         if bytes as u64 > budget {
-            let message =
-                format!("the result takes {bytes} bytes, but the memory budget is {budget} bytes");
+            let message = format!(
+                "the result takes {}, but the memory budget is {}",
+                op::readable_bytes(bytes as u64),
+                op::readable_bytes(budget)
+            );
             return Err(OpError::Budget(message));
         }
         let mut joined = parts::connected(&meshes, cx)?;
@@ -271,8 +274,9 @@ fn placed(
     let bytes = bytes.fold(0_u64, |sum, mesh| sum.saturating_add(mesh.bytes() as u64));
     if bytes > cx.budget {
         let message = format!(
-            "the instances take {bytes} bytes, but the memory budget is {} bytes",
-            cx.budget
+            "the instances take {}, but the memory budget is {}",
+            op::readable_bytes(bytes),
+            op::readable_bytes(cx.budget)
         );
         return Err(OpError::Budget(message));
     }

@@ -69,7 +69,9 @@ fn png(
     let needed = bytes_needed(width, height);
     if needed > budget {
         let message = format!(
-            "the figure needs {needed} bytes of memory, which exceeds the memory budget of {budget} bytes"
+            "the figure needs {} of memory, which exceeds the memory budget of {}",
+            op::readable_bytes(needed),
+            op::readable_bytes(budget)
         );
         return Err(OpError::Budget(message));
     }

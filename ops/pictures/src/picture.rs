@@ -401,8 +401,9 @@ impl Operation for Picture {
         let bytes = 4 * self.shot(cx.budget).n_pixels();
         if bytes > cx.budget {
             let message = format!(
-                "the images take {bytes} bytes, which exceeds the memory budget of {} bytes",
-                cx.budget
+                "the images take {}, which exceeds the memory budget of {}",
+                op::readable_bytes(bytes),
+                op::readable_bytes(cx.budget)
             );
             problems.push(Problem::error(message).at(["size"]));
         }
@@ -433,8 +434,9 @@ fn placed<'s>(scene: &'s Scene, cx: &Context) -> Result<Cow<'s, Scene>, OpError>
     let bytes = scene.placed_bytes();
     if !scene.graph().is_empty() && bytes > cx.budget {
         let message = format!(
-            "the instances take {bytes} bytes, but the memory budget is {} bytes",
-            cx.budget
+            "the instances take {}, but the memory budget is {}",
+            op::readable_bytes(bytes),
+            op::readable_bytes(cx.budget)
         );
         return Err(OpError::Budget(message));
     }

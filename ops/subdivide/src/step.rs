@@ -3,7 +3,7 @@
 use mesh::{CORNER_NORMAL, DVec3, Domain, EdgeId, Mesh, TANGENT, VERTEX_NORMAL};
 use op::{
     Context, FaceSelection, Levels, MeshPlan, OpError, PlanContext, PlannedAttribute,
-    PositiveLength, Problem, Range, Refusal, Report, Select,
+    PositiveLength, Problem, Range, Refusal, Report, Select, readable,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -200,19 +200,27 @@ impl Step<'_> {
             };
             if value < below {
                 let levels = if level == 1 { "level" } else { "levels" };
-                return Ok(format!("{level} {levels}; {measure} {value:.3}"));
+                return Ok(format!("{level} {levels}; {measure} {}", readable(value)));
             }
-            let state = format!("after level {level} {measure} {value}");
+            let state = format!(
+                "after level {level}, {measure} {}, expected less than {}",
+                readable(value),
+                readable(below)
+            );
             if level == levels {
                 return Err(OpError::Budget(format!(
-                    "{state}, expected less than {below}"
+                    "{state}; raise `below` or `levels`"
                 )));
             }
             let one = level..level + 1;
             let finer = subdivide_within(mesh, self.rules, one, cx.budget, cx.progress());
             mesh.replace(finer.map_err(|error| match error {
                 SubdivisionError::TooLarge(size) => {
-                    OpError::Budget(format!("{state}, and the next level is too large: {size}"))
+                    let help = match size.bytes {
+                        Some(_) => "raise `below` or the memory budget (`--budget`)",
+                        None => "raise `below`",
+                    };
+                    OpError::Budget(format!("{state}; {size}; {help}"))
                 }
                 other => to_op_error(other),
             })?);

@@ -2,7 +2,7 @@
 
 use ::cache::{Cache, DEFAULT_LIMIT};
 use anyhow::Context as _;
-use recipe::mebibytes;
+use op::readable_bytes;
 
 use crate::args::{CacheAction, CacheCommandArgs, Format};
 use crate::cache::folder;
@@ -28,7 +28,7 @@ pub(crate) fn run(args: &CacheCommandArgs) -> anyhow::Result<bool> {
     }
     let [steps, blobs] = [size.steps, size.blobs].map(group_digits);
     let s = if size.steps == 1 { "" } else { "s" };
-    let bytes = mebibytes(size.bytes);
+    let bytes = readable_bytes(size.bytes);
     print(&format!(
         "folder  {shown}\n{word}  {bytes}: {steps} step{s}, {blobs} arrays and files\n"
     ))?;

@@ -2,7 +2,8 @@
 
 use engine::Engine;
 use op::Range;
-use recipe::{mebibytes, shape::counted};
+use op::readable_bytes;
+use recipe::shape::counted;
 use serde_json::json;
 
 use super::run::report_errors;
@@ -41,7 +42,7 @@ pub(crate) fn run(args: &CheckArgs, engine: &Engine) -> anyhow::Result<bool> {
     for (i, step) in steps.iter().enumerate() {
         let mut row = vec![format!("{:>2} {}", i + 1, step.label)];
         row.extend([step.vertices, step.edges, step.faces].map(|r| range(r, group_digits)));
-        row.push(range(step.bytes, mebibytes));
+        row.push(range(step.bytes, readable_bytes));
         rows.push(row);
     }
     print(&table(&rows))?;

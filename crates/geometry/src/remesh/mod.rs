@@ -28,7 +28,7 @@ mod split;
 mod transfer;
 mod work;
 
-use mesh::{EdgeId, FaceId, Mesh, VertexId};
+use mesh::{EdgeId, FaceId, Mesh, VertexId, readable};
 use progress::{Cancelled, Progress};
 
 use original::Original;
@@ -87,7 +87,7 @@ pub struct Options<'a> {
 /// The result of [`remesh`].
 #[derive(Clone, Debug)]
 pub struct Remeshed {
-    /// The new mesh. It is dense.
+    /// The new mesh. It is [dense](mesh::Mesh::is_dense).
     pub mesh: Mesh,
     /// The numbers of steps.
     pub counts: Counts,
@@ -173,7 +173,8 @@ pub enum RemeshError {
     NotTriangle(FaceId),
     /// The target length is too small for the size of the mesh.
     #[error(
-        "the target lengths need up to about {needed:.0} faces during remeshing, but at most {max} are possible"
+        "the target lengths need up to about {needed:.0} faces during remeshing, but at most {max} are possible; use \
+         a longer target length"
     )]
     TooManyFaces {
         /// An estimate of the largest number of faces during remeshing.
@@ -183,7 +184,8 @@ pub enum RemeshError {
     },
     /// The result would be too far from the original.
     #[error(
-        "the distance between the surfaces could be {reached}, which is above the allowed error {limit}"
+        "the distance between the surfaces could be {}, which is above the allowed error {}",
+        readable(*.reached), readable(*.limit)
     )]
     TooFar {
         /// The bound of the distance in the last attempt, in scene units.

@@ -17,7 +17,7 @@ mod implicit;
 #[cfg(test)]
 mod tests;
 
-use mesh::{DVec3, Domain, Mesh, VertexId, parallel};
+use mesh::{DVec3, Domain, Mesh, VertexId, parallel, readable};
 use progress::{Cancelled, Progress};
 
 use crate::laplacian::{exponent, scaled};
@@ -131,8 +131,9 @@ pub enum SmoothError {
     NotClosed,
     /// No distance along the normals restores the volume.
     #[error(
-        "the volume was {before}, and moving the free vertices along their normals gives {after} at best; smooth \
-         less, or do not keep the volume"
+        "the volume was {}, and moving the free vertices along their normals gives {} at best; smooth less, or do \
+         not keep the volume",
+        readable(*.before), readable(*.after)
     )]
     Volume {
         /// The volume before smoothing.

@@ -6,7 +6,7 @@ mod selections;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
-use op::{Files, Loss, Plan, PlanContext, Problem, Range};
+use op::{Files, Loss, Plan, PlanContext, Problem, Range, readable_bytes};
 use scene::Scene;
 
 use crate::expect::{OtherMesh, golden};
@@ -204,22 +204,10 @@ fn diagnostic(problem: &Problem, span: Span) -> Diagnostic {
 fn exceeds_budget(step: &RecipeStep, bytes: u64, budget: u64) -> Diagnostic {
     let message = format!(
         "the meshes take {} after this step, more than the memory budget of {}",
-        mebibytes(bytes),
-        mebibytes(budget)
+        readable_bytes(bytes),
+        readable_bytes(budget)
     );
     Diagnostic::error(step.span, message).with_help("raise the budget with --budget")
-}
-
-/// Formats a number of bytes in MiB, or in KiB if the number is less than 0.1 MiB.
-pub fn mebibytes(bytes: u64) -> String {
-    let mebi = bytes as f64 / f64::from(1 << 20);
-    if mebi < 0.1 {
-        format!("{:.1} KiB", bytes as f64 / 1024.0)
-    } else if mebi < 10.0 {
-        format!("{mebi:.1} MiB")
-    } else {
-        format!("{mebi:.0} MiB")
-    }
 }
 
 /// Returns the errors and warnings of an expectation at this point of the recipe.

@@ -28,7 +28,9 @@ impl<'a> PlacedSubject<'a> {
         let bytes = scene.placed_bytes();
         if bytes > MAX_BYTES {
             return Err(format!(
-                "the instances of all objects need {bytes} bytes, expected at most {MAX_BYTES}"
+                "the instances of all objects need {}, expected at most {}",
+                op::readable_bytes(bytes),
+                op::readable_bytes(MAX_BYTES)
             )
             .into());
         }

@@ -185,7 +185,7 @@ fn invalid_parameters_are_problems_of_the_plan() {
         ),
         (
             "path: \"a.png\", turntable: (frames: 720)",
-            "the images take 2211840 bytes, which exceeds the memory budget of 1048576 bytes",
+            "the images take 2.1 MiB, which exceeds the memory budget of 1.0 MiB",
         ),
     ] {
         let found = problems(fields);

@@ -9,8 +9,9 @@
 //! at a time (`--threads 1`).
 
 use anyhow::ensure;
+use op::readable_bytes;
+use recipe::Forecast;
 use recipe::shape::counted;
-use recipe::{Forecast, mebibytes};
 use serde::Serialize;
 
 use super::plan::Batch;
@@ -60,7 +61,7 @@ pub(super) fn run(batch: &Batch, n: u32) -> anyhow::Result<bool> {
     }
     let line = |p: &Memory| {
         let (part, runs) = (p.part, counted(p.runs, "run"));
-        format!("part {part}/{n}: {runs}, {}\n", mebibytes(p.bytes))
+        format!("part {part}/{n}: {runs}, {}\n", readable_bytes(p.bytes))
     };
     print(&parts.iter().map(line).collect::<String>())?;
     if let Some(path) = &args.report {

@@ -1,4 +1,4 @@
-//! Formats numbers in messages for people.
+//! Formats numbers and sizes in messages for people.
 
 /// Formats a number for people, with six significant digits. Numbers whose magnitude is below 1e-5 or at least 1e15 are
 /// in scientific notation. All other numbers keep all digits before the decimal point.
@@ -27,4 +27,37 @@ fn trimmed(text: &str) -> String {
     };
     let digits = if digits == "-0" { "0" } else { digits };
     format!("{digits}{exponent}")
+}
+
+/// Formats a number of bytes for people: in MiB, in KiB if the number is less than 0.1 MiB, or in bytes if the number is
+/// less than 1 KiB.
+pub fn readable_bytes(bytes: u64) -> String {
+    let mebi = bytes as f64 / f64::from(1 << 20);
+    match bytes {
+        1 => "1 byte".to_owned(),
+        0..1024 => format!("{bytes} bytes"),
+        _ if mebi < 0.1 => format!("{:.1} KiB", bytes as f64 / 1024.0),
+        _ if mebi < 10.0 => format!("{mebi:.1} MiB"),
+        _ => format!("{mebi:.0} MiB"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bytes_are_formatted_with_a_unit_that_fits() {
+        let cases = [
+            (0, "0 bytes"),
+            (1, "1 byte"),
+            (1023, "1023 bytes"),
+            (64 << 10, "64.0 KiB"),
+            (1 << 20, "1.0 MiB"),
+            (503 << 20, "503 MiB"),
+        ];
+        for (bytes, text) in cases {
+            assert_eq!(readable_bytes(bytes), text);
+        }
+    }
 }

@@ -31,9 +31,9 @@ use op::{Refusal, readable};
 /// (material, tags) of one of the old faces beside it. Which face is not specified, but the choice is the same in every
 /// run. New edges have zero values (no crease, no tags). Normals are dropped.
 ///
-/// An edge is refused if it is on the boundary (`Boundary`), if one of its ends has only one other edge and this edge
-/// is not selected (`FewEdges`), or if the bevels at both ends of an edge would overlap (`OutsideEdge`). If the result
-/// would not be manifold, all edges are refused (`NonManifold`).
+/// An edge cannot be beveled if it is on the boundary (`Boundary`), if one of its ends has only one other edge and this
+/// edge is not selected (`FewEdges`), or if the bevels at both ends of an edge would overlap (`OutsideEdge`). If the
+/// result would not be manifold, no edge is beveled (`NonManifold`).
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct BevelEdges {
@@ -47,7 +47,7 @@ pub struct BevelEdges {
     /// exclusive.
     #[serde(default)]
     pub fraction: Option<Fraction>,
-    /// What to do when an edge is refused.
+    /// What to do when an edge cannot be beveled.
     #[serde(default)]
     pub on_refusal: OnRefusal,
 }

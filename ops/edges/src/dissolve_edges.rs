@@ -16,15 +16,15 @@ use op::prelude::*;
 /// `DissolveVertices(vertices: Valence(2))` in a later step. The remaining elements keep their order and their values
 /// but get new ids.
 ///
-/// An edge is refused if it is on the boundary, if the same face is on both of its sides, if one of its ends has only
-/// two edges, or if its two faces have common corners other than its ends. An edge that is a seam is refused unless
-/// `seams` is `Drop`.
+/// An edge cannot be removed if it is on the boundary, if the same face is on both of its sides, if one of its ends has
+/// only two edges, or if its two faces have common corners other than its ends. A seam edge is removed only if `seams`
+/// is `Drop`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct DissolveEdges {
     /// The edges to remove.
     pub edges: EdgeSelection,
-    /// What to do when an edge is refused.
+    /// What to do when an edge cannot be removed.
     #[serde(default)]
     pub on_refusal: OnRefusal,
     /// What to do at seams.

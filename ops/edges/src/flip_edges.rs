@@ -123,9 +123,13 @@ impl MeshOperation for FlipEdges {
         };
         Ok(match flips.crossed {
             0 => report,
-            n => report.note(format!(
-                "flipped seams: {n}; the new corners at these edges took the values of the other side of the seam"
-            )),
+            n => {
+                let edges = if n == 1 { "edge" } else { "edges" };
+                report.note(format!(
+                    "flipped {n} seam {edges}; each new corner took the values that the other triangle had at the same \
+                     vertex"
+                ))
+            }
         })
     }
 }

@@ -20,7 +20,7 @@ use op::prelude::*;
 /// corners of the face. The ring has the values of the face (material, tags), and the inner edges have the values of
 /// the outer edges. Normals are dropped.
 ///
-/// A face is refused if it is on both sides of one of its edges.
+/// A face cannot be beveled if it is on both sides of one of its edges.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct BevelFaces {
@@ -36,7 +36,7 @@ pub struct BevelFaces {
     #[serde(alias = "height")]
     #[schemars(extend("aliases" = ["height"]))]
     pub distance: Distance,
-    /// What to do when a face is refused.
+    /// What to do when a face cannot be beveled.
     #[serde(default)]
     pub on_refusal: OnRefusal,
 }

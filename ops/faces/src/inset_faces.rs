@@ -23,7 +23,7 @@ use op::prelude::*;
 /// corners of the face, so textures do not change. The ring has the values of the face (material, tags), and the inner
 /// edges have the values of the outer edges. Normals are dropped.
 ///
-/// A face is refused if it is on both sides of one of its edges.
+/// A face cannot be inset if it is on both sides of one of its edges.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct InsetFaces {
@@ -32,7 +32,7 @@ pub struct InsetFaces {
     /// The position of the corners of the inner face on the lines from the old corners to the center of the face. From
     /// 0 (the corner) to 1 (the center), exclusive.
     pub fraction: Fraction,
-    /// What to do when a face is refused.
+    /// What to do when a face cannot be inset.
     #[serde(default)]
     pub on_refusal: OnRefusal,
 }

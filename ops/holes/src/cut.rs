@@ -19,14 +19,14 @@ use op::prelude::*;
 /// highest ids. Faces keep their ids, and no vertex moves. Copies have the values of the originals, and corners keep
 /// their values. `Stitch` is the inverse.
 ///
-/// All edges are cut at once. An edge is refused if it is on the boundary (`Boundary`), or if the cut would not open
+/// All edges are cut at once. An edge cannot be cut if it is on the boundary (`Boundary`), or if the cut would not open
 /// the mesh because both ends are inside the mesh and no other cut continues at either end (`DuplicateEdge`).
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cut {
     /// The edges to cut.
     pub edges: EdgeSelection,
-    /// What to do when an edge is refused.
+    /// What to do when an edge cannot be cut.
     #[serde(default)]
     pub on_refusal: OnRefusal,
 }
@@ -61,7 +61,8 @@ impl MeshOperation for Cut {
 }
 
 impl Cut {
-    /// Returns the edges that can be cut together. Other edges are refused or, with `Skip`, counted in the report.
+    /// Returns the edges that can be cut together. Other edges are an error or, with
+    /// `Skip`, counted in the report.
     fn allowed(
         &self,
         mesh: &Mesh,

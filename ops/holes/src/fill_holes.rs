@@ -21,7 +21,8 @@ use op::prelude::*;
 /// cutting off one corner after the other, in each case the corner whose two neighbors are closest to each other;
 /// straight and reflex corners come last. If the hole is far from convex, the triangles may overlap. Two vertices that
 /// are already joined by an edge are not joined again. If no triangulation without such a second edge is found, the
-/// hole is refused (`DuplicateEdge`). A hole with two edges is also refused (`WrongPlace`); `Stitch` closes it.
+/// hole cannot be filled (`DuplicateEdge`). A hole with two edges cannot be filled either (`WrongPlace`); `Stitch`
+/// closes it.
 ///
 /// New faces have the values of a face beside the hole. New corners have the values of the corner at the same vertex in
 /// the adjacent face. Normals are dropped if a hole was filled.
@@ -37,7 +38,7 @@ pub struct FillHoles {
     /// The faces that cover a hole.
     #[serde(default)]
     pub with: Cover,
-    /// What to do when a hole is refused.
+    /// What to do when a hole cannot be filled.
     #[serde(default)]
     pub on_refusal: OnRefusal,
 }

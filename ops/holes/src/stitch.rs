@@ -20,15 +20,15 @@ use pairs::Pairs;
 ///
 /// Two boundary edges coincide if both pairs of corresponding ends are at most `distance` apart. Two edges that
 /// coincide only with each other form a pair. Choose a distance below the lengths of the edges. An edge that coincides
-/// with several edges is refused (`NonManifold`), and none of these edges are joined. Unlike `Weld`, this operation
-/// never merges vertices inside the surface or vertices whose edges do not coincide.
+/// with several edges cannot be joined (`NonManifold`), and none of these edges are joined. Unlike `Weld`, this
+/// operation never merges vertices inside the surface or vertices whose edges do not coincide.
 ///
 /// Of each pair of vertices or edges, the one with the lower id keeps its position and its values. The other vertex or
 /// edge is removed, so the ids of later elements change. Faces and corners do not change, so an edge whose sides have
 /// different UVs becomes a seam. Remaining holes with two edges are also closed.
 ///
-/// A pair is refused if both edges belong to the same face (`SameFace`), if the ends of an edge would become one vertex
-/// or a face would contain a vertex twice (`WrongPlace`), or if two edges would join the same vertices
+/// A pair cannot be joined if both edges belong to the same face (`SameFace`), if the ends of an edge would become one
+/// vertex or a face would contain a vertex twice (`WrongPlace`), or if two edges would join the same vertices
 /// (`DuplicateEdge`).
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
@@ -36,7 +36,7 @@ pub struct Stitch {
     /// The largest distance between corresponding ends of two edges, in scene units. With 0, only ends at equal
     /// positions are joined.
     pub distance: Length,
-    /// What to do when a pair is refused, or when more than two edges coincide.
+    /// What to do when a pair cannot be joined, or when more than two edges coincide.
     #[serde(default)]
     pub on_refusal: OnRefusal,
 }

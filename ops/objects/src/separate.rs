@@ -18,7 +18,7 @@ use scene::{Geometry, Graph, Object};
 ///
 /// The parts of "figure" are named "figure 1", "figure 2" and so on. The first part replaces the object, and the other
 /// parts are added after all other objects. Elements keep their order and their values, and every part has all
-/// materials. Vertices without a face are dropped. The report counts them. A mesh without faces is refused.
+/// materials. Vertices without a face are dropped. The report counts them. The step fails if the mesh has no faces.
 ///
 /// If nodes place the object, they place the first part after the step. Each of these nodes gets children that place
 /// the other parts.
@@ -33,7 +33,7 @@ pub struct Separate {
     /// How the faces are grouped into parts.
     #[serde(default)]
     pub by: SeparateBy,
-    /// The expected number of parts. The step is refused if the number differs. If omitted, the names of the parts are
+    /// The expected number of parts. The step fails if the number differs. If omitted, the names of the parts are
     /// not known before the recipe runs, so the object names in later steps cannot be checked before the run.
     #[serde(default)]
     pub count: Option<Count<1>>,

@@ -25,8 +25,8 @@ use op::prelude::*;
 /// values (material, tags) of one of the faces at the vertex. Which of the faces is not specified, but the choice is
 /// the same in every run. New edges have zero values (no crease, no tags). Normals are dropped.
 ///
-/// A vertex is refused if it is on the boundary, if it has fewer than three edges, or if one of its edges is too short
-/// after earlier cuts.
+/// A vertex cannot be beveled if it is on the boundary, if it has fewer than three edges, or if one of its edges is too
+/// short after earlier cuts.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct BevelVertices {
@@ -34,7 +34,7 @@ pub struct BevelVertices {
     pub vertices: VertexSelection,
     /// The distance of the cuts from the vertex, as a fraction of the edge length. From 0 to 1, exclusive.
     pub fraction: Fraction,
-    /// What to do when a vertex is refused.
+    /// What to do when a vertex cannot be beveled.
     #[serde(default)]
     pub on_refusal: OnRefusal,
 }

@@ -19,15 +19,15 @@ use op::prelude::*;
 /// kept, with its values. The remaining elements keep their order and their values but get new ids. Normals are
 /// dropped.
 ///
-/// A vertex is refused if it is isolated or has a single edge, if a neighbor would be left with a single edge inside a
-/// face, if a face would contain a vertex twice or have fewer than three corners, or if an edge would join two vertices
-/// that are already joined. At a seam, a vertex is refused unless `seams` is `Drop`.
+/// A vertex cannot be removed if it is isolated or has a single edge, if a neighbor would be left with a single edge
+/// inside a face, if a face would contain a vertex twice or have fewer than three corners, or if an edge would join two
+/// vertices that are already joined. A vertex at a seam is removed only if `seams` is `Drop`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct DissolveVertices {
     /// The vertices to remove.
     pub vertices: VertexSelection,
-    /// What to do when a vertex is refused.
+    /// What to do when a vertex cannot be removed.
     #[serde(default)]
     pub on_refusal: OnRefusal,
     /// What to do at seams.

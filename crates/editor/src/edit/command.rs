@@ -39,7 +39,7 @@ pub struct SelectionText {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum CommandError {
     /// The registry does not have the operation.
-    #[error("no operation is named {0}")]
+    #[error("the operation `{0}` does not exist")]
     Unknown(String),
     /// The operation needs a selection, and nothing is picked.
     #[error("{operation} needs {kind}: pick some first")]

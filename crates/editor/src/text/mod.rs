@@ -29,13 +29,16 @@ pub enum TextError {
     #[error("the recipe has no list `steps: [..]` that could be read; correct its text first")]
     NoSteps,
     /// The step does not exist.
-    #[error("step {0} does not exist: the recipe has {1} steps")]
+    #[error("step {0} does not exist (number of steps: {1})")]
     NoStep(usize, usize),
     /// The parameter does not exist.
     #[error("the recipe has no parameter \"{0}\"")]
     NoParameter(String),
     /// The path does not lead to a place where a value can be written.
-    #[error("`{0}` cannot be set in this step")]
+    #[error(
+        "`{0}` cannot be set in this step: the value that would contain it has no fields, or the item does not \
+         exist"
+    )]
     NoPlace(String),
     /// The edits do not fit the text.
     #[error(transparent)]

@@ -78,7 +78,7 @@ fn a_crossed_seam_is_counted() {
     let drop = parse("(edges: Between(0, 2), seams: Drop)");
     let (_, report) = try_applied(&drop, sheet_with_a_seam()).unwrap();
     assert_eq!(report.changed, 1);
-    assert!(report.notes[0].starts_with("flipped seams: 1;"));
+    assert!(report.notes[0].starts_with("flipped 1 seam edge; "));
 }
 
 #[test]

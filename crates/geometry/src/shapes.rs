@@ -23,7 +23,7 @@ pub fn square() -> Mesh {
 /// ```
 ///
 /// The id of a vertex is (x > 0) + 2 (y > 0) + 4 (z > 0), where a true condition counts as 1. The faces
-/// are, in order, bottom, top, front, right, back and left.
+/// are, in order, -z, +z, -y, +x, +y and -x.
 pub fn cube() -> Mesh {
     let side = |bit: usize| if bit == 0 { -1.0 } else { 1.0 };
     let positions = (0..8)

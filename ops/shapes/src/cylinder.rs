@@ -14,9 +14,9 @@ use op::prelude::*;
 
 /// Creates a cylinder around the z axis.
 ///
-/// The vertices of the lower rim come first, and then the vertices of the upper rim. Each rim is counter-clockwise seen
-/// from above and starts in the direction +x. The faces are `around` rectangles and, with caps, the lower and the upper
-/// polygon with `around` corners.
+/// The vertices of the rim at -z come first, and then the vertices of the rim at +z. Each rim is counter-clockwise seen
+/// from +z and starts in the direction +x. The faces are `around` rectangles and, with caps, the polygons at -z
+/// and at +z with `around` corners.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cylinder {
@@ -27,7 +27,7 @@ pub struct Cylinder {
     /// The number of sides. At least 3. Defaults to 32.
     #[serde(default = "crate::thirty_two")]
     pub around: Count<3>,
-    /// The distance from the axis to the vertical edges, in scene units. More than 0.
+    /// The distance from the axis to the edges along z, in scene units. More than 0.
     #[serde(default = "crate::one")]
     pub radius: PositiveLength,
     /// The height along z, in scene units. More than 0.

@@ -41,7 +41,7 @@ fn main() -> std::io::Result<()> {
                 "one thread",
                 "two threads",
                 "scaling",
-                "two threads, per second",
+                "throughput, two threads",
             ]
             .map(str::to_owned)
             .to_vec(),
@@ -59,7 +59,7 @@ fn main() -> std::io::Result<()> {
             ]);
         }
         if references.iter().any(Option::is_some) {
-            table[0].push("relative to bytes alone".to_owned());
+            table[0].push("time relative to copying the bytes".to_owned());
             for ((row, reference), line) in rows.iter().zip(&references).zip(&mut table[1..]) {
                 let relative = row.seconds[0]
                     .zip(*reference)
@@ -125,8 +125,8 @@ fn milliseconds(seconds: f64) -> String {
 fn rate(throughput: &Value, seconds: f64) -> String {
     let per_second = |key: &str| Some(throughput[key].as_f64()? / seconds / 1e6);
     match (per_second("Elements"), per_second("Bytes")) {
-        (Some(elements), _) => format!("{elements:.1} M"),
-        (_, Some(bytes)) => format!("{bytes:.0} MB"),
+        (Some(elements), _) => format!("{elements:.1} M/s"),
+        (_, Some(bytes)) => format!("{bytes:.0} MB/s"),
         _ => String::new(),
     }
 }

@@ -31,7 +31,7 @@ pub(crate) struct SceneRef {
     pub(crate) arrays: Vec<BlobRef>,
 }
 
-/// Stores a scene of dense meshes. Returns `None` if the scene cannot be written.
+/// Stores a scene whose meshes have no removed elements. Returns `None` if the scene cannot be written.
 pub(crate) fn store_scene(folder: &Folder, scene: &Scene) -> Option<SceneRef> {
     let mut arrays = Vec::new();
     let mut stored = true;

@@ -18,7 +18,7 @@ pub(crate) enum Kind {
 
 /// Returns, for each edge, whether it is a part of a line. These edges are parts of lines: boundary edges, seams, edges
 /// between faces with different tags, materials or other whole numbers, edges with a tag or a crease, and the
-/// `features`. The mesh must be dense.
+/// `features`. The mesh must be [dense](mesh::Mesh::is_dense).
 pub(crate) fn lines(mesh: &Mesh, features: &[EdgeId]) -> Vec<bool> {
     let faces: Vec<&Column> = labels(mesh, Domain::Face).collect();
     let tags: Vec<&[bool]> = labels(mesh, Domain::Edge)
@@ -50,7 +50,7 @@ pub(crate) fn lines(mesh: &Mesh, features: &[EdgeId]) -> Vec<bool> {
     lines
 }
 
-/// Returns how each vertex may move. The mesh must be dense.
+/// Returns how each vertex may move. The mesh must be [dense](mesh::Mesh::is_dense).
 pub(crate) fn kinds(mesh: &Mesh, lines: &[bool], pinned: &[VertexId]) -> Vec<Kind> {
     let columns = mesh.attributes().of(Domain::Edge);
     let mut kinds: Vec<Kind> = parallel::collect(mesh.n_vertices(), |v| {

@@ -24,7 +24,7 @@ const BLOCK: usize = 256;
 ///
 /// In a plate, the thickness is the distance between the two sides of the plate, even at its edges and corners. Where
 /// parts of the surface overlap, a ray does not end when it enters another part. Walls thinner than 1e-7 times the
-/// diagonal of the bounding box are not found. The mesh must be dense.
+/// diagonal of the bounding box are not found. The mesh must be [dense](mesh::Mesh::is_dense).
 ///
 /// # Errors
 ///
@@ -76,7 +76,7 @@ fn behind(mesh: &Mesh, index: &SurfaceIndex, h: HalfEdgeId, f: FaceId, offset: f
 ///
 /// The directions of the rays are distributed about the normal, with a density proportional to the cosine of their
 /// angle to the normal. The same set of directions is used at each vertex, turned about the normal by a random angle
-/// that depends on `seed`. The mesh must be dense.
+/// that depends on `seed`. The mesh must be [dense](mesh::Mesh::is_dense).
 ///
 /// # Errors
 ///

@@ -478,7 +478,8 @@ fn write_placed(
         scene,
         files: mut all,
     } = images::settle(store, path, format, scene, options)?;
-    // The other formats merge the copies of split vertices by position, or store all copies.
+    // Only OBJ, PLY and OFF can store non-manifold vertices. For all other formats, the marks of the copies of split
+    // vertices are removed. These formats merge the copies by position, or store all copies.
     let scene = &*if keeps_vertices(path) {
         scene
     } else {

@@ -110,7 +110,8 @@ impl<E: EditTarget> EditTarget for [E; 2] {
 /// Edits the elements in order. Each edit is checked against the mesh as edited so far.
 ///
 /// The report counts the edits and, for [`OnRefusal::Skip`], the refused edits by reason. Elements that an earlier edit
-/// of the same call removed count as refused. `what` names the work in progress reports.
+/// of the same call removed count as refused. `what` is the name of the task that progress
+/// reports show.
 ///
 /// # Errors
 ///

@@ -87,7 +87,7 @@ pub trait Operation:
     /// Changes `plan` as [`apply`](Self::apply) will change the scene, and returns the problems.
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem>;
 
-    /// Changes the scene, whose meshes are dense. Calls [`Context::advance`] before its first change.
+    /// Changes the scene, whose meshes [are dense](Mesh::is_dense). Calls [`Context::advance`] before its first change.
     ///
     /// # Errors
     ///

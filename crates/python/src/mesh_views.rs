@@ -10,7 +10,7 @@ use crate::array::{Array, Part};
 use crate::build::values_from;
 use crate::interrupt::run;
 
-/// A mesh, which never changes. It is dense: its ids run from 0 without gaps.
+/// A mesh, which never changes. Its ids run from 0 without gaps.
 #[pyclass(frozen, module = "meshwright._core")]
 pub(crate) struct Mesh(pub(crate) Arc<Kernel>);
 

@@ -22,7 +22,7 @@ use op::prelude::*;
 /// | --- | --- | --- |
 /// | `Laplacian` | strong smoothing | shrinks |
 /// | `Taubin` | removing noise | nearly the same |
-/// | `Implicit` | strong smoothing of dense meshes in one pass | shrinks |
+/// | `Implicit` | strong smoothing of meshes with many small faces in one pass | shrinks |
 /// | `Denoise` | scans of objects with flat sides and sharp edges | nearly the same |
 ///
 /// If `boundary` is `Fixed`, vertices on the boundary do not move, so that adjacent objects still fit together.

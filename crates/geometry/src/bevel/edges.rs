@@ -34,7 +34,7 @@ pub enum BevelRefusal {
 /// The result of [`bevel_edges`].
 #[derive(Clone, Debug)]
 pub struct Beveled {
-    /// The mesh with bevels. It is dense.
+    /// The mesh with bevels. It is [dense](mesh::Mesh::is_dense).
     pub mesh: Mesh,
     /// The given edges that were not beveled, in ascending order.
     pub refused: Vec<(EdgeId, BevelRefusal)>,

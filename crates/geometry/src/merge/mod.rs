@@ -96,7 +96,7 @@ pub fn merge_vertices(
 }
 
 /// Merges each cluster of vertices into one vertex. `lowest` has for each vertex the lowest vertex of its
-/// cluster, as returned by [`clusters`]. The mesh must be dense.
+/// cluster, as returned by [`clusters`]. The mesh must be [dense](mesh::Mesh::is_dense).
 ///
 /// The merged vertex has the position and the values of the lowest vertex. The other vertices are removed, and ids are
 /// renumbered without gaps. Edges between the same two vertices become one edge, with the values of the edge with the

@@ -24,7 +24,7 @@ const STRAIGHT: f64 = 0.766_044_443_118_978;
 
 /// The original surface.
 pub(super) struct Original<'a> {
-    /// The original mesh. It is dense.
+    /// The original mesh. It is [dense](mesh::Mesh::is_dense).
     pub(super) source: &'a Mesh,
     /// The same mesh without attributes, in coordinates around `center`, scaled by a power of two. Very small and very
     /// large meshes then give the same result.

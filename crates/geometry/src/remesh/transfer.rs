@@ -43,7 +43,8 @@ impl Blend {
 const ROUNDING: f64 = 1e-9;
 
 impl Work<'_> {
-    /// Returns the mesh in the coordinates of the original, with attributes. The mesh must be dense.
+    /// Returns the mesh in the coordinates of the original, with attributes. The mesh must be
+    /// [dense](mesh::Mesh::is_dense).
     pub(super) fn finish(self, progress: &dyn Progress) -> Result<Mesh, Cancelled> {
         progress.report(WHAT, self.counts.passes, self.counts.max_passes)?;
         let old = self.original.source.attributes();

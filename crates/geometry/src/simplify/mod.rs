@@ -63,7 +63,8 @@ pub struct Options<'a> {
 /// The result of [`simplify`].
 #[derive(Clone, Debug)]
 pub struct Simplified {
-    /// The simplified mesh. The mesh is dense: elements get new ids, in the order of their old ids.
+    /// The simplified mesh. The mesh is [dense](mesh::Mesh::is_dense): elements get new ids, in the order of their
+    /// old ids.
     pub mesh: Mesh,
     /// If the mesh has more faces than [`Options::faces`], the number of remaining edges that could not be
     /// collapsed, for each reason.

@@ -27,7 +27,7 @@ pub(super) struct Supernode {
     pub(super) columns: Range<usize>,
     /// All rows in ascending order. The first rows are the columns of the supernode.
     pub(super) rows: Vec<u32>,
-    /// The parent in the tree: the supernode that contains the first row after the columns.
+    /// The parent in the elimination tree: the supernode that contains the first row after the columns.
     pub(super) parent: Option<usize>,
     pub(super) n_children: usize,
 }
@@ -45,7 +45,7 @@ impl Supernode {
     }
 }
 
-/// Marks the parent of a root of the tree.
+/// Marks the parent of a root of the elimination tree.
 const NONE: u32 = u32::MAX;
 
 impl Symbolic {
@@ -154,7 +154,8 @@ fn counts<I: Iterator<Item = u32>>(parent: &[u32], row: impl Fn(usize) -> I) -> 
     for i in 0..n {
         let this = as_row(i);
         mark[i] = this;
-        // Row i has an entry in every column on the paths through the tree from its columns up to i.
+        // Row i of the factor has an entry in every column on the paths through the elimination tree from the columns of
+        // row i of the matrix up to i.
         for mut j in row(i).filter(|&j| j < this) {
             while mark[j as usize] != this {
                 mark[j as usize] = this;

@@ -65,7 +65,7 @@ struct Input<'a> {
 
 /// The inputs of a list of polygons.
 struct Inputs<'a> {
-    /// The number of indices of a corner.
+    /// The number of indices per corner.
     stride: usize,
     /// The position of the vertex index among the indices of a corner.
     vertex: usize,

@@ -21,9 +21,9 @@ use crate::fault::Fault;
 use crate::note::Notes;
 use mesh::parallel;
 
-/// The cost in bytes of searching for an attribute that a primitive does not have. The cost of missing attributes
-/// limits time rather than memory.
-const SMALL: u64 = 16;
+/// Charged to the memory budget, in bytes, for each attribute that a primitive lacks. This bounds the time spent on
+/// files with many primitives and attributes.
+const MISSING_ATTRIBUTE_CHARGE: u64 = 16;
 
 /// All primitives of a mesh. A vertex on a seam is stored once for each side of the seam, as in glTF.
 #[derive(Clone, Debug, Default)]
@@ -235,7 +235,9 @@ impl Triangles {
         for column in self.attributes.of(Domain::Corner) {
             if own.column(Domain::Corner, &column.name).is_none() {
                 let zeros = n * column.values.bytes_per_value();
-                reader.budget.spend(SMALL + zeros as u64, here)?;
+                reader
+                    .budget
+                    .spend(MISSING_ATTRIBUTE_CHARGE + zeros as u64, here)?;
                 left_out.partial += 1;
             }
         }

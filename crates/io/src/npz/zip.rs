@@ -1,4 +1,4 @@
-//! Zip archives of files that are not compressed.
+//! Uncompressed zip archives.
 //!
 //! Source: PKWARE, "APPNOTE.TXT - .ZIP File Format Specification", sections 4.3.7, 4.3.12 and 4.3.16.
 

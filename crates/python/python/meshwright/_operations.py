@@ -109,7 +109,7 @@ class SceneOperations:
 
         :param path: The file. The path is relative to the output folder. ``{name.stem}`` is replaced by the name,
             without extension, of the file in the recipe parameter ``name``.
-        :param images: What to do with the images of materials. By default, images are embedded in ``.glb`` files. For
+        :param images: What to do with the images of materials. If omitted, images are embedded in ``.glb`` files. For
             ``.gltf`` and ``.obj``, images in the folder of the source model are copied to the folder of the output
             file. OBJ cannot embed images, so embedded images are also written to files.
             ``"Embed"``: Store the images in the file or, for ``.gltf``, in its ``.bin`` file.
@@ -180,9 +180,9 @@ class SceneOperations:
     ) -> Self:
         """Creates a cube.
 
-        The cube has 8 vertices and 6 squares: bottom (0, 2, 3, 1), top (4, 5, 7, 6), front (0, 1, 5, 4), right (1, 3,
-        7, 5), back (3, 2, 6, 7), left (2, 0, 4, 6). The id of a vertex is (x > center) + 2 (y > center) + 4 (z >
-        center), where a true comparison counts as 1.
+        The cube has 8 vertices and 6 squares. In the order of their ids, the squares are on the sides -z (0, 2, 3, 1),
+        +z (4, 5, 7, 6), -y (0, 1, 5, 4), +x (1, 3, 7, 5), +y (3, 2, 6, 7) and -x (2, 0, 4, 6). The id of a vertex is (x
+        > center) + 2 (y > center) + 4 (z > center), where a true comparison counts as 1.
 
         Example: ``scene.cube(name="new", size=3, center=(1, 2, 3))``, in a recipe ``Cube(name: "new", size: 3, center:
         (1, 2, 3))``
@@ -336,9 +336,9 @@ class SceneOperations:
     ) -> Self:
         """Creates a cylinder around the z axis.
 
-        The vertices of the lower rim come first, and then the vertices of the upper rim. Each rim is counter-clockwise
-        seen from above and starts in the direction +x. The faces are ``around`` rectangles and, with caps, the lower
-        and the upper polygon with ``around`` corners.
+        The vertices of the rim at -z come first, and then the vertices of the rim at +z. Each rim is counter-clockwise
+        seen from +z and starts in the direction +x. The faces are ``around`` rectangles and, with caps, the polygons at
+        -z and at +z with ``around`` corners.
 
         Example: ``scene.cylinder(name="new", around=6, radius=1, height=2, caps=True)``, in a recipe ``Cylinder(name:
         "new", around: 6, radius: 1, height: 2, caps: true)``
@@ -346,7 +346,7 @@ class SceneOperations:
         :param name: The name of the new object. Defaults to the name of the operation in lower case, followed by a
             number if this name is taken.
         :param around: The number of sides. At least 3. Defaults to 32.
-        :param radius: The distance from the axis to the vertical edges, in scene units. More than 0. Defaults to
+        :param radius: The distance from the axis to the edges along z, in scene units. More than 0. Defaults to
             ``1.0``.
         :param height: The height along z, in scene units. More than 0. Defaults to ``2.0``.
         :param caps: Whether the ends are closed. Defaults to ``True``.
@@ -367,8 +367,8 @@ class SceneOperations:
     ) -> Self:
         """Creates a sphere of meridians and rings, with poles at -z and +z.
 
-        Vertex 0 is the lower pole. The circles of vertices follow from the bottom to the top; each starts in the
-        direction +x and is counter-clockwise seen from above. The last vertex is the upper pole.
+        Vertex 0 is the pole at -z. The circles of vertices follow from -z to +z; each starts in the direction +x and is
+        counter-clockwise seen from +z. The last vertex is the pole at +z.
 
         Example: ``scene.uv_sphere(name="new", around=8, rings=4, radius=2)``, in a recipe ``UvSphere(name: "new",
         around: 8, rings: 4, radius: 2)``
@@ -610,7 +610,8 @@ class SceneOperations:
 
         The parts of "figure" are named "figure 1", "figure 2" and so on. The first part replaces the object, and the
         other parts are added after all other objects. Elements keep their order and their values, and every part has
-        all materials. Vertices without a face are dropped. The report counts them. A mesh without faces is refused.
+        all materials. Vertices without a face are dropped. The report counts them. The step fails if the mesh has no
+        faces.
 
         If nodes place the object, they place the first part after the step. Each of these nodes gets children that
         place the other parts.
@@ -626,9 +627,9 @@ class SceneOperations:
             ``"Material"``: One part for each material that a face has, in order of the materials.
             ``choice.Tag(..)``: The first part has the faces with the tag of this name, and the second part all other
                 faces.
-        :param count: The expected number of parts. The step is refused if the number differs. If omitted, the names of
-            the parts are not known before the recipe runs, so the object names in later steps cannot be checked before
-            the run.
+        :param count: The expected number of parts. The step fails if the number differs. If omitted, the names of the
+            parts are not known before the recipe runs, so the object names in later steps cannot be checked before the
+            run.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Separate', {'object': object, 'by': by, 'count': count}, None, id)
@@ -957,14 +958,14 @@ class SceneOperations:
         ``dissolve_vertices(vertices=sel.Valence(2))`` in a later step. The remaining elements keep their order and
         their values but get new ids.
 
-        An edge is refused if it is on the boundary, if the same face is on both of its sides, if one of its ends has
-        only two edges, or if its two faces have common corners other than its ends. An edge that is a seam is refused
-        unless ``seams`` is ``Drop``.
+        An edge cannot be removed if it is on the boundary, if the same face is on both of its sides, if one of its ends
+        has only two edges, or if its two faces have common corners other than its ends. A seam edge is removed only if
+        ``seams`` is ``Drop``.
 
         Example: ``scene.dissolve_edges(edges=sel.Between(0, 1))``, in a recipe ``DissolveEdges(edges: Between(0, 1))``
 
         :param edges: The edges to remove. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
-        :param on_refusal: What to do when an edge is refused. Defaults to ``"Error"``.
+        :param on_refusal: What to do when an edge cannot be removed. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param seams: What to do at seams. Defaults to ``"Refuse"``.
@@ -1004,9 +1005,9 @@ class SceneOperations:
         values (material, tags) of one of the old faces beside it. Which face is not specified, but the choice is the
         same in every run. New edges have zero values (no crease, no tags). Normals are dropped.
 
-        An edge is refused if it is on the boundary (``Boundary``), if one of its ends has only one other edge and this
-        edge is not selected (``FewEdges``), or if the bevels at both ends of an edge would overlap (``OutsideEdge``).
-        If the result would not be manifold, all edges are refused (``NonManifold``).
+        An edge cannot be beveled if it is on the boundary (``Boundary``), if one of its ends has only one other edge
+        and this edge is not selected (``FewEdges``), or if the bevels at both ends of an edge would overlap
+        (``OutsideEdge``). If the result would not be manifold, no edge is beveled (``NonManifold``).
 
         Example: ``scene.bevel_edges(edges=sel.Between(0, 2), width=0.25)``, in a recipe ``BevelEdges(edges: Between(0,
         2), width: 0.25)``
@@ -1016,7 +1017,7 @@ class SceneOperations:
             Either ``width`` or ``fraction`` must be given.
         :param fraction: The width as a fraction of the length of the shortest edge at the ends of the selected edges.
             From 0 to 1, exclusive.
-        :param on_refusal: What to do when an edge is refused. Defaults to ``"Error"``.
+        :param on_refusal: What to do when an edge cannot be beveled. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param on: The objects that the step acts on. If omitted, all that it supports.
@@ -1076,7 +1077,7 @@ class SceneOperations:
         the values at the corners. The triangles have the values of their face, and the new edges have zero values (no
         crease, no tags). If ``distance`` is not 0, normals are dropped.
 
-        A face is refused only if it contains a vertex twice, if the position of the new vertex would not be finite, or
+        A face cannot be split if it contains a vertex twice, if the position of the new vertex would not be finite, or
         if the mesh already has the largest supported number of elements.
 
         Example: ``scene.poke_faces()``, in a recipe ``PokeFaces()``
@@ -1086,7 +1087,7 @@ class SceneOperations:
         :param distance: The distance of the vertex from the center along the normal of the face, in scene units. A
             negative distance moves the vertex inwards. A zero-area face has no normal, so its vertex is at the center.
             Defaults to ``0.0``.
-        :param on_refusal: What to do when a face is refused. Defaults to ``"Error"``.
+        :param on_refusal: What to do when a face cannot be split. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param on: The objects that the step acts on. If omitted, all that it supports.
@@ -1231,7 +1232,7 @@ class SceneOperations:
         all corners of the face, so textures do not change. The ring has the values of the face (material, tags), and
         the inner edges have the values of the outer edges. Normals are dropped.
 
-        A face is refused if it is on both sides of one of its edges.
+        A face cannot be inset if it is on both sides of one of its edges.
 
         Example: ``scene.inset_faces(faces="All", fraction=0.25)``, in a recipe ``InsetFaces(faces: All, fraction:
         0.25)``
@@ -1240,7 +1241,7 @@ class SceneOperations:
             ``meshwright.sel``.
         :param fraction: The position of the corners of the inner face on the lines from the old corners to the center
             of the face. From 0 (the corner) to 1 (the center), exclusive.
-        :param on_refusal: What to do when a face is refused. Defaults to ``"Error"``.
+        :param on_refusal: What to do when a face cannot be inset. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param on: The objects that the step acts on. If omitted, all that it supports.
@@ -1270,7 +1271,7 @@ class SceneOperations:
         all corners of the face. The ring has the values of the face (material, tags), and the inner edges have the
         values of the outer edges. Normals are dropped.
 
-        A face is refused if it is on both sides of one of its edges.
+        A face cannot be beveled if it is on both sides of one of its edges.
 
         Example: ``scene.bevel_faces(faces="All", fraction=0.25, distance=0.5)``, in a recipe ``BevelFaces(faces: All,
         fraction: 0.25, distance: 0.5)``
@@ -1281,7 +1282,7 @@ class SceneOperations:
             of the face. From 0 (the corner) to 1 (the center), exclusive.
         :param distance: The distance by which the inner face moves along its normal, in scene units. A negative
             distance moves the inner face inwards.
-        :param on_refusal: What to do when a face is refused. Defaults to ``"Error"``.
+        :param on_refusal: What to do when a face cannot be beveled. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param on: The objects that the step acts on. If omitted, all that it supports.
@@ -1307,16 +1308,16 @@ class SceneOperations:
         kept, with its values. The remaining elements keep their order and their values but get new ids. Normals are
         dropped.
 
-        A vertex is refused if it is isolated or has a single edge, if a neighbor would be left with a single edge
-        inside a face, if a face would contain a vertex twice or have fewer than three corners, or if an edge would join
-        two vertices that are already joined. At a seam, a vertex is refused unless ``seams`` is ``Drop``.
+        A vertex cannot be removed if it is isolated or has a single edge, if a neighbor would be left with a single
+        edge inside a face, if a face would contain a vertex twice or have fewer than three corners, or if an edge would
+        join two vertices that are already joined. A vertex at a seam is removed only if ``seams`` is ``Drop``.
 
         Example: ``scene.dissolve_vertices(vertices=sel.Vertices([1]))``, in a recipe ``DissolveVertices(vertices:
         Vertices([1]))``
 
         :param vertices: The vertices to remove. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of
             ``meshwright.sel``.
-        :param on_refusal: What to do when a vertex is refused. Defaults to ``"Error"``.
+        :param on_refusal: What to do when a vertex cannot be removed. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param seams: What to do at seams. Defaults to ``"Refuse"``.
@@ -1350,8 +1351,8 @@ class SceneOperations:
         values (material, tags) of one of the faces at the vertex. Which of the faces is not specified, but the choice
         is the same in every run. New edges have zero values (no crease, no tags). Normals are dropped.
 
-        A vertex is refused if it is on the boundary, if it has fewer than three edges, or if one of its edges is too
-        short after earlier cuts.
+        A vertex cannot be beveled if it is on the boundary, if it has fewer than three edges, or if one of its edges is
+        too short after earlier cuts.
 
         Example: ``scene.bevel_vertices(vertices="All", fraction=0.25)``, in a recipe ``BevelVertices(vertices: All,
         fraction: 0.25)``
@@ -1360,7 +1361,7 @@ class SceneOperations:
             ``meshwright.sel``.
         :param fraction: The distance of the cuts from the vertex, as a fraction of the edge length. From 0 to 1,
             exclusive.
-        :param on_refusal: What to do when a vertex is refused. Defaults to ``"Error"``.
+        :param on_refusal: What to do when a vertex cannot be beveled. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param on: The objects that the step acts on. If omitted, all that it supports.
@@ -1437,8 +1438,8 @@ class SceneOperations:
         cutting off one corner after the other, in each case the corner whose two neighbors are closest to each other;
         straight and reflex corners come last. If the hole is far from convex, the triangles may overlap. Two vertices
         that are already joined by an edge are not joined again. If no triangulation without such a second edge is
-        found, the hole is refused (``DuplicateEdge``). A hole with two edges is also refused (``WrongPlace``);
-        ``stitch()`` closes it.
+        found, the hole cannot be filled (``DuplicateEdge``). A hole with two edges cannot be filled either
+        (``WrongPlace``); ``stitch()`` closes it.
 
         New faces have the values of a face beside the hole. New corners have the values of the corner at the same
         vertex in the adjacent face. Normals are dropped if a hole was filled.
@@ -1451,7 +1452,7 @@ class SceneOperations:
         :param with_: The faces that cover a hole. Defaults to ``"Triangles"``.
             ``"Triangles"``: Triangles.
             ``"Face"``: One face with all vertices of the hole as corners.
-        :param on_refusal: What to do when a hole is refused. Defaults to ``"Error"``.
+        :param on_refusal: What to do when a hole cannot be filled. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param on: The objects that the step acts on. If omitted, all that it supports.
@@ -1503,22 +1504,22 @@ class SceneOperations:
 
         Two boundary edges coincide if both pairs of corresponding ends are at most ``distance`` apart. Two edges that
         coincide only with each other form a pair. Choose a distance below the lengths of the edges. An edge that
-        coincides with several edges is refused (``NonManifold``), and none of these edges are joined. Unlike
+        coincides with several edges cannot be joined (``NonManifold``), and none of these edges are joined. Unlike
         ``weld()``, this operation never merges vertices inside the surface or vertices whose edges do not coincide.
 
         Of each pair of vertices or edges, the one with the lower id keeps its position and its values. The other vertex
         or edge is removed, so the ids of later elements change. Faces and corners do not change, so an edge whose sides
         have different UVs becomes a seam. Remaining holes with two edges are also closed.
 
-        A pair is refused if both edges belong to the same face (``SameFace``), if the ends of an edge would become one
-        vertex or a face would contain a vertex twice (``WrongPlace``), or if two edges would join the same vertices
-        (``DuplicateEdge``).
+        A pair cannot be joined if both edges belong to the same face (``SameFace``), if the ends of an edge would
+        become one vertex or a face would contain a vertex twice (``WrongPlace``), or if two edges would join the same
+        vertices (``DuplicateEdge``).
 
         Example: ``scene.stitch(distance=0)``, in a recipe ``Stitch(distance: 0)``
 
         :param distance: The largest distance between corresponding ends of two edges, in scene units. With 0, only ends
             at equal positions are joined.
-        :param on_refusal: What to do when a pair is refused, or when more than two edges coincide. Defaults to
+        :param on_refusal: What to do when a pair cannot be joined, or when more than two edges coincide. Defaults to
             ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
@@ -1543,14 +1544,14 @@ class SceneOperations:
         highest ids. Faces keep their ids, and no vertex moves. Copies have the values of the originals, and corners
         keep their values. ``stitch()`` is the inverse.
 
-        All edges are cut at once. An edge is refused if it is on the boundary (``Boundary``), or if the cut would not
-        open the mesh because both ends are inside the mesh and no other cut continues at either end
+        All edges are cut at once. An edge cannot be cut if it is on the boundary (``Boundary``), or if the cut would
+        not open the mesh because both ends are inside the mesh and no other cut continues at either end
         (``DuplicateEdge``).
 
         Example: ``scene.cut(edges="All")``, in a recipe ``Cut(edges: All)``
 
         :param edges: The edges to cut. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
-        :param on_refusal: What to do when an edge is refused. Defaults to ``"Error"``.
+        :param on_refusal: What to do when an edge cannot be cut. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param on: The objects that the step acts on. If omitted, all that it supports.
@@ -1675,7 +1676,7 @@ class SceneOperations:
             ``"Loop"``: u is (5/8 - (3/8 + cos(2π/n)/4)²)/n, as in Loop's thesis, 1987.
         :param boundary: How vertices on the boundary move. Defaults to ``"EdgesOnly"``.
             ``"EdgesOnly"``: The boundary becomes a smooth curve that depends on boundary vertices only.
-            ``"EdgesAndCorners"``: Like ``EdgesOnly``, but vertices with one face stay in place.
+            ``"EdgesAndCorners"``: Like ``EdgesOnly``, but boundary vertices with one face stay in place.
             ``"Fixed"``: Boundary vertices stay in place, and new vertices on the boundary lie in the middle of their
                 edges.
         :param creasing: How the sharpness of creases decreases from level to level. Defaults to ``"Uniform"``.
@@ -1736,7 +1737,7 @@ class SceneOperations:
                 than ``below``.
         :param boundary: How vertices on the boundary move. Defaults to ``"EdgesOnly"``.
             ``"EdgesOnly"``: The boundary becomes a smooth curve that depends on boundary vertices only.
-            ``"EdgesAndCorners"``: Like ``EdgesOnly``, but vertices with one face stay in place.
+            ``"EdgesAndCorners"``: Like ``EdgesOnly``, but boundary vertices with one face stay in place.
             ``"Fixed"``: Boundary vertices stay in place, and new vertices on the boundary lie in the middle of their
                 edges.
         :param creasing: How the sharpness of creases decreases from level to level. Defaults to ``"Uniform"``.
@@ -2163,7 +2164,7 @@ class SceneOperations:
 
         - ``choice.Laplacian``: strong smoothing; shrinks.
         - ``choice.Taubin``: removing noise; nearly the same.
-        - ``choice.Implicit``: strong smoothing of dense meshes in one pass; shrinks.
+        - ``choice.Implicit``: strong smoothing of meshes with many small faces in one pass; shrinks.
         - ``choice.Denoise``: scans of objects with flat sides and sharp edges; nearly the same.
 
         If ``boundary`` is ``Fixed``, vertices on the boundary do not move, so that adjacent objects still fit together.
@@ -2874,7 +2875,7 @@ class MeshOperations:
 
         :param path: The file. The path is relative to the output folder. ``{name.stem}`` is replaced by the name,
             without extension, of the file in the recipe parameter ``name``.
-        :param images: What to do with the images of materials. By default, images are embedded in ``.glb`` files. For
+        :param images: What to do with the images of materials. If omitted, images are embedded in ``.glb`` files. For
             ``.gltf`` and ``.obj``, images in the folder of the source model are copied to the folder of the output
             file. OBJ cannot embed images, so embedded images are also written to files.
             ``"Embed"``: Store the images in the file or, for ``.gltf``, in its ``.bin`` file.
@@ -3297,14 +3298,14 @@ class MeshOperations:
         ``dissolve_vertices(vertices=sel.Valence(2))`` in a later step. The remaining elements keep their order and
         their values but get new ids.
 
-        An edge is refused if it is on the boundary, if the same face is on both of its sides, if one of its ends has
-        only two edges, or if its two faces have common corners other than its ends. An edge that is a seam is refused
-        unless ``seams`` is ``Drop``.
+        An edge cannot be removed if it is on the boundary, if the same face is on both of its sides, if one of its ends
+        has only two edges, or if its two faces have common corners other than its ends. A seam edge is removed only if
+        ``seams`` is ``Drop``.
 
         Example: ``mesh.dissolve_edges(edges=sel.Between(0, 1))``
 
         :param edges: The edges to remove. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
-        :param on_refusal: What to do when an edge is refused. Defaults to ``"Error"``.
+        :param on_refusal: What to do when an edge cannot be removed. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param seams: What to do at seams. Defaults to ``"Refuse"``.
@@ -3343,9 +3344,9 @@ class MeshOperations:
         values (material, tags) of one of the old faces beside it. Which face is not specified, but the choice is the
         same in every run. New edges have zero values (no crease, no tags). Normals are dropped.
 
-        An edge is refused if it is on the boundary (``Boundary``), if one of its ends has only one other edge and this
-        edge is not selected (``FewEdges``), or if the bevels at both ends of an edge would overlap (``OutsideEdge``).
-        If the result would not be manifold, all edges are refused (``NonManifold``).
+        An edge cannot be beveled if it is on the boundary (``Boundary``), if one of its ends has only one other edge
+        and this edge is not selected (``FewEdges``), or if the bevels at both ends of an edge would overlap
+        (``OutsideEdge``). If the result would not be manifold, no edge is beveled (``NonManifold``).
 
         Example: ``mesh.bevel_edges(edges=sel.Between(0, 2), width=0.25)``
 
@@ -3354,7 +3355,7 @@ class MeshOperations:
             Either ``width`` or ``fraction`` must be given.
         :param fraction: The width as a fraction of the length of the shortest edge at the ends of the selected edges.
             From 0 to 1, exclusive.
-        :param on_refusal: What to do when an edge is refused. Defaults to ``"Error"``.
+        :param on_refusal: What to do when an edge cannot be beveled. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
@@ -3411,7 +3412,7 @@ class MeshOperations:
         the values at the corners. The triangles have the values of their face, and the new edges have zero values (no
         crease, no tags). If ``distance`` is not 0, normals are dropped.
 
-        A face is refused only if it contains a vertex twice, if the position of the new vertex would not be finite, or
+        A face cannot be split if it contains a vertex twice, if the position of the new vertex would not be finite, or
         if the mesh already has the largest supported number of elements.
 
         Example: ``mesh.poke_faces()``
@@ -3421,7 +3422,7 @@ class MeshOperations:
         :param distance: The distance of the vertex from the center along the normal of the face, in scene units. A
             negative distance moves the vertex inwards. A zero-area face has no normal, so its vertex is at the center.
             Defaults to ``0.0``.
-        :param on_refusal: What to do when a face is refused. Defaults to ``"Error"``.
+        :param on_refusal: What to do when a face cannot be split. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
@@ -3561,7 +3562,7 @@ class MeshOperations:
         all corners of the face, so textures do not change. The ring has the values of the face (material, tags), and
         the inner edges have the values of the outer edges. Normals are dropped.
 
-        A face is refused if it is on both sides of one of its edges.
+        A face cannot be inset if it is on both sides of one of its edges.
 
         Example: ``mesh.inset_faces(faces="All", fraction=0.25)``
 
@@ -3569,7 +3570,7 @@ class MeshOperations:
             ``meshwright.sel``.
         :param fraction: The position of the corners of the inner face on the lines from the old corners to the center
             of the face. From 0 (the corner) to 1 (the center), exclusive.
-        :param on_refusal: What to do when a face is refused. Defaults to ``"Error"``.
+        :param on_refusal: What to do when a face cannot be inset. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
@@ -3598,7 +3599,7 @@ class MeshOperations:
         all corners of the face. The ring has the values of the face (material, tags), and the inner edges have the
         values of the outer edges. Normals are dropped.
 
-        A face is refused if it is on both sides of one of its edges.
+        A face cannot be beveled if it is on both sides of one of its edges.
 
         Example: ``mesh.bevel_faces(faces="All", fraction=0.25, distance=0.5)``
 
@@ -3608,7 +3609,7 @@ class MeshOperations:
             of the face. From 0 (the corner) to 1 (the center), exclusive.
         :param distance: The distance by which the inner face moves along its normal, in scene units. A negative
             distance moves the inner face inwards.
-        :param on_refusal: What to do when a face is refused. Defaults to ``"Error"``.
+        :param on_refusal: What to do when a face cannot be beveled. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
@@ -3633,15 +3634,15 @@ class MeshOperations:
         kept, with its values. The remaining elements keep their order and their values but get new ids. Normals are
         dropped.
 
-        A vertex is refused if it is isolated or has a single edge, if a neighbor would be left with a single edge
-        inside a face, if a face would contain a vertex twice or have fewer than three corners, or if an edge would join
-        two vertices that are already joined. At a seam, a vertex is refused unless ``seams`` is ``Drop``.
+        A vertex cannot be removed if it is isolated or has a single edge, if a neighbor would be left with a single
+        edge inside a face, if a face would contain a vertex twice or have fewer than three corners, or if an edge would
+        join two vertices that are already joined. A vertex at a seam is removed only if ``seams`` is ``Drop``.
 
         Example: ``mesh.dissolve_vertices(vertices=sel.Vertices([1]))``
 
         :param vertices: The vertices to remove. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of
             ``meshwright.sel``.
-        :param on_refusal: What to do when a vertex is refused. Defaults to ``"Error"``.
+        :param on_refusal: What to do when a vertex cannot be removed. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param seams: What to do at seams. Defaults to ``"Refuse"``.
@@ -3674,8 +3675,8 @@ class MeshOperations:
         values (material, tags) of one of the faces at the vertex. Which of the faces is not specified, but the choice
         is the same in every run. New edges have zero values (no crease, no tags). Normals are dropped.
 
-        A vertex is refused if it is on the boundary, if it has fewer than three edges, or if one of its edges is too
-        short after earlier cuts.
+        A vertex cannot be beveled if it is on the boundary, if it has fewer than three edges, or if one of its edges is
+        too short after earlier cuts.
 
         Example: ``mesh.bevel_vertices(vertices="All", fraction=0.25)``
 
@@ -3683,7 +3684,7 @@ class MeshOperations:
             ``meshwright.sel``.
         :param fraction: The distance of the cuts from the vertex, as a fraction of the edge length. From 0 to 1,
             exclusive.
-        :param on_refusal: What to do when a vertex is refused. Defaults to ``"Error"``.
+        :param on_refusal: What to do when a vertex cannot be beveled. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
@@ -3757,8 +3758,8 @@ class MeshOperations:
         cutting off one corner after the other, in each case the corner whose two neighbors are closest to each other;
         straight and reflex corners come last. If the hole is far from convex, the triangles may overlap. Two vertices
         that are already joined by an edge are not joined again. If no triangulation without such a second edge is
-        found, the hole is refused (``DuplicateEdge``). A hole with two edges is also refused (``WrongPlace``);
-        ``stitch()`` closes it.
+        found, the hole cannot be filled (``DuplicateEdge``). A hole with two edges cannot be filled either
+        (``WrongPlace``); ``stitch()`` closes it.
 
         New faces have the values of a face beside the hole. New corners have the values of the corner at the same
         vertex in the adjacent face. Normals are dropped if a hole was filled.
@@ -3771,7 +3772,7 @@ class MeshOperations:
         :param with_: The faces that cover a hole. Defaults to ``"Triangles"``.
             ``"Triangles"``: Triangles.
             ``"Face"``: One face with all vertices of the hole as corners.
-        :param on_refusal: What to do when a hole is refused. Defaults to ``"Error"``.
+        :param on_refusal: What to do when a hole cannot be filled. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
@@ -3821,22 +3822,22 @@ class MeshOperations:
 
         Two boundary edges coincide if both pairs of corresponding ends are at most ``distance`` apart. Two edges that
         coincide only with each other form a pair. Choose a distance below the lengths of the edges. An edge that
-        coincides with several edges is refused (``NonManifold``), and none of these edges are joined. Unlike
+        coincides with several edges cannot be joined (``NonManifold``), and none of these edges are joined. Unlike
         ``weld()``, this operation never merges vertices inside the surface or vertices whose edges do not coincide.
 
         Of each pair of vertices or edges, the one with the lower id keeps its position and its values. The other vertex
         or edge is removed, so the ids of later elements change. Faces and corners do not change, so an edge whose sides
         have different UVs becomes a seam. Remaining holes with two edges are also closed.
 
-        A pair is refused if both edges belong to the same face (``SameFace``), if the ends of an edge would become one
-        vertex or a face would contain a vertex twice (``WrongPlace``), or if two edges would join the same vertices
-        (``DuplicateEdge``).
+        A pair cannot be joined if both edges belong to the same face (``SameFace``), if the ends of an edge would
+        become one vertex or a face would contain a vertex twice (``WrongPlace``), or if two edges would join the same
+        vertices (``DuplicateEdge``).
 
         Example: ``mesh.stitch(distance=0)``
 
         :param distance: The largest distance between corresponding ends of two edges, in scene units. With 0, only ends
             at equal positions are joined.
-        :param on_refusal: What to do when a pair is refused, or when more than two edges coincide. Defaults to
+        :param on_refusal: What to do when a pair cannot be joined, or when more than two edges coincide. Defaults to
             ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
@@ -3860,14 +3861,14 @@ class MeshOperations:
         highest ids. Faces keep their ids, and no vertex moves. Copies have the values of the originals, and corners
         keep their values. ``stitch()`` is the inverse.
 
-        All edges are cut at once. An edge is refused if it is on the boundary (``Boundary``), or if the cut would not
-        open the mesh because both ends are inside the mesh and no other cut continues at either end
+        All edges are cut at once. An edge cannot be cut if it is on the boundary (``Boundary``), or if the cut would
+        not open the mesh because both ends are inside the mesh and no other cut continues at either end
         (``DuplicateEdge``).
 
         Example: ``mesh.cut(edges="All")``
 
         :param edges: The edges to cut. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
-        :param on_refusal: What to do when an edge is refused. Defaults to ``"Error"``.
+        :param on_refusal: What to do when an edge cannot be cut. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
@@ -3985,7 +3986,7 @@ class MeshOperations:
             ``"Loop"``: u is (5/8 - (3/8 + cos(2π/n)/4)²)/n, as in Loop's thesis, 1987.
         :param boundary: How vertices on the boundary move. Defaults to ``"EdgesOnly"``.
             ``"EdgesOnly"``: The boundary becomes a smooth curve that depends on boundary vertices only.
-            ``"EdgesAndCorners"``: Like ``EdgesOnly``, but vertices with one face stay in place.
+            ``"EdgesAndCorners"``: Like ``EdgesOnly``, but boundary vertices with one face stay in place.
             ``"Fixed"``: Boundary vertices stay in place, and new vertices on the boundary lie in the middle of their
                 edges.
         :param creasing: How the sharpness of creases decreases from level to level. Defaults to ``"Uniform"``.
@@ -4045,7 +4046,7 @@ class MeshOperations:
                 than ``below``.
         :param boundary: How vertices on the boundary move. Defaults to ``"EdgesOnly"``.
             ``"EdgesOnly"``: The boundary becomes a smooth curve that depends on boundary vertices only.
-            ``"EdgesAndCorners"``: Like ``EdgesOnly``, but vertices with one face stay in place.
+            ``"EdgesAndCorners"``: Like ``EdgesOnly``, but boundary vertices with one face stay in place.
             ``"Fixed"``: Boundary vertices stay in place, and new vertices on the boundary lie in the middle of their
                 edges.
         :param creasing: How the sharpness of creases decreases from level to level. Defaults to ``"Uniform"``.
@@ -4429,7 +4430,7 @@ class MeshOperations:
 
         - ``choice.Laplacian``: strong smoothing; shrinks.
         - ``choice.Taubin``: removing noise; nearly the same.
-        - ``choice.Implicit``: strong smoothing of dense meshes in one pass; shrinks.
+        - ``choice.Implicit``: strong smoothing of meshes with many small faces in one pass; shrinks.
         - ``choice.Denoise``: scans of objects with flat sides and sharp edges; nearly the same.
 
         If ``boundary`` is ``Fixed``, vertices on the boundary do not move, so that adjacent objects still fit together.

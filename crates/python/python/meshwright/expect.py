@@ -151,7 +151,7 @@ def DihedralAngle(
     """The dihedral angle, in degrees, of every selected edge between two faces: the angle between the face normals, 0
     if the faces are coplanar.
 
-    Edges beside a zero-area face are skipped. Fails if no selected edge has an angle.
+    Edges of a zero-area face are skipped. Fails if no selected edge has an angle.
 
     :param of: Which edges. Defaults to ``"All"``. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
     :param min: The smallest angle is at least this value.
@@ -310,9 +310,9 @@ def MeanMinAngle(
     min: float | Arg | Ron | None = None,
     max: float | Arg | Ron | None = None,
 ) -> Choice:
-    """The mean of the smallest corner angles of the selected faces, in degrees; 60 for equilateral triangles.
+    """The mean, over the selected faces, of the smallest corner angle of each face, in degrees.
 
-    Fails if the selection is empty.
+    It is 60 for equilateral triangles. Fails if the selection is empty.
 
     :param of: Which faces. Defaults to ``"All"``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
         ``meshwright.sel``.
@@ -396,9 +396,7 @@ def Point(
     line: int | Arg | Ron | None = None,
     tolerance: float | Arg | Ron | None = None,
 ) -> Choice:
-    """The position of one point of a polyline.
-
-    Nodes do not place polylines.
+    """The position of one point of a polyline, in object space, because nodes place only meshes.
 
     :param index: The index of the point in the polyline, counted from 0.
     :param is_: The expected position.
@@ -452,7 +450,7 @@ def SelfIntersections(
 ) -> Choice:
     """The number of faces that intersect another face of the same object.
 
-    Neighbors intersect only if they have more points in common than their common vertices and edges.
+    Neighboring faces intersect only if they have points in common beyond their shared vertices and edges.
 
     :param eq: Exactly this number.
     :param min: At least this number.
@@ -497,7 +495,7 @@ def Thickness(
     max: float | Arg | Ron | None = None,
 ) -> Choice:
     """The thickness of the solid at each selected vertex, in scene units, as ``measure(of="Thickness", ..)`` measures
-    it. Infinite where the surface is a sheet.
+    it. Infinite where the surface has no opposite side, as on an open sheet.
 
     Fails if the selection is empty.
 

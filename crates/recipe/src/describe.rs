@@ -179,7 +179,7 @@ fn range(schema: &Schema) -> String {
 /// Formats a number of a schema. Whole numbers have no decimal point.
 fn number(x: &serde_json::Number) -> String {
     let text = x.to_string();
-    text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
+    text.strip_suffix(".0").unwrap_or(&text).to_owned()
 }
 
 /// Returns the variants of an enumeration.

@@ -7,10 +7,13 @@
 //! reports each file with [`Files::has_read`]. If an operation requests a path but does not report that it read the
 //! file, the dependencies of the step are unknown, and the step is never cached.
 
+use std::fmt;
 use std::path::{Component, Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use store::{Disk, Store, StoreError};
+
+use crate::OpError;
 
 /// Why a path cannot be used.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -180,6 +183,18 @@ impl Files {
         Ok(self.output.join(relative))
     }
 
+    /// Returns the text of an error about output files, for a person. Paths of output files in the text are relative to
+    /// the output folder, as in the recipe, because during a run the output folder is a temporary one.
+    pub fn output_error(&self, error: impl fmt::Display) -> OpError {
+        // The path of the folder ends with a separator, unless it is empty.
+        let folder = self.output.join("").display().to_string();
+        let mut text = error.to_string();
+        if !folder.is_empty() {
+            text = text.replace(&folder, "");
+        }
+        OpError::File(text)
+    }
+
     fn fill(&self, path: &str) -> Result<String, FileError> {
         let mut filled = String::new();
         let mut rest = path;
@@ -238,6 +253,17 @@ mod tests {
             placeholders: vec![("model.stem".into(), "cow".into())],
             ..Files::default()
         }
+    }
+
+    #[test]
+    fn errors_name_output_files_as_in_the_recipe() {
+        let files = files();
+        let path = files.to_write("a/b.glb").unwrap();
+        let error = files.output_error(format!("cannot write {}: too large", path.display()));
+        assert_eq!(error.to_string(), "cannot write a/b.glb: too large");
+        let here = Files::default();
+        let error = here.output_error("cannot write a/b.glb");
+        assert_eq!(error.to_string(), "cannot write a/b.glb");
     }
 
     #[test]

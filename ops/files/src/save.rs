@@ -126,12 +126,16 @@ impl Operation for Save {
 
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
         cx.advance("write", 0, 1)?;
-        let failed = |error: &dyn std::fmt::Display| OpError::File(error.to_string());
-        let path = cx.files().to_write(&self.path).map_err(|e| failed(&e))?;
-        cx.files().make_folder_of(&path).map_err(|e| failed(&e))?;
+        let files = cx.files();
+        let path = files
+            .to_write(&self.path)
+            .map_err(|e| files.output_error(e))?;
+        files
+            .make_folder_of(&path)
+            .map_err(|e| files.output_error(e))?;
         let chosen = target_scene(scene, cx);
         let options = WriteOptions {
-            provenance: cx.files().provenance.clone(),
+            provenance: files.provenance.clone(),
             images: self.images,
             compression: self.compress,
             quantization: self.quantize,
@@ -139,8 +143,8 @@ impl Operation for Save {
             rows: self.rows,
             strict: false,
         };
-        let written =
-            mesh_io::write(&*cx.files().store, &path, &chosen, &options).map_err(|e| failed(&e))?;
+        let written = mesh_io::write(&*files.store, &path, &chosen, &options)
+            .map_err(|e| files.output_error(e))?;
         let mut report = Report::changed(chosen.objects().len());
         report
             .notes
@@ -208,6 +212,22 @@ mod tests {
         let path = folder.path().join("cube.obj");
         let back = mesh_io::read(&store::Disk, &path, &mesh_io::ReadOptions::default()).unwrap();
         assert_eq!(back.objects[0].as_mesh().unwrap().n_faces(), 6);
+    }
+
+    #[test]
+    fn an_error_names_the_file_as_in_the_recipe() {
+        let folder = tempfile::tempdir().unwrap();
+        let files = Files {
+            output: folder.path().into(),
+            ..Files::default()
+        };
+        let mut scene = Scene::new();
+        scene.insert(Object::mesh("cube", shapes::cube())).unwrap();
+        let mut cx = Context::new(&NoProgress, &files);
+        let error = save("a/cube.bez").apply(&mut scene, &mut cx).unwrap_err();
+        let text = error.to_string();
+        assert!(text.contains("a/cube.bez"), "{text}");
+        assert!(!text.contains(&*folder.path().to_string_lossy()), "{text}");
     }
 
     #[test]

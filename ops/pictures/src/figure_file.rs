@@ -41,16 +41,16 @@ pub(crate) fn write(
     scale: Count<1, 8>,
     cx: &Context,
 ) -> Result<(), OpError> {
-    let file_error = |error: &dyn std::fmt::Display| OpError::File(error.to_string());
-    let target = cx.files().to_write(path).map_err(|e| file_error(&e))?;
-    let stamp = cx.files().provenance.as_deref();
+    let files = cx.files();
+    let target = files.to_write(path).map_err(|e| files.output_error(e))?;
+    let stamp = files.provenance.as_deref();
     let bytes = match Format::of(&target) {
         Some(Format::Svg) => figure.finish(stamp).into_bytes(),
         Some(Format::Png) => png(figure, scale, stamp, cx.budget)?,
         None => return Err(OpError::Parameter(unknown_format(path))),
     };
-    let store = &cx.files().store;
-    store.write(&target, &bytes).map_err(|e| file_error(&e))
+    let written = files.store.write(&target, &bytes);
+    written.map_err(|e| files.output_error(e))
 }
 
 fn unknown_format(path: &str) -> String {

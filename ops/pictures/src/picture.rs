@@ -10,7 +10,6 @@ mod tests;
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::fmt::Display;
 use std::path::{Component, Path};
 
 use op::{
@@ -411,17 +410,15 @@ impl Operation for Picture {
     }
 
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
-        let file_error = |error: &dyn Display| OpError::File(error.to_string());
-        let path = cx
-            .files()
-            .to_write(&self.path)
-            .map_err(|e| file_error(&e))?;
+        let path = cx.files().to_write(&self.path);
+        let path = path.map_err(|e| cx.files().output_error(e))?;
         let (images, notes) = self.draw(&[(scene, "")], None, cx)?;
-        let stamp = cx.files().provenance.clone();
-        let bytes = self.encode(&images, stamp.as_deref(), cx.progress());
+        let files = cx.files();
+        let stamp = files.provenance.as_deref();
+        let bytes = self.encode(&images, stamp, cx.progress());
         let bytes = bytes.map_err(op_error)?;
-        let store = &cx.files().store;
-        store.write(&path, &bytes).map_err(|e| file_error(&e))?;
+        let written = files.store.write(&path, &bytes);
+        written.map_err(|e| files.output_error(e))?;
         Ok(Report {
             notes,
             ..Report::default()

@@ -16,7 +16,7 @@ use std::sync::Arc;
 use mesh::Domain;
 use op::prelude::*;
 use op::{Operation, PlannedAttribute, PlannedObject, check_name, named_object};
-use scene::{Graph, Object};
+use scene::{Graph, MeshLabel, Object};
 
 use crate::join::skin::{KeptSkin, LostSkin};
 
@@ -27,7 +27,8 @@ use crate::join::skin::{KeptSkin, LostSkin};
 /// scene; the other meshes are removed. If nodes place a part, the result contains a copy of the part for each node,
 /// with the transform of the node applied to its points. If there are skinned parts, and all skinned parts have the
 /// same skin and one node each, the result keeps this skin and one node. The parts without a skin then follow the first
-/// joint. Otherwise, no node places the result.
+/// joint. Otherwise, no node places the result. The names and default weights of morph targets are kept if they are the
+/// same for all parts with morph targets.
 ///
 /// If a part lacks an attribute that another part has, the elements of this part get the value zero, or -1 (no
 /// material) for material indices. Normals are dropped and reported as lost unless all parts have them. If an attribute
@@ -85,6 +86,10 @@ impl Operation for Join {
         }
         let joined = self.joined_plan(&parts);
         let kept = skin::planned(plan, &self.objects);
+        let morphed = self.objects.iter().zip(&parts);
+        let morphed = morphed.filter(|(_, (mesh, _))| mesh.n_morphs() > 0);
+        let morphed: Vec<&str> = morphed.map(|(name, _)| name.as_str()).collect();
+        let label = skin::shared_label(plan.graph(), &morphed);
         if kept.is_err() {
             plan.losses
                 .push(skin::lost_skin(&self.name, LostSkin::Different));
@@ -103,7 +108,7 @@ impl Operation for Join {
             geometry: PlannedGeometry::Mesh(joined),
             unplaced_nodes: 0,
         };
-        plan.edit_graph(|graph| self.join_nodes(graph, kept.ok().flatten().as_deref()));
+        plan.edit_graph(|graph| self.join_nodes(graph, kept.ok().flatten().as_deref(), label));
         problems
     }
 
@@ -122,7 +127,8 @@ impl Operation for Join {
         let parts: Vec<&Object> = self.objects.iter().map(part).collect::<Result<_, _>>()?;
         let kept = KeptSkin::of(scene, &parts);
         let skin = kept.as_ref().ok().and_then(Option::as_ref);
-        let placed = placed(scene, &parts, skin, cx)?;
+        let label = skin::shared_label(scene.graph(), &skin::morphed(&parts));
+        let placed = placed(scene, &parts, skin, label.is_some(), cx)?;
         let (joined, mut report) = match &placed {
             Some(placed) => self.joined(&placed.iter().collect::<Vec<_>>(), cx)?,
             None => self.joined(&parts, cx)?,
@@ -131,7 +137,14 @@ impl Operation for Join {
             report = report.count("instances whose placements were applied", placed.len());
         }
         let mut joined = joined;
-        skin::report(scene, &parts, &kept, &mut joined, &mut report);
+        skin::report(
+            scene,
+            &parts,
+            &kept,
+            label.as_ref(),
+            &mut joined,
+            &mut report,
+        );
 
         // After all checks, the result replaces the first part, and the other parts are removed.
         let (first, others) = self.objects.split_first().expect("at least one");
@@ -139,7 +152,11 @@ impl Operation for Join {
         (*geometry, *materials) = (joined.geometry, joined.materials);
         if !scene.graph().is_empty() {
             let kept = kept.ok().flatten();
-            self.join_nodes(scene.graph_mut(), kept.as_ref().map(|kept| &*kept.part));
+            self.join_nodes(
+                scene.graph_mut(),
+                kept.as_ref().map(|kept| &*kept.part),
+                label,
+            );
         }
         for name in others {
             scene.remove(name);
@@ -165,7 +182,8 @@ impl Join {
     }
 
     /// Replaces the nodes of the parts by the node of the part whose skin is kept. Without a skin, the result has no node.
-    fn join_nodes(&self, graph: &mut Graph, kept: Option<&str>) {
+    /// `label` has the names and default weights of the morph targets, if the parts share them.
+    fn join_nodes(&self, graph: &mut Graph, kept: Option<&str>, label: Option<MeshLabel>) {
         let first = &self.objects[0];
         if kept != Some(first) {
             graph.remove_object(first);
@@ -177,6 +195,16 @@ impl Join {
             graph.remove_object(name);
         }
         graph.rename_object(first, &self.name);
+        if let Some(shared) = label.filter(MeshLabel::is_deformed) {
+            let own = graph.label(&self.name).cloned().unwrap_or_default();
+            let label = MeshLabel {
+                name: own.name.or_else(|| Some(self.name.clone())),
+                extras: shared.extras.or(own.extras),
+                weights: shared.weights,
+                weight_sets: own.weight_sets,
+            };
+            graph.set_label(&*self.name, label);
+        }
     }
 
     /// Joins parts. All parts are meshes.
@@ -250,11 +278,13 @@ impl Join {
 }
 
 /// Returns all instances of the parts, under the names of the parts, or `None` if no node places a part. The points are
-/// in scene space or, if a skin is kept, in the space in which the skin binds points.
+/// in scene space or, if a skin is kept, in the space in which the skin binds points. If `keeps_morphs`, the morph targets
+/// are not applied to the points, because the result has their default weights.
 fn placed(
     scene: &Scene,
     parts: &[&Object],
     kept: Option<&KeptSkin>,
+    keeps_morphs: bool,
     cx: &Context,
 ) -> Result<Option<Vec<Object>>, OpError> {
     let is_part = |name: &str| parts.iter().any(|part| part.name == name);
@@ -262,7 +292,10 @@ fn placed(
     if !nodes.filter_map(|node| node.object.as_deref()).any(is_part) {
         return Ok(None);
     }
-    let instances = scene.instances();
+    let mut instances = scene.instances();
+    for instance in instances.iter_mut().filter(|_| keeps_morphs) {
+        instance.pose.weights.clear();
+    }
     let of_part = |part: &&Object| {
         let name = part.name.clone();
         instances

@@ -188,6 +188,55 @@ fn a_part_without_a_skin_stays_where_it_is_and_follows_the_first_joint() {
     }
 }
 
+/// Names and default weights of morph targets are kept if all parts share them, with a skin and without one.
+#[test]
+fn a_morphed_object_joined_with_its_copy_keeps_names_and_weights_of_targets() {
+    for has_skin in [true, false] {
+        let mut scene = scene();
+        if !has_skin {
+            // Only the nodes with a skin place the body.
+            scene.graph_mut().remove_object("body");
+        }
+        let label = MeshLabel {
+            extras: Some(r#"{"targetNames":["wide"]}"#.to_owned()),
+            weights: vec![0.5],
+            ..MeshLabel::default()
+        };
+        scene.graph_mut().set_label("body", label.clone());
+        run::<Copy>(r#"(from: "body", to: "twin")"#, &mut scene);
+        let expected = [points(&scene, "body"), points(&scene, "twin")].concat();
+        let mut other = scene.clone();
+        let report = run::<Join>(r#"(objects: ["body", "twin"], name: "all")"#, &mut scene);
+        assert!(
+            report
+                .losses
+                .iter()
+                .all(|loss| loss.name != "morph targets"),
+            "{:?}",
+            report.losses
+        );
+        let kept = scene.graph().label("all").unwrap();
+        assert_eq!(
+            (&kept.extras, &kept.weights),
+            (&label.extras, &label.weights)
+        );
+        assert_near(&points(&scene, "all"), &expected);
+        // Other weights are applied to the points.
+        let label = MeshLabel {
+            weights: vec![0.25],
+            ..label
+        };
+        other.graph_mut().set_label("twin", label);
+        let report = run::<Join>(r#"(objects: ["body", "twin"], name: "all")"#, &mut other);
+        assert!(
+            report
+                .losses
+                .iter()
+                .any(|loss| loss.name == "morph targets")
+        );
+    }
+}
+
 #[test]
 fn parts_with_different_skins_are_joined_in_their_poses() {
     let mut scene = scene();

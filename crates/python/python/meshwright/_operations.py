@@ -580,7 +580,8 @@ class SceneOperations:
         the scene; the other meshes are removed. If nodes place a part, the result contains a copy of the part for each
         node, with the transform of the node applied to its points. If there are skinned parts, and all skinned parts
         have the same skin and one node each, the result keeps this skin and one node. The parts without a skin then
-        follow the first joint. Otherwise, no node places the result.
+        follow the first joint. Otherwise, no node places the result. The names and default weights of morph targets are
+        kept if they are the same for all parts with morph targets.
 
         If a part lacks an attribute that another part has, the elements of this part get the value zero, or -1 (no
         material) for material indices. Normals are dropped and reported as lost unless all parts have them. If an

@@ -7,9 +7,9 @@
 use std::sync::Arc;
 
 use glam::DAffine3;
-use mesh::{Attributes, Column, Domain, Mesh, Rule, Value, joint_name};
+use mesh::{Column, Domain, Mesh, Rule, Value, joint_name};
 use op::{Loss, Plan, Report};
-use scene::{Geometry, Instance, Object, Scene, transformed};
+use scene::{Geometry, Graph, Instance, MeshLabel, Object, Scene, transformed};
 
 /// Why a joined mesh loses the skins of its parts.
 #[derive(Clone, Copy, Debug)]
@@ -138,17 +138,47 @@ pub(super) fn lost_skin(joined: &str, why: LostSkin) -> Loss {
     }
 }
 
+/// Returns the names of the parts with morph targets.
+pub(super) fn morphed<'a>(parts: &[&'a Object]) -> Vec<&'a str> {
+    let has_morphs = |part: &&&Object| {
+        let mesh = part.as_mesh();
+        mesh.is_some_and(|mesh| !mesh.attributes().morphs().is_empty())
+    };
+    let morphed = parts.iter().filter(has_morphs);
+    morphed.map(|part| part.name.as_str()).collect()
+}
+
+/// Returns the names and default weights of morph targets that all parts with morph targets share; `None` if they
+/// differ, or if a node of a part has other weights. `morphed` are the names of these parts.
+pub(super) fn shared_label(graph: &Graph, morphed: &[&str]) -> Option<MeshLabel> {
+    let mut shared = None;
+    for part in morphed {
+        let label = graph.label(part).cloned().unwrap_or_default();
+        let label = MeshLabel {
+            extras: label.extras,
+            weights: label.weights,
+            ..MeshLabel::default()
+        };
+        let nodes = graph.nodes_of(part).into_iter();
+        let mut weights = nodes.map(|node| &graph.nodes()[node].weights);
+        let is_default = weights.all(|own| own.is_empty() || *own == label.weights);
+        if !is_default || shared.as_ref().is_some_and(|shared| *shared != label) {
+            return None;
+        }
+        shared = Some(label);
+    }
+    Some(shared.unwrap_or_default())
+}
+
 /// Reports the changes of skins and morph targets. Without a skin, the joined mesh loses the weights of joints.
 pub(super) fn report(
     scene: &Scene,
     parts: &[&Object],
     kept: &Result<Option<KeptSkin>, LostSkin>,
+    label: Option<&MeshLabel>,
     joined: &mut Object,
     report: &mut Report,
 ) {
-    let attributes = |object: &Object| -> Attributes {
-        (object.as_mesh()).map_or_else(Attributes::default, |mesh| mesh.attributes().clone())
-    };
     let graph = scene.graph();
     let is_skinned = |part: &&&Object| {
         let mut nodes = graph.nodes().iter();
@@ -172,21 +202,16 @@ pub(super) fn report(
     } else if let Err(why) = kept {
         report.losses.push(lost_skin(&joined.name, *why));
     }
-    let n_morphed = parts
-        .iter()
-        .filter(|part| !attributes(part).morphs().is_empty())
-        .count();
-    let keeps_label = skin.is_some_and(|kept| {
-        let part = parts.iter().find(|part| part.name == kept.part);
-        n_morphed == 1 && part.is_some_and(|part| !attributes(part).morphs().is_empty())
-    });
-    if n_morphed > 0 && !keeps_label {
+    let morphed = morphed(parts);
+    let keeps_label = label.is_some()
+        || skin.is_some_and(|kept| matches!(morphed[..], [only] if only == kept.part));
+    if !keeps_label {
         report.losses.push(Loss {
             object: joined.name.clone(),
             name: "morph targets".to_owned(),
             what: "the names and default weights of morph targets".to_owned(),
-            reason: "they are kept only if the result has a skin and only the first skinned part has morph \
-                     targets"
+            reason: "they are kept only if they are the same for all parts with morph targets, or if only the part \
+                     whose skin is kept has morph targets"
                 .to_owned(),
         });
     }

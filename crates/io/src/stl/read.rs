@@ -84,9 +84,10 @@ fn kind(bytes: &[u8]) -> Result<Kind, Fault> {
 fn polygons(facets: Facets, notes: &mut Notes) -> Polygons {
     let n_corners = facets.corners.len();
     let [_, tilted, turned] = facets.sides;
-    let what = "facet normals left out because they point away from the front of their facets";
+    let what = "facet normals recomputed from the corners because they point away from the front of the facet";
     notes.changed("normals-turned", turned, None, what);
-    let what = "facet normals left out because they are not perpendicular to their facets";
+    let what =
+        "facet normals recomputed from the corners because they are not perpendicular to the facet";
     notes.changed("normals-tilted", tilted, None, what);
     notes.left_out("facet-attributes", facets.colored, None, COLORED);
     let (positions, corners) = weld(facets.corners);

@@ -169,11 +169,11 @@ fn normals_that_disagree_are_noted() {
     let (_, notes) = found(binary(&[turned, turned, tilted, none, broken, flat, FLAT]));
     assert_eq!(
         notes[0],
-        "2 facet normals left out because they point away from the front of their facets"
+        "2 facet normals recomputed from the corners because they point away from the front of the facet"
     );
     assert_eq!(
         notes[1],
-        "1 facet normals left out because they are not perpendicular to their facets"
+        "1 facet normals recomputed from the corners because they are not perpendicular to the facet"
     );
 }
 

@@ -15,6 +15,7 @@
 //! | any other scalar of `vertex` or `face` | an attribute with the same name, of integers if they fit in 32 bits |
 //! | `comment meshwright ..` | describes the attribute that some properties store; see `attribute_comments` |
 //! | other lists, other elements (`edge`, `range_grid` and so on) | left out, with a note |
+//! | `comment TextureFile ..` | left out, with a note |
 //! | other comments, `obj_info` | not kept |
 //!
 //! When the mesh is edited, the attribute of any other scalar is interpolated if it is a floating-point property of

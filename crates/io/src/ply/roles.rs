@@ -55,7 +55,7 @@ impl Roles {
         element == self.vertex || Some(element) == faces
     }
 
-    /// Adds notes about the elements that do not become a part of the mesh.
+    /// Adds notes about the elements and texture files that do not become a part of the mesh.
     pub(super) fn note_unused(&self, header: &Header, notes: &mut Notes) {
         for (place, element) in header.elements.iter().enumerate() {
             if !self.uses(place) {
@@ -63,6 +63,10 @@ impl Roles {
                 notes.left_out("elements", element.rows, element.place.line, what);
             }
         }
+        let comments = header.comments.iter();
+        let textures = comments.filter(|comment| comment.starts_with("TextureFile "));
+        let what = "texture files of comments `TextureFile` left out";
+        notes.left_out("textures", textures.count(), None, what);
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! node of the scene        name, placement, children, extras, ...: the same as without quantization
-//!  `- grid node             mesh, translation, scale
+//!  `- grid node             the same name, mesh, translation, scale
 //! ```
 //!
 //! The positions of an object are rounded to points of a grid. An additional node, the grid node, has the mesh and maps
@@ -265,8 +265,9 @@ impl<'a> Quantizer<'a> {
                 nodes[i]["scale"] = scale;
                 continue;
             }
+            // Readers name the object after the grid node, because it is the node with the mesh.
             let child = json!({
-                "mesh": nodes[i]["mesh"].take(), "translation": translation, "scale": scale,
+                "name": nodes[i]["name"], "mesh": nodes[i]["mesh"].take(), "translation": translation, "scale": scale,
             });
             let index = nodes.len();
             if let Value::Array(children) = &mut nodes[i]["children"] {

@@ -312,8 +312,14 @@ fn nodes_of_quantized_scenes_keep_their_members_and_places() {
     }
     for grid in &nodes[5..] {
         assert!(!grid["mesh"].is_null());
+        assert_eq!(grid["name"], json!("a node"));
         assert_eq!(grid["scale"][0], grid["scale"][2]);
     }
+    let names = |folder| -> Vec<String> {
+        let objects = read_back(folder, "a.glb", Placements::Keep).objects;
+        objects.into_iter().map(|object| object.name).collect()
+    };
+    assert_eq!(names(&folder), names(&plain_folder));
 }
 
 #[test]

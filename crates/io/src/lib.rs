@@ -131,9 +131,9 @@ pub struct ReadOptions {
     pub placements: Placements,
     /// Whether reading fails if anything in the file would be left out.
     pub strict: bool,
-    /// Whether the copies of split vertices are marked. If the mesh is then written to an `.obj`, `.ply` or `.off`
-    /// file, the copies are merged, so that the file has the same vertices as the file that was read. This option is
-    /// for conversions without edits.
+    /// Whether the copies of split vertices are marked. If the mesh is then written to an `.obj`, `.ply`, `.off`,
+    /// `.gltf` or `.glb` file, the copies are merged, so that the file has the same vertices as the file that was read.
+    /// This option is for conversions without edits.
     pub keep_vertices: bool,
     /// The memory budget in bytes for content whose size does not depend on the size of the file: all images together,
     /// and the decompressed content of a `.gz` file. Defaults to 4 GiB.
@@ -522,7 +522,10 @@ fn write_placed(
 /// Whether the file can store a mesh that is not manifold, so that [`ReadOptions::keep_vertices`] has an effect.
 pub fn keeps_vertices(path: &Path) -> bool {
     let format = Format::from_path(path);
-    matches!(format, Some(Format::Obj | Format::Ply | Format::Off))
+    matches!(
+        format,
+        Some(Format::Obj | Format::Ply | Format::Off | Format::Gltf | Format::Glb)
+    )
 }
 
 fn fail_if_lost(path: &Path, options: &WriteOptions, losses: &[Loss]) -> Result<(), WriteError> {

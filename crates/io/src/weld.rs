@@ -13,6 +13,7 @@ use mesh::{Attributes, Domain, Mesh, Values, VertexId};
 use rayon::prelude::*;
 
 use crate::clean::gather;
+use crate::writing::FileVertices;
 use mesh::parallel;
 
 /// The number of positions that are hashed and indexed at a time.
@@ -35,9 +36,12 @@ pub(crate) fn n_merged_as(mesh: &Mesh, round: impl Fn(DVec3) -> DVec3 + Sync) ->
     used.len() - weld(places).0.len()
 }
 
+/// Returns the vertices with faces, without the copies of split vertices.
 fn vertices_with_faces(mesh: &Mesh) -> Vec<usize> {
+    let file = FileVertices::of(mesh);
     parallel::filter(mesh.n_vertices(), |v| {
-        mesh.vertex_half_edge(VertexId::new(v)).is_some()
+        let v = VertexId::new(v);
+        mesh.vertex_half_edge(v).is_some() && !file.is_copy(v)
     })
 }
 

@@ -107,6 +107,8 @@ pub(crate) struct FileVertices {
     /// The vertices to write, and for each vertex of the mesh, the index with which it is written. `None` if the mesh
     /// has no copies.
     originals: Option<(Vec<u32>, Vec<u32>)>,
+    /// For each copy, the index with which it is written, and the copy. Sorted.
+    copies: Vec<(u32, u32)>,
     n: usize,
 }
 
@@ -115,23 +117,53 @@ impl FileVertices {
         let n = mesh.n_vertices();
         let column = mesh.attributes().column(Domain::Vertex, COPY_DISTANCE);
         let Some(Values::Int(distances)) = column.map(|column| &column.values) else {
-            return Self { originals: None, n };
+            return Self {
+                originals: None,
+                copies: Vec::new(),
+                n,
+            };
         };
         let mut written = Vec::new();
         let mut numbers: Vec<u32> = Vec::with_capacity(n);
+        let mut copies = Vec::new();
         for (v, &distance) in (0_u32..).zip(distances) {
             let original = v.checked_sub(distance.unsigned_abs());
             if let Some(original) = original.filter(|_| distance > 0) {
-                numbers.push(numbers[original as usize]);
+                let number = numbers[original as usize];
+                numbers.push(number);
+                copies.push((number, v));
             } else {
                 numbers.push(u32::try_from(written.len()).unwrap_or(u32::MAX));
                 written.push(v);
             }
         }
+        copies.sort_unstable();
         Self {
             n: written.len(),
             originals: Some((written, numbers)),
+            copies,
         }
+    }
+
+    /// Whether the mesh has copies of split vertices.
+    pub(crate) fn has_copies(&self) -> bool {
+        !self.copies.is_empty()
+    }
+
+    /// Returns the vertices of the mesh that are written with index `i`: the original, then its copies.
+    pub(crate) fn all(&self, i: usize) -> impl Iterator<Item = VertexId> {
+        let start = self.copies.partition_point(|(k, _)| (*k as usize) < i);
+        let copies = self.copies[start..].iter();
+        let copies = copies.take_while(move |(k, _)| *k as usize == i);
+        let copies = copies.map(|(_, v)| *v as usize);
+        std::iter::once(self.vertex(i))
+            .chain(copies)
+            .map(VertexId::new)
+    }
+
+    /// Whether a vertex of the mesh is a copy of another vertex.
+    pub(crate) fn is_copy(&self, v: VertexId) -> bool {
+        self.has_copies() && self.vertex(self.number(v)) != v.index()
     }
 
     /// The number of vertices to write.

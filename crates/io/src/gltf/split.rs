@@ -7,6 +7,7 @@ use mesh::{Domain, HalfEdgeId, Mesh, VertexId};
 
 use super::streams::Stream;
 use crate::loss::Losses;
+use crate::writing::FileVertices;
 use mesh::parallel::{self, BLOCK};
 
 /// The maximum number of comparisons for a corner. A corner is compared with the other corners around its vertex,
@@ -86,12 +87,15 @@ pub(super) fn note_changed(stream: &Stream, mesh: &Mesh, split: &Split, losses: 
     losses.add(stream.domain, &stream.column.name, changed, stream.change());
 }
 
-/// Splits the vertices of a dense mesh. Isolated vertices are left out.
+/// Splits the vertices of a dense mesh. Isolated vertices are left out. The copies of a vertex that the reader made are
+/// merged again, unless their values differ.
 pub(super) fn split(mesh: &Mesh, streams: &[Stream]) -> Split {
-    let is_seam = |stream: &&Stream| stream.domain == Domain::Corner;
-    let seams: Vec<&Stream> = streams.iter().filter(is_seam).collect();
-    let n = mesh.n_vertices();
-    if seams.is_empty() && mesh.n_isolated_vertices() == 0 {
+    let file = FileVertices::of(mesh);
+    // Without copies, the values of the vertex attributes are the same at all corners of a vertex.
+    let can_differ = |stream: &&Stream| stream.domain == Domain::Corner || file.has_copies();
+    let seams: Vec<&Stream> = streams.iter().filter(can_differ).collect();
+    let n = file.len();
+    if seams.is_empty() && mesh.n_isolated_vertices() == 0 && !file.has_copies() {
         return Split { n, seams: None };
     }
     let vertex_of: Vec<AtomicU32> = mesh::zeroed(mesh.n_half_edges());
@@ -100,14 +104,13 @@ pub(super) fn split(mesh: &Mesh, streams: &[Stream]) -> Split {
     let blocks = parallel::blocks(n, |vertices| {
         let mut corners = Vec::with_capacity(BLOCK);
         let (mut values, mut own) = (Vec::new(), Vec::new());
-        for v in vertices.map(VertexId::new) {
+        for i in vertices {
             let first = corners.len();
             values.clear();
-            for h in mesh
-                .vertex_half_edges(v)
-                .filter(|&h| mesh.face(h).is_some())
-            {
+            let around = file.all(i).flat_map(|v| mesh.vertex_half_edges(v));
+            for h in around.filter(|&h| mesh.face(h).is_some()) {
                 own.clear();
+                let v = mesh.origin(h);
                 own.extend(seams.iter().map(|stream| stream.at(mesh, v, h).0));
                 let count = corners.len() - first;
                 let known = (count.saturating_sub(MAX_COMPARED)..count)
@@ -129,7 +132,7 @@ pub(super) fn split(mesh: &Mesh, streams: &[Stream]) -> Split {
         corners.extend(block);
     }
     let vertex_of = parallel::collect(mesh.n_half_edges(), |h| {
-        let block = mesh.origin(HalfEdgeId::new(h)).index() / BLOCK;
+        let block = file.number(mesh.origin(HalfEdgeId::new(h))) / BLOCK;
         vertex_of[h].load(Relaxed).saturating_add(starts[block])
     });
     Split {

@@ -7,6 +7,7 @@ use mesh::{Column, Domain, FaceId, HalfEdgeId, Mesh, Values, VertexId, joint_of,
 
 use super::names::{custom_semantic, uv_set};
 use crate::loss::Losses;
+use crate::writing::is_mark;
 
 /// An attribute of a mesh in the form that glTF requires. Numbers have 32 bits, normals have length 1, the v coordinate
 /// points down, and colors are from 0 to 1.
@@ -59,6 +60,7 @@ pub(super) fn streams<'a>(mesh: &'a Mesh, losses: &mut Losses) -> Vec<Stream<'a>
     losses.add_columns(mesh, "glTF", |domain, column| {
         let is_material = domain == Domain::Face && column.name == mesh::MATERIAL.name;
         is_deformer(domain, column)
+            || is_mark(domain, column)
             || is_material && matches!(column.values, Values::Int(_))
             || streams
                 .iter()

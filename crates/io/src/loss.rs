@@ -71,7 +71,7 @@ pub(crate) fn n_values(mesh: &Mesh, domain: Domain) -> usize {
     }
 }
 
-/// Collects the losses of one object.
+/// Collects the losses of one object, or of the whole scene if the name of the object is empty.
 #[derive(Debug)]
 pub(crate) struct Losses<'a> {
     object: &'a str,
@@ -81,6 +81,11 @@ pub(crate) struct Losses<'a> {
 impl<'a> Losses<'a> {
     pub(crate) fn of(object: &'a str, list: &'a mut Vec<Loss>) -> Self {
         Self { object, list }
+    }
+
+    /// Returns a collector for the losses of another object, or of the whole scene if the name is empty.
+    pub(crate) fn about<'b>(&'b mut self, object: &'b str) -> Losses<'b> {
+        Losses::of(object, self.list)
     }
 
     /// Adds a loss unless `count` is 0.

@@ -97,11 +97,12 @@ impl fmt::Display for Note {
 }
 
 /// The plural nouns at the beginning of notes.
-const NOUNS: [&str; 57] = [
+const NOUNS: [&str; 62] = [
     "animations",
     "attributes",
     "bytes",
     "cameras",
+    "channels",
     "colors",
     "coordinates",
     "corners",
@@ -125,11 +126,13 @@ const NOUNS: [&str; 57] = [
     "lists",
     "masks",
     "materials",
+    "members",
     "meshes",
     "names",
     "nodes",
     "normals",
     "notes",
+    "numbers",
     "objects",
     "parameters",
     "parts",
@@ -138,7 +141,9 @@ const NOUNS: [&str; 57] = [
     "polylines",
     "primitives",
     "profiles",
+    "references",
     "rows",
+    "samplers",
     "scenes",
     "sets",
     "skews",
@@ -372,9 +377,11 @@ mod tests {
             ),
             ("lines and points left out", "line or point left out"),
             ("physics elements left out", "physics element left out"),
+            ("animation channels left out", "animation channel left out"),
+            ("members `extras` left out", "member `extras` left out"),
             (
-                "facet normals left out because they point away",
-                "facet normal left out because it points away",
+                "facet normals recomputed because they point away",
+                "facet normal recomputed because it points away",
             ),
             (
                 "uses of the extension \"a uses\" left out",

@@ -11,7 +11,7 @@ use mesh::{Column, Connectivity, Defect, Domain, Mesh, Values};
 use crate::digest::{FILTERS, FORM, GRAPH, MORE, RULES, TEXTURES, WRAPS};
 use crate::{
     AlphaMode, DuplicateName, Geometry, Image, Material, Object, Sampler, Scene, Texture,
-    TextureTransform,
+    TextureNames, TextureTransform,
 };
 
 /// A source of the long arrays that [`Scene::encode_with_separate_arrays`] separated from the canonical form.
@@ -266,6 +266,10 @@ impl<'a> Decoder<'a> {
                 _ => return Err(DecodeError::Expected("a numeric property of a material")),
             }
         }
+        if self.rest.starts_with(&MORE.to_le_bytes()) {
+            self.len()?;
+            m.extras = Some(self.text()?.to_owned());
+        }
         Ok(m)
     }
 
@@ -295,6 +299,15 @@ impl<'a> Decoder<'a> {
             mipmap: filter(mipmap)?,
         };
         let [u, v, rotation, x, y] = self.numbers()?;
+        let mut names = TextureNames::default();
+        if self.rest.starts_with(&MORE.to_le_bytes()) {
+            self.len()?;
+            names = TextureNames {
+                texture: self.optional_text()?,
+                image: self.optional_text()?,
+                sampler: self.optional_text()?,
+            };
+        }
         Ok(Texture {
             image,
             uv_set,
@@ -304,6 +317,7 @@ impl<'a> Decoder<'a> {
                 rotation,
                 scale: [x, y],
             },
+            names,
         })
     }
 

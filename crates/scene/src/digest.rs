@@ -9,7 +9,8 @@
 //!
 //! A material is written as its name, base color, metalness, roughness and the path of its base color texture. If other
 //! properties of the material differ from their defaults, they follow a marker ([`MORE`]), each with its name. A
-//! material without such properties has the same form as in the first version of the canonical form.
+//! material without such properties has the same form as in the first version of the canonical form. Extras of a
+//! material and names of a texture follow another marker, also only if they are present.
 
 use std::fmt;
 
@@ -250,7 +251,7 @@ impl Encoder<'_> {
         let numbers: Vec<_> = numbers
             .filter(|(actual, default)| actual != default)
             .collect();
-        if textures.is_empty() && numbers.is_empty() {
+        if textures.is_empty() && numbers.is_empty() && m.extras.is_none() {
             return;
         }
         (self.sink)(&MORE.to_le_bytes(), false);
@@ -263,6 +264,10 @@ impl Encoder<'_> {
         for ((name, values), _) in numbers {
             self.text(name);
             self.array(&values, 8);
+        }
+        if let Some(extras) = &m.extras {
+            (self.sink)(&MORE.to_le_bytes(), false);
+            self.text(extras);
         }
     }
 
@@ -298,6 +303,13 @@ impl Encoder<'_> {
             scale: [x, y],
         } = texture.transform;
         self.array(&[u, v, rotation, x, y], 8);
+        let names = &texture.names;
+        if names.iter().next().is_some() {
+            (self.sink)(&MORE.to_le_bytes(), false);
+            for name in [&names.texture, &names.image, &names.sampler] {
+                self.optional_text(name.as_deref());
+            }
+        }
     }
 
     fn mesh(&mut self, mesh: &Mesh) {
@@ -447,6 +459,8 @@ mod tests {
             digest_with(|m| m.alpha = AlphaMode::Blend),
             digest_with(|m| m.double_sided = true),
             digest_with(|m| m.unlit = true),
+            digest_with(|m| m.extras = Some("1".into())),
+            digest_with(|m| m.extras = Some("2".into())),
             texture_digest(|t| t.uv_set = 1),
             texture_digest(|t| t.sampler.wrap[0] = Wrap::Clamp),
             texture_digest(|t| t.sampler.wrap[1] = Wrap::Clamp),
@@ -456,6 +470,9 @@ mod tests {
             texture_digest(|t| t.transform.offset[1] = 0.5),
             texture_digest(|t| t.transform.rotation = 0.5),
             texture_digest(|t| t.transform.scale[0] = 0.5),
+            texture_digest(|t| t.names.texture = Some("a".into())),
+            texture_digest(|t| t.names.image = Some("a".into())),
+            texture_digest(|t| t.names.sampler = Some("a".into())),
         ];
         let unique: std::collections::BTreeSet<_> = digests.iter().collect();
         assert_eq!(unique.len(), digests.len());

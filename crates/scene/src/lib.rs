@@ -26,7 +26,9 @@ pub use graph::{
     AnimatedProperty, Animation, AnimationSampler, Channel, Graph, Interpolation, MeshLabel, Node,
     Placement, Skin,
 };
-pub use material::{AlphaMode, Filter, Image, Material, Sampler, Texture, TextureTransform, Wrap};
+pub use material::{
+    AlphaMode, Filter, Image, Material, Sampler, Texture, TextureNames, TextureTransform, Wrap,
+};
 pub use placed::{Instance, holds_normals, transform_tangent, transform_tangents, transformed};
 pub use pose::Pose;
 

@@ -38,6 +38,8 @@ pub struct Material {
     pub double_sided: bool,
     /// Whether the base color is drawn without lighting.
     pub unlit: bool,
+    /// Data of other programs, as JSON.
+    pub extras: Option<String>,
 }
 
 impl Material {
@@ -84,6 +86,7 @@ impl Material {
             alpha: AlphaMode::Opaque,
             double_sided: false,
             unlit: false,
+            extras: None,
         }
     }
 }
@@ -111,16 +114,38 @@ pub struct Texture {
     pub sampler: Sampler,
     /// The transform of the texture coordinates before the lookup.
     pub transform: TextureTransform,
+    /// The names in the file.
+    pub names: TextureNames,
+}
+
+/// The names that a glTF file gives to the parts of a texture.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct TextureNames {
+    /// The name of the texture.
+    pub texture: Option<String>,
+    /// The name of the image.
+    pub image: Option<String>,
+    /// The name of the sampler.
+    pub sampler: Option<String>,
+}
+
+impl TextureNames {
+    /// Returns the names that are present.
+    pub fn iter(&self) -> impl Iterator<Item = &str> {
+        let names = [&self.texture, &self.image, &self.sampler];
+        names.into_iter().flatten().map(String::as_str)
+    }
 }
 
 impl Texture {
-    /// Creates a texture with the first set of texture coordinates, the default sampler and no transform.
+    /// Creates a texture with the first set of texture coordinates, the default sampler, no transform and no names.
     pub fn new(image: Image) -> Self {
         Self {
             image,
             uv_set: 0,
             sampler: Sampler::default(),
             transform: TextureTransform::default(),
+            names: TextureNames::default(),
         }
     }
 

@@ -179,11 +179,8 @@ pub(super) fn morphs(
         return Ok(Vec::new());
     }
     let mut columns = Vec::new();
-    let (mut normals, mut tangents) = (0, 0);
     for t in 0..deformers.targets {
         let target = targets.get(t);
-        normals += usize::from(target.is_some_and(|target| target.normals.is_some()));
-        tangents += usize::from(target.is_some_and(|target| target.tangents.is_some()));
         let deltas = match target.and_then(|target| target.positions.as_ref()) {
             None => mesh::zeroed(n),
             Some(accessor) => {
@@ -209,12 +206,6 @@ pub(super) fn morphs(
     if targets.len() < deformers.targets {
         let what = || format!("morph targets that {here} does not have: set to 0");
         repairs.change(deformers.targets - targets.len(), what);
-    }
-    for (count, what) in [(normals, "normals"), (tangents, "tangents")] {
-        if count > 0 {
-            let what = format!("{what} of morph targets left out");
-            *repairs.left_out.entry(what).or_default() += count;
-        }
     }
     Ok(columns)
 }

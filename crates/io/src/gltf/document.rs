@@ -10,6 +10,7 @@ use serde_json::{Map, Value};
 
 use super::budget::Budget;
 use super::draco::{self, DRACO};
+use super::left_out::note_left_out;
 use super::meshopt::{self, Compressed, MESHOPT};
 use super::node_json::NodeJson;
 use super::rig;
@@ -105,7 +106,7 @@ impl Document {
             images: pieces(json, "images", budget)?,
         };
         rig::check(&document)?;
-        notes.left_out("extras", left_out_extras(json), None, "extras left out");
+        note_left_out(json, &document, notes);
         Ok(document)
     }
 }
@@ -228,40 +229,6 @@ fn kept(json: &Value) -> BTreeMap<String, String> {
     parts
         .map(|(name, members)| (name.to_owned(), Value::Object(members).to_string()))
         .collect()
-}
-
-/// Counts the `extras` that are left out although the part they belong to is read, such as the `extras` of materials
-/// and accessors.
-fn left_out_extras(json: &Value) -> usize {
-    let members = json.as_object().into_iter().flatten();
-    let of_member = |(key, value): (&String, &Value)| match (key.as_str(), value) {
-        (
-            "asset" | "scenes" | "nodes" | "cameras" | "skins" | "animations" | "extensions"
-            | "extras",
-            _,
-        ) => 0,
-        ("meshes", Value::Array(meshes)) => {
-            let primitives = meshes.iter().filter_map(|mesh| mesh.get("primitives"));
-            primitives.map(count_extras).sum()
-        }
-        (_, value) => count_extras(value),
-    };
-    members.map(of_member).sum()
-}
-
-/// Counts the members `extras`. The recursion is limited by the nesting limit of the JSON parser.
-fn count_extras(json: &Value) -> usize {
-    match json {
-        Value::Array(values) => values.iter().map(count_extras).sum(),
-        Value::Object(members) => {
-            let of_member = |(key, value): (&String, &Value)| match key.as_str() {
-                "extras" => usize::from(!value.is_null()),
-                _ => count_extras(value),
-            };
-            members.iter().map(of_member).sum()
-        }
-        _ => 0,
-    }
 }
 
 /// Returns the default weights of meshes with 64 bits, as in the text.

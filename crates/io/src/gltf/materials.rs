@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use scene::{AlphaMode, Image, Material, Sampler, Texture, TextureTransform};
+use scene::{AlphaMode, Image, Material, Sampler, Texture, TextureNames, TextureTransform};
 use serde::Deserialize;
 use serde_json::Value;
 
@@ -92,6 +92,7 @@ impl<'a> Materials<'a> {
         };
         to.double_sided = from.double_sided.unwrap_or_default();
         to.unlit = from.extensions.contains_key(UNLIT);
+        to.extras = from.extras.as_ref().map(ToString::to_string);
         self.known.insert(i, to.clone());
         Ok(to)
     }
@@ -101,11 +102,16 @@ impl<'a> Materials<'a> {
         let pointer = format_args!("{here}/index");
         let texture = get(&document.textures, info.index, pointer, "texture")?;
         let at = format!("/textures/{}", info.index);
+        let mut names = TextureNames {
+            texture: texture.name.clone(),
+            ..TextureNames::default()
+        };
         let image = match texture.source {
             None => None,
             Some(source) => {
                 let pointer = format_args!("{at}/source");
                 let image = get(&document.images, source, pointer, "image")?;
+                names.image.clone_from(&image.name);
                 if !self.images.contains_key(&source) {
                     let loaded = self.image(image, &format!("/images/{source}"))?;
                     self.images.insert(source, loaded);
@@ -122,6 +128,7 @@ impl<'a> Materials<'a> {
             Some(sampler) => {
                 let pointer = format_args!("{at}/sampler");
                 let from = get(&document.samplers, sampler, pointer, "sampler")?;
+                names.sampler.clone_from(&from.name);
                 to_sampler(from, &format!("/samplers/{sampler}"))?
             }
         };
@@ -131,6 +138,7 @@ impl<'a> Materials<'a> {
             uv_set: uv_set.or(info.tex_coord).unwrap_or(0),
             sampler,
             transform,
+            names,
         }))
     }
 
@@ -169,21 +177,12 @@ pub(super) fn material_name(document: &Document, i: usize) -> String {
 
 /// The paths of the image files that material `i` of the document refers to, in the order in which they are read.
 pub(super) fn image_paths(document: &Document, i: usize) -> Vec<String> {
-    let from = &document.materials[i];
-    let pbr = from.pbr_metallic_roughness.as_ref();
-    let infos = [
-        pbr.and_then(|pbr| pbr.base_color_texture.as_ref()),
-        pbr.and_then(|pbr| pbr.metallic_roughness_texture.as_ref()),
-        from.normal_texture.as_ref(),
-        from.occlusion_texture.as_ref(),
-        from.emissive_texture.as_ref(),
-    ];
     let path = |info: &InfoJson| {
         let source = document.textures.get(info.index)?.source?;
         let uri = document.images.get(source)?.uri.as_deref()?;
         (!uri.starts_with("data:")).then(|| decoded(uri))
     };
-    infos.into_iter().flatten().filter_map(path).collect()
+    document.materials[i].textures().filter_map(path).collect()
 }
 
 /// Decodes a URI reference to a path. A URI with a scheme is returned unchanged.

@@ -15,7 +15,7 @@
 //! | --- | --- |
 //! | a mesh of a node | an object with the name of the node, mesh or file (the first that exists); names are made unique |
 //! | a mesh of several nodes | one object with the name of the mesh, first node or file (the first that exists) |
-//! | a node | a node of the graph, with its placement, name, extras, camera and light; roots that the writer adds again are omitted |
+//! | a node | a node of the graph, with its placement, name, extras, camera and light; if each node is a root that only places a mesh with its own name, the graph has no nodes |
 //! | the scene that `scene` refers to, or the first scene | its nodes are read; without scenes, all nodes of the file |
 //! | triangles, strips and fans, with or without indices | triangles |
 //! | points, lines | left out, with a note |
@@ -28,13 +28,15 @@
 //! | `JOINTS_n`, `WEIGHTS_n` | for each used joint, a vertex attribute [`mesh::joint_name`] with its weights |
 //! | `POSITION` of a morph target | a vertex attribute [`mesh::morph_name`] with the deltas |
 //! | skins, animations | kept in the graph; the numbers are rounded to 32 bits |
-//! | `COLOR_1`, `NORMAL` and `TANGENT` of morph targets | left out, with a note |
+//! | `COLOR_1`, other attributes of morph targets than `POSITION` | left out, with a note |
 //! | `material` | face attribute `material`, and materials of the object |
-//! | textures, samplers, images | textures of the materials: the path of an image file, or the bytes of an image |
+//! | textures, samplers, images | textures of the materials, with their names: the path of an image file, or the bytes of an image |
+//! | `extras` of materials | kept in the material unchanged |
 //! | cameras, lights | kept in the graph unchanged |
 //! | `asset.copyright`, name of the scene, `extras` of asset, scene, document and meshes | kept in the graph unchanged |
 //! | other `extras` | left out, with a note |
-//! | other scenes | left out, with a note |
+//! | other scenes, and all parts that the scene does not use | left out, with a note |
+//! | names of accessors, buffer views and buffers | not kept: the parts are written anew |
 //!
 //! With [`Placements::Bake`](crate::Placements::Bake), each node with a mesh becomes an object, the transforms are
 //! applied to positions, normals and tangents, and there is no graph. Skinned meshes get the pose of their joints. If a
@@ -90,6 +92,7 @@ mod document;
 mod draco;
 mod faces;
 mod fill;
+mod left_out;
 mod materials;
 mod meshopt;
 mod names;

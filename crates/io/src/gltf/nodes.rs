@@ -223,8 +223,8 @@ fn shared(
     Ok(placed)
 }
 
-/// Returns the graph of the scene, without the nodes that the writer adds automatically. Also returns, for each node of
-/// the file, its index in the graph.
+/// Returns the graph of the scene. The graph has no nodes if the writer would add exactly the nodes of the scene without
+/// it. Also returns, for each node of the file, its index in the graph.
 fn graph(
     document: &Document,
     nodes: &[SceneNode],
@@ -262,22 +262,25 @@ fn graph(
         }
     }
     let is_referenced = rig::referenced(document);
+    let is_plain = |node: &SceneNode, object: &PlacedMesh| {
+        !is_referenced[node.index] && is_plain(node, &document.nodes[node.index], object)
+    };
+    let is_implied = nodes.len() == placed.len()
+        && (nodes.iter().zip(placed)).all(|(node, object)| is_plain(node, object));
+    if is_implied {
+        return Ok((graph, vec![None; document.nodes.len()]));
+    }
     // For each node, its index in the graph.
     let mut places = vec![0; nodes.len()];
     let mut of_file = vec![None; document.nodes.len()];
     for (i, node) in nodes.iter().enumerate() {
         let json = &document.nodes[node.index];
-        let object = json.mesh.map(|mesh| objects[&mesh]);
-        if !is_referenced[node.index] && object.is_some_and(|object| is_plain(node, json, object)) {
-            continue;
-        }
-        let object = object.map(|object| object.name.clone());
+        let object = json.mesh.map(|mesh| objects[&mesh].name.clone());
         let length = object.as_ref().map_or(0, String::len);
         let pointer = format!("/nodes/{}", node.index);
         budget.spend((size_of::<Node>() + length) as u64, &pointer)?;
         places[i] = graph.push(Node {
             name: json.name.clone(),
-            // A node with children is never left out, so the parent is in the graph.
             parent: node.parent.map(|parent| places[parent]),
             placement: node.placement,
             object,
@@ -299,6 +302,7 @@ fn text(json: &Json) -> String {
 /// Whether a node equals the node that the writer adds for an object without nodes.
 fn is_plain(node: &SceneNode, json: &NodeJson, object: &PlacedMesh) -> bool {
     node.parent.is_none()
+        && json.mesh == Some(object.mesh)
         && json.children.is_empty()
         && node.placement.to_affine() == DAffine3::IDENTITY
         && json.name.as_ref() == Some(&object.name)

@@ -5,7 +5,7 @@ use std::sync::atomic::Ordering::Relaxed;
 
 use glam::{DAffine3, DMat4, DVec3};
 use mesh::{Attributes, Domain};
-use scene::{Material, Pose, Texture};
+use scene::{Material, Pose};
 use serde_json::Value;
 
 use super::budget::Budget;
@@ -81,9 +81,6 @@ fn objects(
     for placed in &placed {
         *uses.entry(placed.mesh).or_insert(0) += 1;
     }
-    let unused = document.meshes.len() - uses.len();
-    let what = "meshes left out: not used by any node of the scene";
-    notes.left_out("meshes-unused", unused, None, what);
     let mut meshes = BTreeMap::new();
     let mut materials = Materials::new(reader);
     let mut objects = Vec::new();
@@ -202,15 +199,11 @@ fn used_materials(
 
 /// The approximate size of a material in bytes.
 fn cost_of_material(material: &Material) -> usize {
-    let textures = [
-        &material.base_color_texture,
-        &material.metallic_roughness_texture,
-        &material.normal_texture,
-        &material.occlusion_texture,
-        &material.emissive_texture,
-    ];
-    let paths = textures.into_iter().flatten().filter_map(Texture::path);
-    size_of::<Material>() + material.name.len() + paths.map(str::len).sum::<usize>()
+    let texts = material
+        .textures()
+        .flat_map(|texture| texture.path().into_iter().chain(texture.names.iter()));
+    let texts = texts.chain(material.extras.as_deref());
+    size_of::<Material>() + material.name.len() + texts.map(str::len).sum::<usize>()
 }
 
 /// Builds polygons from a mesh. Vertices along seams are merged. If the pose has joints, the joints place the polygons.

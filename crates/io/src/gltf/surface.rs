@@ -29,6 +29,22 @@ pub(super) struct MaterialJson {
     pub(super) double_sided: Option<bool>,
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub(super) extensions: Extensions,
+    pub(super) extras: Option<Box<Value>>,
+}
+
+impl MaterialJson {
+    /// Returns the references to textures, in the order in which they are read.
+    pub(super) fn textures(&self) -> impl Iterator<Item = &InfoJson> {
+        let pbr = self.pbr_metallic_roughness.as_ref();
+        let infos = [
+            pbr.and_then(|pbr| pbr.base_color_texture.as_ref()),
+            pbr.and_then(|pbr| pbr.metallic_roughness_texture.as_ref()),
+            self.normal_texture.as_ref(),
+            self.occlusion_texture.as_ref(),
+            self.emissive_texture.as_ref(),
+        ];
+        infos.into_iter().flatten()
+    }
 }
 
 #[derive(Clone, Copy, Debug, Deserialize, Serialize)]
@@ -76,6 +92,7 @@ pub(super) struct TransformJson {
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 #[serde(default)]
 pub(super) struct TextureJson {
+    pub(super) name: Option<String>,
     pub(super) sampler: Option<usize>,
     pub(super) source: Option<usize>,
 }
@@ -83,6 +100,7 @@ pub(super) struct TextureJson {
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(super) struct SamplerJson {
+    pub(super) name: Option<String>,
     pub(super) mag_filter: Option<u32>,
     pub(super) min_filter: Option<u32>,
     pub(super) wrap_s: Option<u32>,
@@ -92,6 +110,7 @@ pub(super) struct SamplerJson {
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(super) struct ImageJson {
+    pub(super) name: Option<String>,
     pub(super) uri: Option<String>,
     pub(super) mime_type: Option<String>,
     pub(super) buffer_view: Option<usize>,

@@ -117,9 +117,7 @@ fn document<'a>(
         let mut losses = Losses::of(&prepared.object.name, losses);
         writer.object(prepared, scene.graph(), &mut losses)?;
     }
-    let first = scene.objects().first();
-    let first = first.map_or("", |object| object.name.as_str());
-    let mut losses = Losses::of(first, losses);
+    let mut losses = Losses::of("", losses);
     writer.nodes(scene, &mut losses)?;
     writer.rig(scene, &mut losses)?;
     Ok(writer)

@@ -146,7 +146,7 @@ impl<'a> Writer<'a> {
     ///
     /// # Errors
     ///
-    /// If the extras of the mesh are not JSON.
+    /// If the extras of the mesh or of a material are not JSON.
     pub(super) fn object(
         &mut self,
         prepared: &'a PreparedObject<'a>,
@@ -156,7 +156,7 @@ impl<'a> Writer<'a> {
         if prepared.faces.is_empty() {
             return Ok(());
         }
-        let primitives = self.primitives(prepared, losses);
+        let primitives = self.primitives(prepared, losses)?;
         let name = &prepared.object.name;
         let mut mesh = json!({ "name": name, "primitives": primitives });
         let n_targets = prepared.deformation.morphs.len();
@@ -182,7 +182,11 @@ impl<'a> Writer<'a> {
 
     /// Creates a primitive for each material, in the order of the materials of the object. The primitives share
     /// their vertices.
-    fn primitives(&mut self, prepared: &'a PreparedObject<'a>, losses: &mut Losses) -> Vec<Value> {
+    fn primitives(
+        &mut self,
+        prepared: &'a PreparedObject<'a>,
+        losses: &mut Losses,
+    ) -> Result<Vec<Value>, Unwritable> {
         let attributes = self.attributes(prepared, losses);
         let targets = self.targets(prepared);
         let mut primitives = Vec::new();
@@ -190,7 +194,8 @@ impl<'a> Writer<'a> {
             let material = usize::try_from(material).ok();
             let material = material.and_then(|m| prepared.object.materials.get(m));
             let material = material
-                .map(|material| self.materials.index_of(material, prepared.n_uvs(), losses));
+                .map(|material| self.materials.index_of(material, prepared.n_uvs(), losses))
+                .transpose()?;
             let indices = self.indices(prepared, faces);
             primitives.push(json!({
                 "attributes": attributes,
@@ -205,7 +210,7 @@ impl<'a> Writer<'a> {
             let view = self.view(length, None, move |out| out.copy_from_slice(&bytes));
             self.materials.images[place].buffer_view = Some(view);
         }
-        primitives
+        Ok(primitives)
     }
 
     fn attributes(

@@ -10,7 +10,9 @@ use super::surface::{
     AlphaJson, Extensions, FILTERS, ImageJson, InfoJson, MaterialJson, PbrJson, STRENGTH,
     SamplerJson, TRANSFORM, TextureJson, TransformJson, UNLIT, WRAPS,
 };
+use super::write_nodes::parsed;
 use crate::assets::percent_encoded;
+use crate::error::Unwritable;
 use crate::loss::Losses;
 
 /// The materials, textures, samplers and images of a document, without duplicates.
@@ -21,7 +23,8 @@ pub(super) struct MaterialWriter {
     pub(super) materials: Vec<MaterialJson>,
     pub(super) textures: Vec<TextureJson>,
     pub(super) samplers: Vec<SamplerJson>,
-    known_images: Vec<Image>,
+    /// For each element of `images`, the image of the scene and its name.
+    known_images: Vec<(Image, Option<String>)>,
     pub(super) images: Vec<ImageJson>,
     /// The images whose bytes do not have a view yet. Each entry is the index of the image and its bytes.
     pub(super) image_bytes: Vec<(usize, Arc<[u8]>)>,
@@ -31,12 +34,16 @@ pub(super) struct MaterialWriter {
 impl MaterialWriter {
     /// Returns the index in the document of a material for a mesh with `n_uvs` sets of texture coordinates. Equal
     /// materials get the same index.
+    ///
+    /// # Errors
+    ///
+    /// If the extras of the material are not JSON.
     pub(super) fn index_of(
         &mut self,
         material: &Material,
         n_uvs: u32,
         losses: &mut Losses,
-    ) -> usize {
+    ) -> Result<usize, Unwritable> {
         let mut material = material.clone();
         let reason = "the mesh does not have the texture coordinates of this texture, so the texture is not written";
         let dropped = drop_textures(&mut material, |texture| texture.uv_set < n_uvs);
@@ -53,15 +60,15 @@ impl MaterialWriter {
             losses.add(None, &material.name, 1, reason);
         }
         if let Some(place) = self.known.iter().position(|known| *known == material) {
-            return place;
+            return Ok(place);
         }
         let mut changed = 0;
-        let json = self.json(&material, &mut changed);
+        let json = self.json(&material, &mut changed)?;
         let reason = "values outside the range of glTF are clamped";
         losses.add(None, &material.name, changed, reason);
         self.materials.push(json);
         self.known.push(material);
-        self.materials.len() - 1
+        Ok(self.materials.len() - 1)
     }
 
     /// The extensions that the materials use.
@@ -72,7 +79,11 @@ impl MaterialWriter {
         all.filter(|&(_, is)| is).map(|(name, _)| name).collect()
     }
 
-    fn json(&mut self, material: &Material, changed: &mut usize) -> MaterialJson {
+    fn json(
+        &mut self,
+        material: &Material,
+        changed: &mut usize,
+    ) -> Result<MaterialJson, Unwritable> {
         let plain = Material::new("");
         let mut extensions = Extensions::new();
         let strength = within(material.emissive_strength, 0.0, f64::MAX, changed);
@@ -107,7 +118,8 @@ impl MaterialWriter {
             roughness_factor: Some(roughness),
             metallic_roughness_texture: texture(&material.metallic_roughness_texture),
         };
-        MaterialJson {
+        let extras = material.extras.as_deref().map(parsed).transpose()?;
+        Ok(MaterialJson {
             name: Some(material.name.clone()),
             pbr_metallic_roughness: Some(pbr),
             normal_texture: texture(&material.normal_texture).map(|info| InfoJson {
@@ -124,7 +136,8 @@ impl MaterialWriter {
             alpha_cutoff,
             double_sided: material.double_sided.then_some(true),
             extensions,
-        }
+            extras: extras.map(Box::new),
+        })
     }
 
     /// Describes the use of a texture by a material.
@@ -146,25 +159,39 @@ impl MaterialWriter {
             extensions.insert(TRANSFORM.to_owned(), json!(transform));
             self.extensions[0] = true;
         }
-        let is_plain = texture.sampler == Sampler::default();
-        let sampler = (!is_plain).then(|| place_of(&mut self.samplers, sampler(texture.sampler)));
-        let source = Some(self.image(&texture.image));
+        let names = &texture.names;
+        let sampler = SamplerJson {
+            name: names.sampler.clone(),
+            ..sampler(texture.sampler)
+        };
+        let json = TextureJson {
+            name: names.texture.clone(),
+            sampler: (sampler != SamplerJson::default())
+                .then(|| place_of(&mut self.samplers, sampler)),
+            source: Some(self.image(&texture.image, names.image.as_ref())),
+        };
         InfoJson {
-            index: place_of(&mut self.textures, TextureJson { sampler, source }),
+            index: place_of(&mut self.textures, json),
             tex_coord: Some(texture.uv_set).filter(|&set| set != 0),
             extensions,
             ..InfoJson::default()
         }
     }
 
-    fn image(&mut self, image: &Image) -> usize {
+    fn image(&mut self, image: &Image, name: Option<&String>) -> usize {
         let mut known = self.known_images.iter();
-        if let Some(place) = known.position(|known| same(known, image)) {
+        let is_it = |(other, other_name): &(Image, Option<String>)| {
+            other_name.as_ref() == name && same(other, image)
+        };
+        if let Some(place) = known.position(is_it) {
             return place;
         }
         let place = self.images.len();
-        self.known_images.push(image.clone());
-        let mut json = ImageJson::default();
+        self.known_images.push((image.clone(), name.cloned()));
+        let mut json = ImageJson {
+            name: name.cloned(),
+            ..ImageJson::default()
+        };
         match image {
             Image::File(path) | Image::Loaded { path, .. } => json.uri = Some(uri(path)),
             Image::Embedded { mime, bytes } => {
@@ -211,6 +238,7 @@ fn sampler(sampler: Sampler) -> SamplerJson {
     let wrap = |wrap| WRAPS[1..].iter().find(|(_, known)| *known == wrap);
     let minify = sampler.minify.or(sampler.mipmap.and(Some(Filter::Linear)));
     SamplerJson {
+        name: None,
         mag_filter: filter((sampler.magnify, None)).map(|&(number, _)| number),
         min_filter: filter((minify, sampler.mipmap)).map(|&(number, _)| number),
         wrap_s: wrap(sampler.wrap[0]).map(|&(number, _)| number),

@@ -71,7 +71,8 @@ impl Writer<'_> {
                 .object
                 .as_deref()
                 .and_then(|object| self.deformed.get(object));
-            write_deformation(node, deformed, &mut json, losses);
+            let mut losses = losses.about(node.object.as_deref().unwrap_or_default());
+            write_deformation(node, deformed, &mut json, &mut losses);
             json["extras"] = optional_json(node.extras.as_deref())?;
             list.nodes.push(json);
         }
@@ -147,10 +148,13 @@ fn write_placement(node: &Node, json: &mut Value) -> Result<(), Unwritable> {
     Err(Unwritable::scene(message))
 }
 
-/// Parses a part of the graph as JSON.
-fn parsed(text: &str) -> Result<Value, Unwritable> {
-    serde_json::from_str(text)
-        .map_err(|why| Unwritable::scene(format!("expected JSON as a part of a node: {why}")))
+/// Parses a part of the scene as JSON.
+pub(super) fn parsed(text: &str) -> Result<Value, Unwritable> {
+    serde_json::from_str(text).map_err(|why| {
+        Unwritable::scene(format!(
+            "expected JSON as extras or as a part of a node: {why}"
+        ))
+    })
 }
 
 /// Parses an optional part. The result is null if the part is missing.

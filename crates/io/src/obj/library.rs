@@ -70,6 +70,7 @@ fn note_losses(material: &Material, losses: &mut Losses) {
     lose(!cuts && !is_implied, what);
     lose(material.double_sided, "that the material is double-sided");
     lose(material.unlit, "that the material is unlit");
+    lose(material.extras.is_some(), "extras");
     lose(
         material.occlusion_texture.is_some(),
         "the occlusion texture",
@@ -88,6 +89,11 @@ fn note_losses(material: &Material, losses: &mut Losses) {
             && texture.transform == TextureTransform::default()
             && texture.uv_set == 0;
         lose(!is_plain, "the sampling of a texture");
+        let is_named = texture.names.iter().next().is_some();
+        lose(
+            is_named,
+            "the names of a texture, its image and its sampler",
+        );
     }
 }
 

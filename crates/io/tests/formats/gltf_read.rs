@@ -310,7 +310,7 @@ fn content_left_out_is_noted() {
         "1 skins",
         "2 cameras",
         "1 meshes left out",
-        "1 normals of morph targets left out",
+        "1 attributes NORMAL of morph targets left out",
         "1 primitives of points",
         "3 primitives of lines",
         "1 attributes COLOR_1",

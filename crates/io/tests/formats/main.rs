@@ -8,6 +8,7 @@ mod dae_read;
 mod gltf_attributes;
 mod gltf_broken;
 mod gltf_draco;
+mod gltf_left_out;
 mod gltf_limits;
 mod gltf_materials;
 mod gltf_meshopt;

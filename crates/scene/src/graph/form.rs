@@ -57,7 +57,7 @@ impl Encoder<'_> {
         self.len(index.map_or(0, |i| i + 1));
     }
 
-    pub(super) fn optional_text(&mut self, text: Option<&str>) {
+    pub(crate) fn optional_text(&mut self, text: Option<&str>) {
         self.len(usize::from(text.is_some()));
         if let Some(text) = text {
             self.text(text);
@@ -157,7 +157,7 @@ impl Decoder<'_> {
         Ok(index.checked_sub(1))
     }
 
-    pub(super) fn optional_text(&mut self) -> Result<Option<String>, DecodeError> {
+    pub(crate) fn optional_text(&mut self) -> Result<Option<String>, DecodeError> {
         match self.len()? {
             0 => Ok(None),
             1 => Ok(Some(self.text()?.to_owned())),

@@ -3,9 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use store::Store;
-
-use crate::run::{Stamp, line, stamp};
+use engine::stamp_line;
+use store::{Entry, Store};
 
 /// The maximum number of texts in the history.
 const MAX_HISTORY: usize = 10_000;
@@ -23,8 +22,8 @@ pub struct Document {
     current: usize,
     /// The text of the file when it was last read or written.
     saved: Option<Arc<str>>,
-    /// The stamp of the file when it was last looked at.
-    seen: Stamp,
+    /// The state of the file when it was last looked at; `None` if the file did not exist.
+    seen: Option<Entry>,
     conflict: Option<Conflict>,
     /// Whether the file was removed by another program.
     is_removed: bool,
@@ -89,7 +88,7 @@ impl Document {
     ///
     /// A message with the path, if the file cannot be read, is too long, or is not UTF-8 text.
     pub fn open(store: &dyn Store, path: &Path) -> Result<Self, String> {
-        let seen = stamp(path, store);
+        let seen = store.entry(path);
         let text = recipe::Source::open_in(store, path)?.text;
         let mut document = Self::new(path, text.clone());
         document.has_file = true;
@@ -116,7 +115,7 @@ impl Document {
     /// Returns the file with its stamp when it was last looked at, if the recipe has a file.
     pub(crate) fn seen(&self) -> Option<(PathBuf, String)> {
         self.has_file
-            .then(|| (self.path.clone(), line(&self.path, self.seen)))
+            .then(|| (self.path.clone(), stamp_line(&self.path, self.seen)))
     }
 
     /// Whether the recipe was read from its file or saved to it.
@@ -231,7 +230,7 @@ impl Document {
         path.clone_into(&mut self.path);
         self.has_file = true;
         self.saved = Some(self.text().clone());
-        self.seen = stamp(path, store);
+        self.seen = store.entry(path);
         self.conflict = None;
         self.is_removed = false;
         Ok(())
@@ -262,7 +261,7 @@ impl Document {
         if !self.has_file {
             return None;
         }
-        let seen = stamp(&self.path, store);
+        let seen = store.entry(&self.path);
         if seen == self.seen {
             return self.conflict.is_some().then_some(FileChange::Conflict);
         }

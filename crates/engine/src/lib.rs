@@ -42,7 +42,9 @@ struct Library;
 pub mod json;
 
 mod cancel;
+mod keys;
 mod loaded;
+mod memory;
 mod read;
 mod stop;
 
@@ -53,7 +55,9 @@ use op::{Files, Registry};
 use recipe::{Schemas, Stamp};
 
 pub use cancel::Cancel;
+pub use keys::{StepKey, StepKeys, stamp_line};
 pub use loaded::{Loaded, Run};
+pub use memory::new_bytes;
 pub use read::FileReader;
 pub use recipe::{
     Diagnostic, Failure, Listener, Outcome, Settings, Silent, Source, StepDone, Values,

@@ -4,13 +4,14 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-use engine::{Engine, Failure, Listener, Loaded, Options, Outcome, Run, StepDone};
+use engine::{
+    Engine, Failure, Listener, Loaded, Options, Outcome, Run, StepDone, StepKeys, stamp_line,
+};
 use recipe::{Expectation, Recipe};
 use scene::Scene;
 use store::Store;
 use web_time::Instant;
 
-use super::keys::{Key, Keys, line, stamp};
 use super::snapshot::{Snapshot, Snapshots};
 use super::state::{
     End, Event, ExpectationState, FailureState, RunState, Status, StepState, Verdict,
@@ -35,7 +36,7 @@ impl Job<'_> {
         };
         let loaded = self.engine.load(&self.request.source, &options);
         snapshots.tick();
-        let keys = Keys::of(&loaded, self.store, self.request.budget);
+        let keys = StepKeys::of(&loaded);
         let mut state = state_of(&loaded);
         let called = loaded
             .recipe
@@ -44,7 +45,7 @@ impl Job<'_> {
             .skip(1)
             .map(|source| &source.path);
         let watched = called.chain(&loaded.forecast.inputs);
-        let watched = watched.map(|path| (path.clone(), line(path, stamp(path, self.store))));
+        let watched = watched.map(|path| (path.clone(), stamp_line(path, self.store.entry(path))));
         state.watched = watched.collect();
         let known = take_known(&mut state, &keys, snapshots);
         let number = self.request.number;
@@ -72,7 +73,7 @@ impl Job<'_> {
         mut state: RunState,
         known: usize,
         snapshots: &mut Snapshots,
-        keys: &Keys,
+        keys: &StepKeys,
     ) -> End {
         let first = self.first_step(loaded, &state, known);
         let is_known = first == loaded.recipe.steps.len()
@@ -170,7 +171,7 @@ impl Job<'_> {
 }
 
 /// Adds what is known about the steps and expectations. Returns the number of steps at the start whose results are known.
-fn take_known(state: &mut RunState, keys: &Keys, snapshots: &mut Snapshots) -> usize {
+fn take_known(state: &mut RunState, keys: &StepKeys, snapshots: &mut Snapshots) -> usize {
     let mut known = 0;
     for (step, key) in state.steps.iter_mut().zip(&keys.steps) {
         step.result = snapshots.get(key);
@@ -221,7 +222,7 @@ fn end_of(
     recipe: &Recipe,
     mut failures: Vec<FailureState>,
     snapshots: &Snapshots,
-    keys: &Keys,
+    keys: &StepKeys,
 ) -> End {
     for (placed, of) in state.expectations.iter().zip(&recipe.expectations) {
         if let Some(Verdict::Fails { message, places }) = &placed.verdict {
@@ -234,7 +235,7 @@ fn end_of(
         }
     }
     let is_whole = state.steps.iter().all(|step| step.result.is_some());
-    let digest = snapshots.digests.get::<Key>(&keys.end()).copied();
+    let digest = snapshots.digests.get(&keys.end()).copied();
     End {
         canceled: false,
         failures,

@@ -6,7 +6,6 @@
 //! ```
 
 mod job;
-mod keys;
 mod snapshot;
 mod state;
 
@@ -17,12 +16,11 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use engine::{Engine, Source};
+use engine::{Engine, Source, stamp_line};
 use op::Registry;
 use store::Store;
 
 use job::Job;
-pub(crate) use keys::{Stamp, line, stamp};
 use snapshot::Snapshots;
 
 pub use snapshot::Snapshot;
@@ -223,7 +221,7 @@ fn next_request(shared: &Shared, store: &dyn Store) -> Option<(Request, Arc<Atom
         drop(state);
         let mut is_changed = false;
         for (path, seen) in &mut files {
-            let now = line(path, stamp(path, store));
+            let now = stamp_line(path, store.entry(path));
             is_changed |= *seen != now;
             *seen = now;
         }

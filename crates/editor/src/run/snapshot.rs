@@ -3,10 +3,9 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use engine::StepDone;
-use scene::{Digest, Geometry, Scene};
+use engine::{StepDone, StepKey, new_bytes};
+use scene::{Digest, Scene};
 
-use super::keys::Key;
 use super::state::Verdict;
 
 /// The scene after a step, and the report of the step. Clones share the scene.
@@ -24,11 +23,11 @@ const MAX_RESULTS: usize = 100_000;
 /// The known results. Scenes share their unchanged meshes.
 #[derive(Default)]
 pub(super) struct Snapshots {
-    of_steps: HashMap<Key, (Snapshot, u64)>,
+    of_steps: HashMap<StepKey, (Snapshot, u64)>,
     /// The digests of final scenes.
-    pub(super) digests: HashMap<Key, Digest>,
+    pub(super) digests: HashMap<StepKey, Digest>,
     /// The results of expectations.
-    pub(super) verdicts: HashMap<Key, Verdict>,
+    pub(super) verdicts: HashMap<StepKey, Verdict>,
     clock: u64,
 }
 
@@ -38,20 +37,20 @@ impl Snapshots {
         self.clock += 1;
     }
 
-    pub(super) fn get(&mut self, key: &Key) -> Option<Snapshot> {
+    pub(super) fn get(&mut self, key: &StepKey) -> Option<Snapshot> {
         let (snapshot, used) = self.of_steps.get_mut(key)?;
         *used = self.clock;
         Some(snapshot.clone())
     }
 
-    pub(super) fn insert(&mut self, key: Key, snapshot: Snapshot) {
+    pub(super) fn insert(&mut self, key: StepKey, snapshot: Snapshot) {
         self.of_steps.insert(key, (snapshot, self.clock));
     }
 
     /// Removes the snapshots that were used least recently until the rest fits into `memory` bytes. Snapshots that the
     /// last run used stay.
     pub(super) fn trim(&mut self, memory: u64) {
-        let mut by_age: Vec<(u64, Key)> = self
+        let mut by_age: Vec<(u64, StepKey)> = self
             .of_steps
             .iter()
             .map(|(key, (_, used))| (*used, *key))
@@ -76,22 +75,4 @@ impl Snapshots {
             self.digests.clear();
         }
     }
-}
-
-/// Returns the memory of the meshes of a scene that are not in `seen`, in bytes, and adds them to it.
-fn new_bytes(scene: &Scene, seen: &mut std::collections::HashSet<usize>) -> u64 {
-    let mut bytes = 1024;
-    for object in scene.objects() {
-        bytes += match &object.geometry {
-            Geometry::Mesh(mesh) if seen.insert(Arc::as_ptr(mesh).addr()) => mesh.bytes() as u64,
-            Geometry::Mesh(_) => 0,
-            Geometry::Patches(patches) => size_of_val(patches.as_slice()) as u64,
-            Geometry::Curve(curve) => size_of_val(curve.points()) as u64,
-            Geometry::Polylines(lines) => lines
-                .iter()
-                .map(|line| size_of_val(line.as_slice()) as u64)
-                .sum(),
-        };
-    }
-    bytes
 }

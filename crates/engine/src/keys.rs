@@ -3,26 +3,31 @@
 
 use std::path::{Path, PathBuf};
 
-use engine::Loaded;
 use store::{Entry, Store};
 
+use crate::Loaded;
+
 /// The key of a step, which stands for the step and all steps before it.
-pub(super) type Key = [u8; 32];
+pub type StepKey = [u8; 32];
 
 /// The keys of a recipe.
-pub(super) struct Keys {
+#[derive(Clone, Debug, Default)]
+pub struct StepKeys {
     /// The key after each step.
-    pub(super) steps: Vec<Key>,
+    pub steps: Vec<StepKey>,
     /// The key of each expectation, by its index: it stands for the expectation and the steps before it.
-    pub(super) expectations: Vec<Key>,
+    pub expectations: Vec<StepKey>,
     /// The key of the empty scene.
-    pub(super) start: Key,
+    pub start: StepKey,
 }
 
-impl Keys {
-    pub(super) fn of(loaded: &Loaded, store: &dyn Store, budget: u64) -> Self {
+impl StepKeys {
+    /// Returns the keys of a recipe that was read and checked. Files that the forecast does not list are not part of the
+    /// keys, such as the materials of a model.
+    pub fn of(loaded: &Loaded) -> Self {
         let recipe = &loaded.recipe;
-        let start = hash(&[&budget.to_le_bytes()]);
+        let store = &*loaded.files.store;
+        let start = hash(&[&loaded.budget.to_le_bytes()]);
         let files = recipe.files(&loaded.files);
         let mut key = start;
         let mut n_inputs = 0;
@@ -79,33 +84,26 @@ impl Keys {
     }
 
     /// Returns the key of the scene at the end.
-    pub(super) fn end(&self) -> Key {
+    pub fn end(&self) -> StepKey {
         self.steps.last().copied().unwrap_or(self.start)
     }
 }
 
 /// Returns a text that changes when one of the files changes.
-pub(super) fn stamps(paths: &[PathBuf], store: &dyn Store) -> String {
+fn stamps(paths: &[PathBuf], store: &dyn Store) -> String {
     paths
         .iter()
-        .map(|path| line(path, stamp(path, store)))
+        .map(|path| stamp_line(path, store.entry(path)))
         .collect()
 }
 
-/// Returns a text with the stamp of a file.
-pub(crate) fn line(path: &Path, stamp: Stamp) -> String {
+/// Returns a text that describes the state of a file, and changes when the file changes. `stamp` is `None` for a file
+/// that does not exist.
+pub fn stamp_line(path: &Path, stamp: Option<Entry>) -> String {
     format!("{} {stamp:?}\n", path.display())
 }
 
-/// The description of a file, which changes when the file changes; `None` for a file that does not exist.
-pub(crate) type Stamp = Option<Entry>;
-
-/// Returns the description of a file.
-pub(crate) fn stamp(path: &Path, store: &dyn Store) -> Stamp {
-    store.entry(path)
-}
-
-fn hash(parts: &[&[u8]]) -> Key {
+fn hash(parts: &[&[u8]]) -> StepKey {
     let mut hasher = blake3::Hasher::new();
     for part in parts {
         hasher.update(&(part.len() as u64).to_le_bytes());

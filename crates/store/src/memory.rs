@@ -21,6 +21,12 @@ struct Content {
 }
 
 impl Memory {
+    /// Removes a file, or a folder with everything in it. If the path does not exist, does nothing.
+    pub fn remove(&self, path: &Path) {
+        let path = normalized(path);
+        (self.content().entries).retain(|inside, _| !inside.starts_with(&path));
+    }
+
     fn content(&self) -> MutexGuard<'_, Content> {
         // Every entry is valid by itself, so the map can be used even after a panic.
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
@@ -140,10 +146,7 @@ impl Store for Memory {
     }
 
     fn remove_folder(&self, folder: &Path) -> Result<(), StoreError> {
-        let folder = normalized(folder);
-        self.content()
-            .entries
-            .retain(|path, _| !path.starts_with(&folder));
+        self.remove(folder);
         Ok(())
     }
 

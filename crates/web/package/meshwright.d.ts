@@ -31,6 +31,8 @@ export interface StepDone {
     changes: { code: string; count: number; text: string; vertices?: number[]; edges?: number[]; faces?: number[] }[];
     notes: string[];
     milliseconds: number;
+    /** Whether the result is that of an earlier run of the session, so the step did not run. */
+    cached: boolean;
 }
 
 export type Event =
@@ -51,6 +53,8 @@ export interface Checked {
         max: number | null;
         of: string[] | null;
     }[];
+    /** The names of the presets. */
+    presets: string[];
     /** The steps in order. `line` is the line in the recipe, counted from 1; `null` if the step is in a called recipe. */
     steps: { label: string; operation: string; line: number | null }[];
     /** The largest memory of all meshes after any step, in bytes. `null` if unknown. */
@@ -110,7 +114,9 @@ export interface Colors {
 export interface Options {
     /** The path of the recipe, which other paths are relative to. Defaults to `recipe.ron`. */
     path?: string;
-    /** Values of parameters. */
+    /** The name of one of the presets of the recipe. */
+    preset?: string;
+    /** Values of parameters. They take precedence over the preset. */
     set?: Record<string, string | number | boolean>;
 }
 
@@ -135,10 +141,13 @@ export class Session {
     write(path: string, content: string | Uint8Array): void;
     /** Reads a file, such as an output of a run. Throws if the file does not exist. */
     read(path: string): Uint8Array;
+    /** Removes a file or a folder with its files, if it exists. */
+    remove(path: string): void;
     /** Checks a recipe without running it. */
     check(recipe: string, options?: Options): Checked;
     /**
-     * Checks and runs a recipe. Blocks until the run ends, so a page runs it in a worker. Throws `RuntimeError` if
+     * Checks and runs a recipe. Steps at the start that are the same as in the run before, up to the first step that writes a
+     * file, do not run again. Blocks until the run ends, so a page runs it in a worker. Throws `RuntimeError` if
      * memory is exhausted; the engine cannot be used afterwards, and a page starts a new worker.
      */
     run(recipe: string, options?: RunOptions): Result;

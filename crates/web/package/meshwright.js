@@ -44,13 +44,17 @@ export class Session {
         return this.#core.read(path);
     }
 
-    check(recipe, { path = "recipe.ron", set = {} } = {}) {
-        return JSON.parse(this.#core.check(path, recipe, JSON.stringify(set)));
+    remove(path) {
+        this.#core.remove(path);
     }
 
-    run(recipe, { path = "recipe.ron", set = {}, onEvent } = {}) {
+    check(recipe, { path = "recipe.ron", preset, set = {} } = {}) {
+        return JSON.parse(this.#core.check(path, recipe, preset, JSON.stringify(set)));
+    }
+
+    run(recipe, { path = "recipe.ron", preset, set = {}, onEvent } = {}) {
         const listener = { event: (json) => onEvent?.(JSON.parse(json)) !== false };
-        return JSON.parse(this.#core.run(path, recipe, JSON.stringify(set), listener));
+        return JSON.parse(this.#core.run(path, recipe, preset, JSON.stringify(set), listener));
     }
 
     picture({ width = 800, height = 600, wireframe = false, up = "auto" } = {}) {

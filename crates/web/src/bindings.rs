@@ -2,6 +2,7 @@
 
 use std::cell::RefCell;
 
+use engine::Values;
 use render::Up;
 use serde_json::Value as Json;
 use wasm_bindgen::prelude::*;
@@ -33,7 +34,7 @@ fn error(error: impl ToString) -> JsError {
 }
 
 /// Reads an object of strings.
-fn values(set: &str) -> Result<Vec<(String, String)>, JsError> {
+fn strings(set: &str) -> Result<Vec<(String, String)>, JsError> {
     let object: serde_json::Map<String, Json> = serde_json::from_str(set)?;
     let pair = |(name, value): (String, Json)| match value {
         Json::String(text) => (name, text),
@@ -51,7 +52,7 @@ impl Session {
     }
 
     /// Writes a file.
-    pub fn write(&self, path: &str, bytes: &[u8]) -> Result<(), JsError> {
+    pub fn write(&mut self, path: &str, bytes: &[u8]) -> Result<(), JsError> {
         self.0.write(path, bytes).map_err(error)
     }
 
@@ -60,9 +61,26 @@ impl Session {
         self.0.read(path).map_err(error)
     }
 
+    /// Removes a file or a folder.
+    pub fn remove(&mut self, path: &str) {
+        self.0.remove(path);
+    }
+
     /// Checks a recipe.
-    pub fn check(&self, path: &str, text: &str, set: &str) -> Result<String, JsError> {
-        Ok(self.0.check(path, text, &values(set)?).to_string())
+    pub fn check(
+        &self,
+        path: &str,
+        text: &str,
+        preset: Option<String>,
+        set: &str,
+    ) -> Result<String, JsError> {
+        let set = strings(set)?;
+        let values = Values {
+            preset: preset.as_deref(),
+            set: &set,
+            ..Values::default()
+        };
+        Ok(self.0.check(path, text, values).to_string())
     }
 
     /// Runs a recipe.
@@ -70,12 +88,18 @@ impl Session {
         &mut self,
         path: &str,
         text: &str,
+        preset: Option<String>,
         set: &str,
         listener: Listener,
     ) -> Result<String, JsError> {
-        let set = values(set)?;
+        let set = strings(set)?;
+        let values = Values {
+            preset: preset.as_deref(),
+            set: &set,
+            ..Values::default()
+        };
         LISTENER.set(Some(listener));
-        let result = self.0.run(path, text, &set, &|event| {
+        let result = self.0.run(path, text, values, &|event| {
             LISTENER.with_borrow(|listener| {
                 // Other threads have no listener, and do not report progress.
                 listener.as_ref().is_none_or(|listener| {

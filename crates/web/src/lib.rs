@@ -2,6 +2,8 @@
 //!
 //! ```text
 //! session.rs  Session: files, check, run, and the scene of the last run; plain Rust, tested natively
+//! kept.rs     the results of the last run, so that the next run starts at the first step that changed
+//! describe.rs problems, expectations, parameters and objects as JSON
 //! arrays.rs   the arrays of a mesh that a view needs
 //! colors.rs   the colors of quantities for these arrays
 //! bindings.rs the same for JavaScript, through `wasm-bindgen`; only in WebAssembly
@@ -12,6 +14,8 @@
 
 mod arrays;
 mod colors;
+mod describe;
+mod kept;
 mod session;
 
 #[cfg(target_arch = "wasm32")]

@@ -5,22 +5,22 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 use std::time::Duration;
 
-use engine::json::{Problem, problems, step_done};
+use engine::json::step_done;
 use engine::{
-    Diagnostic, Engine, Listener, Loaded, Memory, Options, Outcome, Run, Source, StepDone, Store,
-    Values,
+    Engine, Listener, Loaded, Memory, Options, Run, Source, StepDone, StepKeys, Store, Values,
 };
 use glam::DMat4;
 use op::{Progress, Registry};
-use recipe::{LineIndex, Param, Parameter};
+use recipe::LineIndex;
 use render::{Camera, Lines, Overlays, PictureError, Style, Up};
-use scene::{Geometry, Scene};
-use serde::Serialize;
+use scene::Scene;
 use serde_json::{Value as Json, json};
 use store::StoreError;
 use view::Quantity;
 use web_time::Instant;
 
+use crate::describe::{expectations, object, parameter, placed};
+use crate::kept::Kept;
 use crate::{Arrays, Colors};
 
 static REGISTRY: LazyLock<Registry> = LazyLock::new(ops_all::registry);
@@ -40,16 +40,7 @@ pub struct Session {
     engine: Engine<'static>,
     store: Arc<Memory>,
     scene: Scene,
-}
-
-/// A diagnostic with its range in the text of the recipe.
-#[derive(Serialize)]
-struct PlacedProblem {
-    #[serde(flatten)]
-    problem: Problem,
-    /// The range in UTF-16 code units, as JavaScript counts. `null` if the problem is not about the text of the recipe
-    /// itself.
-    range: Option<[usize; 2]>,
+    kept: Kept,
 }
 
 impl Default for Session {
@@ -59,6 +50,7 @@ impl Default for Session {
             engine: Engine::new(&REGISTRY).with_store(store.clone()),
             store,
             scene: Scene::new(),
+            kept: Kept::default(),
         }
     }
 }
@@ -74,8 +66,16 @@ impl Session {
     /// # Errors
     ///
     /// [`StoreError`] if the path is the path of a folder, or a part of the path is a file.
-    pub fn write(&self, path: &str, bytes: &[u8]) -> Result<(), StoreError> {
+    pub fn write(&mut self, path: &str, bytes: &[u8]) -> Result<(), StoreError> {
+        // Steps can read files that their keys do not contain, such as the materials of a model.
+        self.kept = Kept::default();
         self.store.write(path.as_ref(), bytes)
+    }
+
+    /// Removes a file or a folder with its files, if it exists.
+    pub fn remove(&mut self, path: &str) {
+        self.kept = Kept::default();
+        self.store.remove(path.as_ref());
     }
 
     /// Reads a file, such as an output of a run.
@@ -87,15 +87,15 @@ impl Session {
         self.store.read(path.as_ref())
     }
 
-    /// Checks a recipe without running it. `path` is the path of the recipe, which other paths are relative to. `set` has
-    /// values of parameters.
+    /// Checks a recipe without running it. `path` is the path of the recipe, which other paths are relative to. The
+    /// paths in `values` are relative to the root.
     ///
     /// Returns `problems`, each with `severity`, `file`, `line`, `column`, `message`, `help` and `range` (the first and
     /// the last offset in UTF-16 code units); `parameters` with `name`, `type`, `value`, `doc`, the limits `min` and `max`, and
-    /// the allowed names `of`, each `null` if there is none; `steps` with `label`, `operation` and `line` (`null` if the step is
-    /// in a called recipe); `peak_bytes`, the largest memory of all meshes after any step, `null` if unknown.
-    pub fn check(&self, path: &str, text: &str, set: &[(String, String)]) -> Json {
-        let loaded = self.load(path, text, set);
+    /// the allowed names `of`, each `null` if there is none; `presets`, the names of the presets; `steps` with `label`,
+    /// `operation` and `line` (`null` if the step is in a called recipe); `peak_bytes`, the largest memory of all meshes after any step, `null` if unknown.
+    pub fn check(&self, path: &str, text: &str, values: Values) -> Json {
+        let loaded = self.load(path, text, values);
         let parameters = loaded.recipe.parameters().iter().map(parameter);
         let index = LineIndex::new(text);
         let steps = loaded.recipe.steps.iter().map(|step| {
@@ -107,6 +107,7 @@ impl Session {
         json!({
             "problems": placed(&loaded.diagnostics, &loaded),
             "parameters": parameters.collect::<Vec<_>>(),
+            "presets": loaded.recipe.presets,
             "steps": steps.collect::<Vec<_>>(),
             "peak_bytes": peaks.max().filter(|&peak| peak < u64::MAX),
         })
@@ -115,6 +116,9 @@ impl Session {
     /// Checks and runs a recipe. Calls `listen` with the events `step`, `progress` (at most ten times
     /// per second) and `done` of `meshwright run --format json`. If `listen` returns false for an event `progress`, the run is
     /// canceled.
+    ///
+    /// The run starts at the first step that differs from the last run, or at the first step that writes a file. The
+    /// reports of earlier steps have `cached`.
     ///
     /// Returns `succeeded`, `cancelled`, `problems` as [`check`](Self::check), `steps` with the events `done`,
     /// `expectations` with `line`, `text` and `met` for each checked expectation, `digest` (`null` if the recipe has errors),
@@ -126,42 +130,72 @@ impl Session {
         &mut self,
         path: &str,
         text: &str,
-        set: &[(String, String)],
+        values: Values,
         listen: &(dyn Fn(&Json) -> bool + Sync),
     ) -> Json {
-        // The memory of the last scene can be used again.
+        // The memory of the last scene can be used again, apart from kept scenes.
         self.scene = Scene::new();
-        let loaded = self.load(path, text, set);
-        let mut found = loaded.diagnostics.clone();
-        let outcome = (!loaded.has_errors()).then(|| {
-            let settings = Run {
-                keep_outputs: true,
-                cache: None,
-            };
-            let events = Events {
-                loaded: &loaded,
-                listen,
-                last: Mutex::new(Instant::now()),
-            };
-            loaded.run(settings, &events)
-        });
-        if let Some(outcome) = &outcome {
-            found.extend(outcome.failures.iter().cloned());
-        }
-        let steps = outcome.iter().flat_map(|o| o.steps.iter().enumerate());
-        let written = outcome.iter().flat_map(|o| &o.written);
+        let loaded = self.load(path, text, values);
         let mut result = json!({
-            "succeeded": outcome.as_ref().is_some_and(Outcome::succeeded),
-            "cancelled": outcome.as_ref().is_some_and(|o| o.cancelled),
-            "problems": placed(&found, &loaded),
-            "steps": steps.map(|(i, done)| step_done(i, done)).collect::<Vec<_>>(),
-            "expectations": outcome.as_ref().map_or_else(Vec::new, |o| expectations(&loaded, o)),
-            "digest": outcome.as_ref().map(|o| o.digest.to_string()),
-            "files": written.map(|path| path.display().to_string()).collect::<Vec<_>>(),
+            "succeeded": false,
+            "cancelled": false,
+            "problems": placed(&loaded.diagnostics, &loaded),
+            "steps": [],
+            "expectations": [],
+            "digest": null,
+            "files": [],
         });
-        self.scene = outcome.and_then(|o| o.scene).unwrap_or_default();
+        if !loaded.has_errors() {
+            self.run_loaded(&loaded, listen, &mut result);
+        }
         result["objects"] = self.scene.objects().iter().map(object).collect();
         result
+    }
+
+    /// Runs a recipe without errors, and writes the outcome into `result`.
+    fn run_loaded(
+        &mut self,
+        loaded: &Loaded,
+        listen: &(dyn Fn(&Json) -> bool + Sync),
+        result: &mut Json,
+    ) {
+        let keys = StepKeys::of(loaded);
+        let (first, start) = self.kept.start(loaded, &keys);
+        let mut steps = self.kept.reports();
+        let events = Events {
+            loaded,
+            listen,
+            kept: &self.kept,
+            last: Mutex::new(Instant::now()),
+        };
+        for (number, done) in steps.iter().enumerate() {
+            events.step_begins(number, &done.label);
+            events.step_done(number, done);
+        }
+        let settings = Run {
+            keep_outputs: true,
+            cache: None,
+        };
+        let outcome = loaded.run_from(first, start, settings, &events);
+        let earlier = loaded.recipe.expectations.iter();
+        let earlier = earlier.take_while(|placed| placed.after.is_some_and(|after| after < first));
+        let checked = earlier.count() + outcome.checked;
+        self.kept.add(&keys, &outcome, checked);
+        steps.extend(outcome.steps.iter().cloned());
+        let steps = steps.iter().enumerate();
+        let problems = [&loaded.diagnostics[..], &outcome.failures].concat();
+        let files = outcome
+            .written
+            .iter()
+            .map(|path| path.display().to_string());
+        result["succeeded"] = json!(outcome.succeeded());
+        result["cancelled"] = json!(outcome.cancelled);
+        result["problems"] = json!(placed(&problems, loaded));
+        result["steps"] = steps.map(|(i, done)| step_done(i, done)).collect();
+        result["expectations"] = json!(expectations(loaded, &outcome, checked));
+        result["digest"] = json!(outcome.digest.to_string());
+        result["files"] = files.collect();
+        self.scene = outcome.scene.unwrap_or_default();
     }
 
     /// Renders a picture of the scene of the last run, as the bytes of a PNG file. `size` is in pixels. `up` is the axis that
@@ -244,12 +278,11 @@ impl Session {
         described.collect()
     }
 
-    fn load(&self, path: &str, text: &str, set: &[(String, String)]) -> Loaded {
+    fn load(&self, path: &str, text: &str, values: Values) -> Loaded {
         let options = Options {
             values: Values {
-                set,
-                preset: None,
                 folder: Some(Path::new("")),
+                ..values
             },
             out: Path::new(OUT),
             budget: BUDGET,
@@ -259,10 +292,11 @@ impl Session {
     }
 }
 
-/// Passes events of a run on as JSON.
+/// Passes events of a run on as JSON, and keeps the scenes.
 struct Events<'a> {
     loaded: &'a Loaded,
     listen: &'a (dyn Fn(&Json) -> bool + Sync),
+    kept: &'a Kept,
     /// The time of the last progress event.
     last: Mutex<Instant>,
 }
@@ -291,70 +325,14 @@ impl Listener for Events<'_> {
     fn step_done(&self, number: usize, done: &StepDone) {
         (self.listen)(&step_done(number, done));
     }
-}
 
-fn placed(diagnostics: &[Diagnostic], loaded: &Loaded) -> Vec<PlacedProblem> {
-    let sources = &loaded.recipe.sources;
-    let text = sources.first().map_or("", |s| &s.text);
-    let range = |d: &Diagnostic| {
-        let range = d.span.filter(|_| d.source == 0)?.fitted(text);
-        let units = |end: usize| text[..end].encode_utf16().count();
-        Some([units(range.start), units(range.end)])
-    };
-    let described = problems(diagnostics, sources).into_iter().zip(diagnostics);
-    described
-        .map(|(problem, d)| PlacedProblem {
-            problem,
-            range: range(d),
-        })
-        .collect()
-}
-
-/// Describes the expectations that were checked. Expectations are checked in order, so these are the first ones.
-fn expectations(loaded: &Loaded, outcome: &Outcome) -> Vec<Json> {
-    let recipe = &loaded.recipe;
-    let checked = recipe.expectations.iter().enumerate().take(outcome.checked);
-    let described = checked.map(|(i, placed)| {
-        let source = &recipe.sources[recipe.scopes[placed.scope].source];
-        let (line, _) = LineIndex::new(&source.text).position(placed.span.start);
-        json!({
-            "file": source.path.display().to_string(),
-            "line": line,
-            "text": as_written(&source.text[placed.span.fitted(&source.text)]),
-            "met": outcome.unmet.iter().all(|unmet| unmet.expectation != i),
-        })
-    });
-    described.collect()
-}
-
-/// Returns a part of a recipe on one line.
-fn as_written(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
-}
-
-fn parameter(parameter: &Parameter) -> Json {
-    let param = &parameter.param;
-    let mut json = json!({
-        "name": parameter.name, "type": param.type_name(), "value": parameter.plain_text(), "doc": param.doc(),
-        "min": null, "max": null, "of": null,
-    });
-    match param {
-        Param::Int { min, max, .. } => (json["min"], json["max"]) = (json!(min), json!(max)),
-        Param::Float { min, max, .. } => (json["min"], json["max"]) = (json!(min), json!(max)),
-        Param::Choice { of, .. } => json["of"] = json!(of),
-        _ => {}
+    fn wants_scenes(&self) -> bool {
+        true
     }
-    json
-}
 
-fn object(object: &scene::Object) -> Json {
-    let mut json = json!({ "name": object.name, "kind": object.geometry.kind() });
-    if let Geometry::Mesh(mesh) = &object.geometry {
-        json["vertices"] = json!(mesh.n_vertices());
-        json["edges"] = json!(mesh.n_edges());
-        json["faces"] = json!(mesh.n_faces());
+    fn scene_after(&self, _: usize, scene: &Scene) {
+        self.kept.add_scene(scene);
     }
-    json
 }
 
 #[cfg(test)]

@@ -1,6 +1,8 @@
 // Runs every recipe in scenes/ that tests/digests.txt lists, with its files as bytes: the digests must be the same. Then
-// reads the odd and hostile files of the fuzz tests, of which none may end the engine: scenes.mjs PACKAGE
+// reads the odd and hostile files of the fuzz tests, of which none may end the engine, and lists the files that npm would
+// publish: scenes.mjs PACKAGE
 import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
 import { readFileSync, readdirSync } from "node:fs";
 import { extname, join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
@@ -52,6 +54,21 @@ for (const { title, quantity } of colored.quantities()) {
 assert.throws(() => colored.colors({ Attribute: { name: "missing" } }), /missing/);
 colored.free();
 
+// A changed parameter runs the steps from the first one that has it.
+const slider = await Session.create();
+const twisted = `(recipe: 1, params: { "twist": Float(default: 10), "levels": Int(default: 2) }, presets: { "fine": { "levels": 3 } },
+    steps: [Cube(name: "a"), CatmullClark(levels: arg("levels")), Twist(axis: Y, angle: arg("twist"))])`;
+const cached = (options) => {
+    const changed = slider.run(twisted, options);
+    assert.equal(changed.digest, new Session().run(twisted, options).digest);
+    return changed.steps.map((step) => step.cached);
+};
+assert.deepEqual(cached({}), [false, false, false]);
+assert.deepEqual(cached({ set: { twist: 20 } }), [true, true, false]);
+assert.deepEqual(cached({ preset: "fine" }), [true, false, false]);
+assert.deepEqual(slider.check(twisted, { preset: "fine" }).presets, ["fine"]);
+slider.free();
+
 // Checking is fast enough for each key.
 const checker = await Session.create();
 const text = readFileSync(join(root, "scenes/cube_flip.ron"), "utf8");
@@ -74,3 +91,9 @@ for (const path of filesBelow("tests/fuzz/corpus")) {
     n += 1;
 }
 console.log(`${n} odd files were read or refused`);
+
+// The package has its license, its README and its types.
+const [{ files }] = JSON.parse(execFileSync("npm", ["pack", "--dry-run", "--json", resolve(process.argv[2])], { encoding: "utf8" }));
+assert.deepEqual(files.map(({ path }) => path).sort(), ["LICENSE-APACHE", "LICENSE-MIT", "README.md", "core.d.ts", "core.js",
+    "core_bg.wasm", "core_bg.wasm.d.ts", "meshwright.d.ts", "meshwright.js", "package.json"]);
+console.log(`npm would publish ${files.length} files`);

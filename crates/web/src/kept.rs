@@ -1,0 +1,146 @@
+//! The results of the last run, so that the next run starts at the first step that changed.
+
+use std::collections::HashSet;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+use engine::{Loaded, Outcome, StepDone, StepKey, StepKeys, new_bytes};
+use scene::Scene;
+
+/// The maximum memory of the kept scenes, in bytes.
+const MAX_BYTES: u64 = 1 << 29;
+
+/// The results of the last run.
+#[derive(Debug, Default)]
+pub(crate) struct Kept {
+    /// The steps that are done, in order.
+    steps: Vec<(StepKey, StepDone)>,
+    scenes: Mutex<Scenes>,
+    /// The keys of the expectations that hold.
+    held: HashSet<StepKey>,
+}
+
+/// The scenes after the first steps of a recipe.
+#[derive(Debug, Default)]
+struct Scenes {
+    /// `None` for a scene that is not kept.
+    after: Vec<Option<Scene>>,
+    bytes: u64,
+    /// The addresses of the meshes that `bytes` counts.
+    seen: HashSet<usize>,
+}
+
+impl Kept {
+    /// Returns the index of the step that the next run must start with, and the scene before this step. Keeps only the
+    /// results of earlier steps.
+    pub(crate) fn start(&mut self, loaded: &Loaded, keys: &StepKeys) -> (usize, Scene) {
+        let known = self.steps.iter().zip(&keys.steps);
+        let known = known.take_while(|((before, _), now)| before == *now);
+        // Every run writes all outputs, because their provenance has the values of all parameters.
+        let forecast = &loaded.forecast.steps;
+        let writes = forecast.iter().position(|step| step.n_outputs > 0);
+        let first = known.count().min(writes.unwrap_or(usize::MAX));
+        // An expectation is checked only if the step before it runs.
+        let expectations = loaded.recipe.expectations.iter().zip(&keys.expectations);
+        let unknown = expectations.filter(|(_, key)| !self.held.contains(*key));
+        let first = unknown
+            .filter_map(|(placed, _)| placed.after)
+            .fold(first, usize::min);
+        let mut scenes = self.scenes();
+        let is_kept = |first: &usize| matches!(scenes.after.get(*first - 1), Some(Some(_)));
+        let first = (1..=first).rev().find(is_kept).unwrap_or(0);
+        scenes.after.truncate(first);
+        scenes.keep_last(MAX_BYTES);
+        let scene = scenes.after.last().cloned().flatten().unwrap_or_default();
+        drop(scenes);
+        self.steps.truncate(first);
+        (first, scene)
+    }
+
+    /// Returns the reports of the steps that do not run again.
+    pub(crate) fn reports(&self) -> Vec<StepDone> {
+        let report = |(_, done): &(_, StepDone)| StepDone {
+            ran: None,
+            time: Duration::ZERO,
+            ..done.clone()
+        };
+        self.steps.iter().map(report).collect()
+    }
+
+    /// Keeps the scene after the next step. While a scene is kept, a step copies its meshes before it changes them.
+    pub(crate) fn add_scene(&self, scene: &Scene) {
+        let mut scenes = self.scenes();
+        let Scenes { after, bytes, seen } = &mut *scenes;
+        *bytes += new_bytes(scene, seen);
+        after.push(Some(scene.clone()));
+        if *bytes > MAX_BYTES {
+            scenes.keep_last(MAX_BYTES / 2);
+        }
+    }
+
+    /// Keeps the reports of a run. `checked` is the number of expectations that were checked by this run or hold since an
+    /// earlier one.
+    pub(crate) fn add(&mut self, keys: &StepKeys, outcome: &Outcome, checked: usize) {
+        let keyed = keys.steps.iter().skip(outcome.first).zip(&outcome.steps);
+        self.steps
+            .extend(keyed.map(|(key, done)| (*key, done.clone())));
+        let is_met = |i: &usize| outcome.unmet.iter().all(|unmet| unmet.expectation != *i);
+        let held = keys.expectations.iter().take(checked).enumerate();
+        self.held = held
+            .filter(|(i, _)| is_met(i))
+            .map(|(_, key)| *key)
+            .collect();
+    }
+
+    fn scenes(&self) -> MutexGuard<'_, Scenes> {
+        self.scenes.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Scenes {
+    /// Keeps only the last scenes that fit into this number of bytes.
+    fn keep_last(&mut self, limit: u64) {
+        self.seen.clear();
+        self.bytes = 0;
+        let mut is_full = false;
+        for place in self.after.iter_mut().rev() {
+            let Some(scene) = place else { continue };
+            let bytes = self.bytes + new_bytes(scene, &mut self.seen);
+            is_full |= bytes > limit;
+            if is_full {
+                *place = None;
+            } else {
+                self.bytes = bytes;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use geometry::shapes;
+    use scene::Object;
+
+    use super::*;
+
+    #[test]
+    fn only_the_last_scenes_stay_if_memory_is_short() {
+        let kept = Kept::default();
+        let mut scene = Scene::new();
+        scene.insert(Object::mesh("a", shapes::cube())).unwrap();
+        kept.add_scene(&scene);
+        let one = kept.scenes().bytes;
+        // An unchanged mesh needs no memory.
+        kept.add_scene(&scene);
+        let shared = kept.scenes().bytes - one;
+        assert!(shared < one);
+        let mut scene = Scene::new();
+        scene.insert(Object::mesh("a", shapes::cube())).unwrap();
+        kept.add_scene(&scene);
+        let is_kept = || -> Vec<bool> { kept.scenes().after.iter().map(Option::is_some).collect() };
+        assert_eq!(is_kept(), [true; 3]);
+        kept.scenes().keep_last(one + shared);
+        assert_eq!(is_kept(), [false, false, true]);
+        assert_eq!(kept.scenes().bytes, one);
+    }
+}

@@ -89,6 +89,7 @@ pub fn run_with(registry: &Registry, arguments: &[OsString]) -> u8 {
         Command::Cache(args) => commands::cache::run(&args),
         Command::Shrink(args) => commands::shrink::run(&args, &engine),
         Command::Edit(args) => commands::edit::run(&args),
+        Command::Web(args) => commands::web::run(&args),
         Command::New(args) => commands::new::run(&args),
         Command::Expectations { name } => commands::ops::expectations(name.as_deref()),
         Command::Completions { shell } => commands::man::completions(shell),

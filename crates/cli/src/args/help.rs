@@ -40,6 +40,7 @@ const GROUPS: [(&str, &[(&str, &str)]); 4] = [
         "Write and maintain recipes",
         &[
             ("edit", "edit part.ron"),
+            ("web", "web target/web/page"),
             ("new", "new part"),
             ("ops", "ops BevelEdges"),
             ("expectations", "expectations Area"),

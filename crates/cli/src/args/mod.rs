@@ -61,6 +61,11 @@ pub(crate) enum Command {
     ///
     /// The editor is a separate program, `meshwright-viewer`.
     Edit(EditArgs),
+    /// Serve the page for browsers on this computer
+    ///
+    /// Sends the headers with which browsers let the page use threads. Other computers cannot connect. Ctrl-C ends the
+    /// server.
+    Web(WebArgs),
     /// Write a small commented recipe to start from
     New(NewArgs),
     /// List the operations or the selections, or describe one operation
@@ -100,6 +105,16 @@ pub(crate) enum Command {
 pub(crate) struct EditArgs {
     /// A recipe, or a model for a new recipe to load
     pub(crate) file: Option<PathBuf>,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(crate) struct WebArgs {
+    /// The folder of the page
+    #[arg(default_value = "target/web/page")]
+    pub(crate) folder: PathBuf,
+    /// The port; 0 chooses a free one
+    #[arg(long, default_value_t = 8000)]
+    pub(crate) port: u16,
 }
 
 #[derive(Debug, ClapArgs)]

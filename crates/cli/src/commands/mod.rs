@@ -23,3 +23,4 @@ pub(crate) mod test;
 mod test_update;
 pub(crate) mod upgrade;
 pub(crate) mod watch;
+pub(crate) mod web;

@@ -31,3 +31,4 @@ mod test;
 mod upgrade;
 mod usage;
 mod watch;
+mod web;

@@ -16,6 +16,12 @@ mkdir -p "$tools"
 cp crates/web/page/package.json crates/web/page/package-lock.json "$tools"
 npm ci --silent --no-audit --no-fund --ignore-scripts --prefix "$tools" ||
     skip "the page is not built: packages cannot be installed from npm"
+
+# The types of the package, with a sample that is only checked.
+mkdir -p "$tools/node_modules/meshwright"
+cp "$package/package.json" "$package/meshwright.d.ts" "$package/meshwright.js" "$tools/node_modules/meshwright"
+cp crates/web/tests/types.ts "$tools/types.mts"
+"$tools/node_modules/.bin/tsc" --noEmit --strict --module nodenext --target es2022 --lib es2022,dom "$tools/types.mts"
 node crates/web/page/bundle.mjs "$package" "$threads" "$tools" "$out"
 
 chromium=$(command -v chromium || command -v chromium-browser || command -v google-chrome) ||

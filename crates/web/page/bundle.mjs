@@ -1,9 +1,11 @@
 // Writes the page: bundles the scripts, copies the engine, and renders the gallery: bundle.mjs PACKAGE THREADS TOOLS OUT. THREADS is
 // the folder of the package with threads, which may be missing.
-import { copyFileSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { copyFileSync, cpSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { createHash } from "node:crypto";
 import { createRequire } from "node:module";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
+import { brotliCompressSync } from "node:zlib";
 
 const [engine, threaded, tools, out] = process.argv.slice(2).map((path) => resolve(path));
 const here = new URL(".", import.meta.url).pathname;
@@ -12,6 +14,10 @@ const esbuild = createRequire(join(tools, "package.json"))("esbuild");
 
 rmSync(out, { recursive: true, force: true });
 mkdirSync(join(out, "gallery"), { recursive: true });
+
+/// The nonce of the styles of CodeMirror. A folder of static files has the same nonce for all visitors. Only markup could use it,
+/// and the page makes none from texts.
+const nonce = createHash("sha256").update(readFileSync(join(engine, "core_bg.wasm"))).digest("base64");
 
 /// Bundles scripts. Workers contain the package; the page gives them the compiled engine.
 function bundle(scripts, folder, engine) {
@@ -25,6 +31,7 @@ function bundle(scripts, folder, engine) {
         nodePaths: [join(tools, "node_modules")],
         alias: { meshwright: join(engine, "meshwright.js"), core: join(engine, "core.js") },
         external: ["node:fs/promises"],
+        define: { STYLE_NONCE: JSON.stringify(nonce) },
         // The licenses of bundled packages.
         legalComments: "eof",
         logLevel: "warning",
@@ -35,17 +42,34 @@ await bundle([join(here, "main.js"), join(here, "worker.js")], out, engine);
 if (existsSync(join(threaded, "core.js"))) {
     const worker = { in: join(here, "threaded.js"), out: "worker" };
     await bundle([worker, { in: join(here, "thread.js"), out: "thread" }], join(out, "threads"), threaded);
-    copyFileSync(join(threaded, "core_bg.wasm"), join(out, "threads/core_bg.wasm"));
+    for (const name of ["core_bg.wasm", "core_bg.wasm.br"]) {
+        copyFileSync(join(threaded, name), join(out, "threads", name));
+    }
 }
-for (const name of ["index.html", "download.js", "style.css", "icon.svg"]) {
+for (const name of ["download.js", "style.css", "operations.css", "icon.svg"]) {
     copyFileSync(join(here, name), join(out, name));
 }
-for (const name of ["core_bg.wasm", "LICENSE-APACHE", "LICENSE-MIT"]) {
+writeFileSync(join(out, "index.html"), readFileSync(join(here, "index.html"), "utf8").replace("STYLE_NONCE", nonce));
+for (const name of ["core_bg.wasm", "core_bg.wasm.br", "LICENSE-APACHE", "LICENSE-MIT"]) {
     copyFileSync(join(engine, name), join(out, name));
 }
 const licenses = ["@codemirror/view", "three"].map((name) =>
     `${name}\n\n${readFileSync(join(tools, "node_modules", name, "LICENSE"), "utf8")}`);
 writeFileSync(join(out, "LICENSE-bundled.txt"), licenses.join("\n\n"));
+
+// The reference of operations, with an anchor for each heading.
+const { marked } = await import(pathToFileURL(createRequire(join(tools, "package.json")).resolve("marked")).href);
+marked.use({ renderer: {
+    heading({ tokens, depth, text }) {
+        const id = text.toLowerCase().replace(/[^\w -]/g, "").replaceAll(" ", "-");
+        return `<h${depth} id="${id}">${this.parser.parseInline(tokens)}</h${depth}>\n`;
+    },
+    image: ({ href, text }) => `<img src="${href}" alt="${text}" loading="lazy">`,
+} });
+const reference = readFileSync(join(root, "ops/README.md"), "utf8").replaceAll("](all/pictures/", "](pictures/");
+const frame = readFileSync(join(here, "operations.html"), "utf8");
+writeFileSync(join(out, "operations.html"), frame.replace("REFERENCE", () => marked.parse(reference)));
+cpSync(join(root, "ops/all/pictures"), join(out, "pictures"), { recursive: true });
 
 // The scenes, with their texts and files in one file, and a picture of each.
 const { Session, load } = await import(pathToFileURL(join(engine, "meshwright.js")).href);
@@ -74,3 +98,8 @@ const scenes = names.map((name) => {
     return { name, about, recipe, reads: [...new Set(reads)], up };
 });
 writeFileSync(join(out, "gallery/scenes.json"), JSON.stringify({ scenes, files }));
+
+// For servers that send compressed files. The engine is compressed already.
+for (const name of ["main.js", "worker.js", "operations.html", "gallery/scenes.json"]) {
+    writeFileSync(join(out, `${name}.br`), brotliCompressSync(readFileSync(join(out, name))));
+}

@@ -28,7 +28,8 @@ export function counted(n, one, many = `${one}s`) {
 /// Returns a size in bytes for people.
 export function sizeText(bytes) {
     return bytes < 1000 ? counted(bytes, "byte")
-        : bytes < 1e6 ? `${(bytes / 1e3).toPrecision(3)} kB` : `${(bytes / 1e6).toPrecision(3)} MB`;
+        : bytes < 1e6 ? `${(bytes / 1e3).toPrecision(3)} kB`
+            : bytes < 999e6 ? `${(bytes / 1e6).toPrecision(3)} MB` : `${(bytes / 1e9).toPrecision(3)} GB`;
 }
 
 /// Returns a function that calls `action` once no further call has come for `milliseconds`.

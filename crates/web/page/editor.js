@@ -73,6 +73,7 @@ export class Editor {
             lineNumbers(), highlightActiveLine(), highlightActiveLineGutter(), lintGutter(), history(), drawSelection(),
             bracketMatching(), closeBrackets(), highlightSelectionMatches(), indentUnit.of("    "), ron,
             syntaxHighlighting(colors), autocompletion({ override: [complete] }), messages, tooltips(describe),
+            EditorView.cspNonce.of(STYLE_NONCE),
             matchMedia("(max-width: 800px)").matches ? EditorView.lineWrapping : [],
             EditorView.contentAttributes.of({ "aria-label": "Recipe. Press Escape, then Tab to leave the editor.",
                 spellcheck: "false" }),

@@ -17,6 +17,8 @@ export class Engine {
     #last = 0;
     /// Receives the events of runs.
     onEvent = () => {};
+    /// Called when the scene and the outputs of the last run are lost.
+    onLost = () => {};
     /// The content of each file by its path. Outputs are not among them.
     files = new Map();
 
@@ -95,6 +97,7 @@ export class Engine {
             worker.terminate();
         }
         this.#threads = [];
+        this.onLost();
         for (const { reject } of this.#waiting.values()) {
             reject(reason);
         }
@@ -135,18 +138,26 @@ export class Engine {
         }
     }
 
-    /// Removes a file, which needs another worker.
+    /// Removes a file.
     async remove(path) {
         this.files.delete(path);
-        await (this.#worker && this.restart());
+        try {
+            await (this.#worker && this.#call("remove", path));
+        } catch (error) {
+            // The next worker does not get the file.
+            if (!(error instanceof Ended)) {
+                throw error;
+            }
+        }
     }
 
     read(path) {
         return this.#call("read", path);
     }
 
-    check(recipe, set) {
-        return this.#call("check", recipe, set);
+    /// Checks a recipe. The values `set` take precedence over the preset with the name `preset`.
+    check(recipe, set, preset) {
+        return this.#call("check", recipe, set, preset);
     }
 
     run(recipe, set) {

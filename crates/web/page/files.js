@@ -7,10 +7,48 @@ const MODELS = /\.(obj|gltf|glb|ply|stl|off|dae|bez|bzc|mws)(\.gz)?$/i;
 /// The maximum size of a file in bytes. Meshes may have 1 GiB in total.
 const MAX_SIZE = 2 ** 30;
 
-/// Returns the name of a file without folders and control characters; `null` if nothing is left.
-export function safeName(name) {
-    const last = name.split(/[/\\]/).at(-1).replace(/[\u0000-\u001f\u007f]/g, "").trim();
-    return /^\.*$/.test(last) ? null : last;
+/// The maximum number of files in a folder.
+const MAX_FILES = 2000;
+
+/// Returns a path below the folder of the recipe, without control characters, and without parts such as `..`; `null` if nothing
+/// is left.
+export function safePath(path) {
+    const parts = path.split(/[/\\]/).map((part) => part.replace(/[\u0000-\u001f\u007f]/g, "").trim());
+    return parts.filter((part) => !/^\.*$/.test(part)).join("/") || null;
+}
+
+/// Returns the files of a drop, also those in folders, as `[path, file]`.
+async function dropped(transfer) {
+    // Must be read before the event ends.
+    const items = [...transfer.items].filter((item) => item.kind === "file")
+        .map((item) => [item.webkitGetAsEntry?.(), item.getAsFile()]);
+    const found = [];
+    for (const [entry, file] of items) {
+        if (entry?.isDirectory) {
+            await collect(entry, found);
+        } else if (file) {
+            found.push([file.name, file]);
+        }
+    }
+    return found;
+}
+
+/// Adds the files of a folder, apart from hidden ones, to a list. Stops after `MAX_FILES` files.
+async function collect(folder, found) {
+    const reader = folder.createReader();
+    const read = () => new Promise((resolve, reject) => reader.readEntries(resolve, reject));
+    for (let entries = await read(); entries.length; entries = await read()) {
+        for (const entry of entries.filter(({ name }) => !name.startsWith("."))) {
+            if (found.length > MAX_FILES) {
+                return;
+            }
+            if (entry.isDirectory) {
+                await collect(entry, found);
+            } else {
+                found.push([entry.fullPath, await new Promise((resolve, reject) => entry.file(resolve, reject))]);
+            }
+        }
+    }
 }
 
 export class Files {
@@ -24,19 +62,27 @@ export class Files {
         const choose = () => byId("file-input").click();
         byId("open-files").addEventListener("click", choose);
         byId("add-files").addEventListener("click", choose);
-        byId("file-input").addEventListener("change", ({ target }) => {
-            this.add([...target.files]);
-            target.value = "";
-        });
+        byId("add-folder").addEventListener("click", () => byId("folder-input").click());
+        for (const id of ["file-input", "folder-input"]) {
+            byId(id).addEventListener("change", ({ target }) => {
+                const files = [...target.files].map((file) => [file.webkitRelativePath || file.name, file]);
+                this.add(files.filter(([path]) => !path.includes("/.")));
+                target.value = "";
+            });
+        }
         this.#listen();
         this.show();
     }
 
-    /// Writes files, and offers what can be done with them.
+    /// Writes files, given as `[path, file]`, and offers what can be done with them.
     async add(list) {
+        if (list.length > MAX_FILES) {
+            notify(`The folder was not opened: it has more than ${counted(MAX_FILES, "file")}.`);
+            return;
+        }
         const added = [];
-        for (const file of list) {
-            const name = safeName(file.name);
+        for (const [path, file] of list) {
+            const name = safePath(path);
             if (!name || file.size > MAX_SIZE) {
                 notify(name ? `${name} is larger than 1 GiB, so it was not opened.` : "A file without a name was not opened.");
                 continue;
@@ -79,7 +125,6 @@ export class Files {
             element("button", { type: "button", class: "plain", "aria-label": `Remove ${path}`, title: "Remove", onclick: () => {
                 this.#engine.remove(path).catch((error) => notify(error.message));
                 this.show();
-                this.outputs([]);
                 this.#actions.changed();
             } }, "×")));
         byId("inputs").replaceChildren(...rows.length ? rows : [element("li", { class: "hint" },
@@ -112,7 +157,7 @@ export class Files {
             drop.hidden = true;
             if (isFiles(event)) {
                 event.preventDefault();
-                this.add([...event.dataTransfer.files]);
+                dropped(event.dataTransfer).then((files) => this.add(files)).catch((error) => notify(error.message));
             }
         }, true);
     }

@@ -5,29 +5,52 @@ let loading;
 
 /// Loads the scenes once. Returns `scenes` and `files`, whose contents are base64 by path.
 function shipped() {
-    loading ??= fetch("gallery/scenes.json").then((response) => response.json());
+    loading ??= fetched().catch((error) => {
+        // The next call tries again, for example after the network is back.
+        loading = undefined;
+        throw error;
+    });
     return loading;
+}
+
+async function fetched() {
+    const response = await fetch("gallery/scenes.json");
+    if (!response.ok) {
+        throw new Error(`the server answers ${response.status}`);
+    }
+    return response.json();
 }
 
 /// Returns the files of the scenes that a recipe names: `[path, bytes]`.
 export async function namedFiles(recipe) {
+    if (!/"(assets|lib)\//.test(recipe)) {
+        return [];
+    }
     const { files } = await shipped();
     return Object.keys(files).filter((path) => recipe.includes(`"${path}"`)).map((path) => [path, decoded(files[path])]);
 }
 
 const decoded = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
 
-/// Fills the gallery. `open` is called with the recipe and its files: `{ name, recipe, up, files }`.
-export async function fillGallery(open) {
-    const dialog = byId("gallery");
-    byId("open-gallery").addEventListener("click", () => dialog.showModal());
-    byId("close-gallery").addEventListener("click", () => dialog.close());
-    // A click beside the dialog.
-    dialog.addEventListener("click", (event) => event.target === dialog && dialog.close());
-    const { scenes, files } = await shipped();
+/// Prepares the gallery, which is filled at once or, if the scenes cannot be loaded, when it is opened. `open` is called with the
+/// recipe and its files: `{ name, recipe, up, files }`.
+export function prepareGallery(open) {
+    const fill = () => shipped().then((found) => show(found, open), (error) => {
+        byId("scenes").replaceChildren(element("li", { class: "hint" },
+            `The scenes cannot be loaded: ${error.message}. Open the gallery again to try once more.`));
+    });
+    byId("open-gallery").addEventListener("click", () => {
+        if (!byId("scenes").querySelector("button")) {
+            fill();
+        }
+    });
+    return fill();
+}
+
+function show({ scenes, files }, open) {
     byId("scenes").replaceChildren(...scenes.map(({ name, about, recipe, reads, up }) => {
         const show = () => {
-            dialog.close();
+            byId("gallery").close();
             open({ name, recipe, up, files: reads.map((path) => [path, decoded(files[path])]) });
         };
         return element("li", {}, element("button", { type: "button", onclick: show },

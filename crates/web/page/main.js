@@ -4,7 +4,7 @@ import { byId, debounced, download, notify } from "./dom.js";
 import { Editor } from "./editor.js";
 import { Ended, Engine } from "./engine.js";
 import { Files } from "./files.js";
-import { fillGallery, namedFiles } from "./gallery.js";
+import { namedFiles, prepareGallery } from "./gallery.js";
 import { Parameters } from "./parameters.js";
 import { Steps, showProblems } from "./results.js";
 import { LinkError, link, shared } from "./share.js";
@@ -29,6 +29,8 @@ let up = "auto";
 let foreign = false;
 /// The text and the values of the last run, whose problems and steps stay until one of both changes.
 let lastRun;
+/// Settled once the files of a shared recipe are there.
+let arriving = Promise.resolve();
 let completions;
 
 const editor = new Editor(byId("editor"), {
@@ -44,7 +46,7 @@ const reveal = (range, line) => {
     }
 };
 const steps = new Steps(reveal);
-const parameters = new Parameters(() => (trusted ? runSoon() : checkSoon()));
+const parameters = new Parameters(() => (trusted ? runSoon() : checkSoon()), choosePreset);
 const stage = new Stage(engine, editor);
 const files = new Files(engine, {
     openRecipe: (text, name) => openRecipe(text, { title: name, trust: true }),
@@ -53,6 +55,10 @@ const files = new Files(engine, {
 });
 const checkSoon = debounced(100, () => check());
 const runSoon = debounced(60, run);
+engine.onLost = () => {
+    stage.detach();
+    files.outputs([]);
+};
 engine.onEvent = (event) => {
     const text = steps.event(event);
     if (text) {
@@ -83,9 +89,9 @@ async function checkText(keepSteps) {
         }
         editor.show(checked.problems);
         showProblems(checked.problems, reveal);
-        parameters.show(checked.parameters);
+        parameters.show(checked.parameters, checked.presets);
         if (!keepSteps) {
-            steps.list(checked.steps);
+            steps.list(checked.steps, checked.peak_bytes);
         }
         if (completions) {
             completions.parameters = checked.parameters.map(({ name }) => name);
@@ -103,6 +109,7 @@ async function run() {
     }
     setRunning(true);
     trusted = true;
+    await arriving;
     await checkText();
     lastRun = current();
     steps.begin();
@@ -133,6 +140,18 @@ async function run() {
     }
 }
 
+/// Sets the parameters to the values of a preset.
+async function choosePreset(name) {
+    try {
+        const text = editor.text;
+        const [plain, chosen] = await Promise.all([engine.check(text, {}), engine.check(text, {}, name)]);
+        const changed = chosen.parameters.filter(({ value }, i) => value !== plain.parameters[i].value);
+        parameters.setAll(Object.fromEntries(changed.map(({ name, value }) => [name, value])));
+    } catch (error) {
+        report(error);
+    }
+}
+
 /// Returns the text and the values as one key.
 function current() {
     return JSON.stringify([editor.text, parameters.values]);
@@ -141,7 +160,6 @@ function current() {
 /// Ends the run at once. A new worker takes over.
 function cancel() {
     runAgain = false;
-    files.outputs([]);
     engine.restart().catch(report);
 }
 
@@ -191,7 +209,7 @@ async function openShared() {
     try {
         const found = await shared(location.hash);
         if (found) {
-            write(await namedFiles(found.recipe));
+            arriving = writeNamed(found.recipe);
             await openRecipe(found.recipe, { title: "Shared recipe", trust: false, set: found.set });
             notify("This recipe comes from a link. Press Run to run it. Ctrl+Z brings back the text before.");
         }
@@ -202,6 +220,16 @@ async function openShared() {
         }
         notify(error.message);
         return false;
+    }
+}
+
+/// Writes the files of the scenes that a recipe names. Without them, the check reports which files are missing.
+async function writeNamed(recipe) {
+    const named = await namedFiles(recipe).catch(() => []);
+    if (named.length) {
+        write(named);
+        lastRun = undefined;
+        checkSoon();
     }
 }
 
@@ -258,7 +286,13 @@ function listen() {
     byId("run").addEventListener("click", run);
     byId("cancel").addEventListener("click", cancel);
     byId("share").addEventListener("click", share);
-    byId("close-link").addEventListener("click", () => byId("link-dialog").close());
+    byId("open-gallery").addEventListener("click", () => byId("gallery").showModal());
+    byId("open-help").addEventListener("click", () => byId("help").showModal());
+    for (const dialog of document.querySelectorAll("dialog")) {
+        dialog.querySelector(".heading button").addEventListener("click", () => dialog.close());
+        // A click beside the dialog.
+        dialog.addEventListener("click", (event) => event.target === dialog && dialog.close());
+    }
     byId("copy-link").addEventListener("click", ({ target }) => copy(byId("link").value, target));
     byId("copy-digest").addEventListener("click", ({ target }) => copy(byId("digest").textContent, target));
     byId("save-recipe").addEventListener("click", () => download("recipe.ron", editor.text, "text/plain"));
@@ -294,7 +328,8 @@ async function start() {
     runAgain = checkAgain = false;
     await (trusted ? run() : check());
     stage.completions = completions = new Completions(await engine.describe());
-    await fillGallery(({ name, recipe, up: axis, files: needed }) => {
+    // Loaded last, and not needed for anything else.
+    prepareGallery(({ name, recipe, up: axis, files: needed }) => {
         write(needed);
         openRecipe(recipe, { title: name, trust: true, axis });
         run();

@@ -7,30 +7,40 @@ export class Parameters {
     /// The declarations of the inputs.
     #declared = "[]";
 
-    /// `onChange` is called after a value has changed.
-    constructor(onChange) {
+    /// `onChange` is called after a value has changed, and `onPreset` with the name of a preset that was chosen.
+    constructor(onChange, onPreset) {
         this.onChange = onChange;
-        byId("fields").addEventListener("submit", (event) => event.preventDefault());
-        byId("reset").addEventListener("click", () => {
-            this.values = {};
-            onChange();
+        byId("preset").addEventListener("change", ({ target }) => {
+            onPreset(target.value);
+            target.value = "";
         });
+        byId("fields").addEventListener("submit", (event) => event.preventDefault());
+        byId("reset").addEventListener("click", () => this.setAll({}));
     }
 
-    /// Shows inputs for the parameters of a checked recipe. Inputs in use are kept.
-    show(parameters) {
+    /// Replaces all values that are set.
+    setAll(values) {
+        this.values = values;
+        this.onChange();
+    }
+
+    /// Shows inputs for the parameters of a checked recipe, and the names of its presets. Inputs in use are kept.
+    show(parameters, presets) {
         for (const name of Object.keys(this.values)) {
             if (!parameters.some((parameter) => parameter.name === name)) {
                 delete this.values[name];
             }
         }
         byId("reset").hidden = Object.keys(this.values).length === 0;
-        const declared = JSON.stringify(parameters.map((parameter) => ({ ...parameter, value: null })));
+        const declared = JSON.stringify([presets, parameters.map((parameter) => ({ ...parameter, value: null }))]);
         if (declared === this.#declared) {
             this.#update(parameters);
             return;
         }
         this.#declared = declared;
+        byId("preset").hidden = presets.length === 0;
+        byId("preset").replaceChildren(element("option", { value: "" }, "Preset"),
+            ...presets.map((name) => element("option", { value: name }, name)));
         byId("fields").replaceChildren(...parameters.map((parameter) => this.#row(parameter)));
         byId("parameters").classList.toggle("empty", parameters.length === 0);
     }

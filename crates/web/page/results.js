@@ -1,5 +1,5 @@
 // Problems, steps, expectations and the digest.
-import { byId, counted, element } from "./dom.js";
+import { byId, counted, element, sizeText } from "./dom.js";
 
 /// Shows problems as a list. `reveal` moves to the place of a problem.
 export function showProblems(problems, reveal) {
@@ -30,8 +30,8 @@ export class Steps {
         this.reveal = reveal;
     }
 
-    /// Shows steps that have not run.
-    list(steps) {
+    /// Shows steps that have not run, and the forecast of their memory in bytes if it is known.
+    list(steps, bytes) {
         this.#steps = steps;
         this.#rows = steps.map(({ label, operation, line }, i) => {
             const show = () => line && this.reveal(null, line);
@@ -43,7 +43,8 @@ export class Steps {
             return row;
         });
         byId("steps").replaceChildren(...this.#rows.flatMap((row) => [row, row.notes]));
-        byId("summary").textContent = steps.length ? counted(steps.length, "step") : "";
+        const memory = bytes ? `, at most ${sizeText(bytes)} of memory for meshes` : "";
+        byId("summary").textContent = steps.length ? counted(steps.length, "step") + memory : "";
         byId("expectations-part").hidden = byId("digest-part").hidden = true;
         byId("digest").textContent = "";
     }
@@ -81,7 +82,7 @@ export class Steps {
         row.classList.remove("running");
         row.classList.add("done");
         const cells = [done.vertices, done.edges, done.faces].map((n) => n.toLocaleString("en"));
-        [...cells, milliseconds(done.milliseconds)].forEach((text, i) => (row.cells[i + 1].textContent = text));
+        [...cells, done.cached ? "cached" : milliseconds(done.milliseconds)].forEach((text, i) => (row.cells[i + 1].textContent = text));
         const notes = [
             ...done.refused.map(({ reason, count, first }) => `${counted(count, "edit")} refused: ${reason}, first ${first}`),
             ...done.losses.map(({ name, message }) => `${name}: ${message}`),

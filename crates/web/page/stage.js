@@ -1,6 +1,7 @@
 // The pane of the picture: the view of the meshes or the engine's own picture, its buttons, and picked elements.
 import { showLegend } from "./colors.js";
 import { byId, download, element, notify } from "./dom.js";
+import { Ended } from "./engine.js";
 import { numbered, selection } from "./pick.js";
 import { quoted } from "./ron.js";
 import { MAX_INSTANCES, View } from "./view.js";
@@ -37,6 +38,7 @@ export class Stage {
 
     /// Shows the scene of a run. The camera stays if `keep` is true. `up` is the axis that points upwards: "y", "z" or "auto".
     async show({ meshes, objects, quantities }, keep, up) {
+        this.#enable(true);
         this.#meshes = meshes;
         this.#offer(meshes.length ? quantities : []);
         const faces = objects.reduce((sum, object) => sum + (object.faces ?? 0), 0);
@@ -93,7 +95,9 @@ export class Stage {
             found = chosen && this.#meshes.length ? await this.#engine.colors(JSON.parse(chosen)) : null;
         } catch (error) {
             byId("color-by").value = "";
-            notify(error.message);
+            if (!(error instanceof Ended)) {
+                notify(error.message);
+            }
         }
         // The visitor may have chosen again.
         if (chosen === byId("color-by").value || !found) {
@@ -102,8 +106,24 @@ export class Stage {
         }
     }
 
+    /// Keeps the meshes and the picture after the engine has lost the scene. Colors and other pictures need the scene.
+    detach() {
+        this.#offer([]);
+        this.view?.color([]);
+        showLegend();
+        this.#enable(false);
+    }
+
+    #enable(is) {
+        byId("color-by").disabled = !is;
+        for (const id of ["edges", "up", "save-picture"]) {
+            byId(id).disabled = !is && !byId("picture").hidden;
+        }
+    }
+
     /// Says that the picture is that of an earlier run.
     keep() {
+        this.detach();
         byId("stage-note").textContent = "This is the scene of the last run without errors in the recipe.";
         byId("stage-note").hidden = this.#meshes.length === 0;
     }
@@ -149,9 +169,13 @@ export class Stage {
         byId("fit").addEventListener("click", () => this.view.fit());
         byId("save-picture").addEventListener("click", async () => {
             const rendered = !byId("picture").hidden;
-            const png = rendered ? await this.#engine.picture({ width: 1280, height: 960, ...this.#look() })
-                : await this.view.picture();
-            download("picture.png", png, "image/png");
+            try {
+                const png = rendered ? await this.#engine.picture({ width: 1280, height: 960, ...this.#look() })
+                    : await this.view.picture();
+                download("picture.png", png, "image/png");
+            } catch (error) {
+                notify(error.message);
+            }
         });
         byId("kinds").addEventListener("change", ({ target }) => {
             this.view.kind = target.value;

@@ -13,7 +13,8 @@ export const calls = {
     },
     write: (path, bytes) => session.write(path, bytes),
     read: (path) => session.read(path),
-    check: (recipe, set) => session.check(recipe, { set }),
+    remove: (path) => session.remove(path),
+    check: (recipe, set, preset) => session.check(recipe, { set, preset }),
     run(recipe, set) {
         const result = session.run(recipe, { set, onEvent: (event) => postMessage({ event }) });
         const meshes = result.objects.filter((object) => object.kind === "mesh");

@@ -77,8 +77,8 @@ pub(crate) struct TestArgs {
   meshwright batch --merge one.json two.json three.json --report all.csv
 
 Running an interrupted or crashed batch again resumes it: finished files that have not changed are not
-processed again. The state is kept in DIR/batch.jsonl, or in DIR/batch-I-of-N.jsonl with --shard I/N, where DIR is the
-folder given by --out.")]
+processed again, also with a different number of parts. The state is kept in DIR/batch.jsonl, or in
+DIR/batch-I-of-N.jsonl with --shard I/N, where DIR is the folder given by --out.")]
 pub(crate) struct BatchArgs {
     /// The recipe
     #[arg(required_unless_present = "merge")]

@@ -4,17 +4,23 @@
 //! the next lines are written. An incomplete last line is ignored and overwritten.
 //!
 //! ```text
-//! {"meshwright": "0.1.0", "process": 4711}       a process started on the batch
-//! {"key": "1f2e..", "row": {..}}                 a file is finished or has failed; see row.rs
+//! {"meshwright": "0.1.0", "process": 4711}                 a process started on the batch
+//! {"key": "1f2e..", "time": 1767225600000, "row": {..}}    a file is finished or has failed; see row.rs
 //! ```
 //!
 //! The key is a digest of everything that the row depends on: the recipe, the parameters, the path and content of
 //! every file that is read, the paths of outputs, the version of the program, and for failures the memory budget.
+//!
+//! Each part of a divided batch writes a journal of its own, so that parts can run at the same time. A batch reads the
+//! journals of all parts in its folder. Therefore it can be resumed with a different number of parts. If several
+//! entries are about the same file, the latest one counts, since its outputs replaced those of the others.
 
 use std::collections::HashMap;
+use std::collections::hash_map::Entry as Slot;
 use std::fs::{File, OpenOptions};
 use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
+use std::time::{SystemTime, UNIX_EPOCH};
 
 use anyhow::Context as _;
 use serde::{Deserialize, Serialize};
@@ -25,7 +31,22 @@ use super::row::{Row, json_lines};
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub(super) struct Entry {
     pub(super) key: String,
+    /// When the entry was made, in milliseconds since 1970.
+    #[serde(default)]
+    time: u64,
     pub(super) row: Row,
+}
+
+impl Entry {
+    pub(super) fn new(key: String, row: Row) -> Self {
+        let time = SystemTime::now().duration_since(UNIX_EPOCH);
+        let time = time.map_or(0, |time| time.as_millis());
+        Self {
+            key,
+            time: u64::try_from(time).unwrap_or(u64::MAX),
+            row,
+        }
+    }
 }
 
 /// The first line that each process writes.
@@ -46,10 +67,12 @@ pub(super) struct Journal {
 }
 
 impl Journal {
-    /// Opens the journal of a batch. Creates the file and its folder if they do not exist.
-    pub(super) fn open(path: PathBuf) -> anyhow::Result<Self> {
+    /// Opens the journal of a batch. Creates the file and its folder if they do not exist. Of the entries, keeps those
+    /// for which `is_wanted` is true.
+    pub(super) fn open(path: PathBuf, is_wanted: impl Fn(&Row) -> bool) -> anyhow::Result<Self> {
+        let folder = path.parent().unwrap_or(Path::new("."));
         let opened = (|| {
-            std::fs::create_dir_all(path.parent().unwrap_or(Path::new(".")))?;
+            std::fs::create_dir_all(folder)?;
             let mut options = OpenOptions::new();
             options.read(true).write(true).create(true).truncate(false);
             let mut file = options.open(&path)?;
@@ -67,13 +90,20 @@ impl Journal {
         let (file, bytes) =
             opened.with_context(|| format!("cannot open the journal {}", path.display()))?;
         let (mut known, mut processes) = (HashMap::new(), Vec::new());
-        // Lines of a different version that cannot be parsed are ignored, so their files are processed again.
-        for line in bytes.split(|&b| b == b'\n') {
-            if let Ok(entry) = serde_json::from_slice::<Entry>(line) {
-                let (input, set) = entry.row.key();
-                known.insert((input.to_owned(), set), entry);
-            } else if let Ok(start) = serde_json::from_slice::<ProcessStart>(line) {
-                processes.push(start.process);
+        let others = others(&path).into_iter().map(std::fs::read);
+        for (i, bytes) in std::iter::once(Ok(bytes)).chain(others).enumerate() {
+            // A journal that was removed in the meantime has no entries. Lines of a different version that cannot be
+            // parsed are ignored, so their files are processed again.
+            for line in bytes.unwrap_or_default().split(|&b| b == b'\n') {
+                if let Ok(entry) = serde_json::from_slice::<Entry>(line) {
+                    if is_wanted(&entry.row) {
+                        insert(&mut known, entry);
+                    }
+                } else if let Ok(start) = serde_json::from_slice::<ProcessStart>(line)
+                    && i == 0
+                {
+                    processes.push(start.process);
+                }
             }
         }
         let mut journal = Self {
@@ -101,6 +131,34 @@ impl Journal {
     }
 }
 
+/// Adds an entry, unless a later one about the same file is known. Of two entries of the same time, the second counts.
+fn insert(known: &mut HashMap<(String, usize), Entry>, entry: Entry) {
+    let (input, set) = entry.row.key();
+    match known.entry((input.to_owned(), set)) {
+        Slot::Occupied(earlier) if earlier.get().time > entry.time => {}
+        slot => {
+            slot.insert_entry(entry);
+        }
+    }
+}
+
+/// Returns the journals of other parts of the batch, in the order of their names.
+fn others(path: &Path) -> Vec<PathBuf> {
+    let folder = path.parent().unwrap_or(Path::new("."));
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let is_journal = |path: &PathBuf| {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let part = name
+            .strip_prefix("batch")
+            .and_then(|n| n.strip_suffix(".jsonl"));
+        part.is_some_and(|part| part.is_empty() || part.starts_with('-') && part.contains("-of-"))
+    };
+    let mut found: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
+    found.retain(|other| is_journal(other) && other.file_name() != path.file_name());
+    found.sort();
+    found
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -110,11 +168,8 @@ mod tests {
     fn entries_are_read_back_except_an_incomplete_last_line() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("deep/batch.jsonl");
-        let entry = |input: &str| Entry {
-            key: format!("key of {input}"),
-            row: row(input),
-        };
-        let mut journal = Journal::open(path.clone()).unwrap();
+        let entry = |input: &str| Entry::new(format!("key of {input}"), row(input));
+        let mut journal = Journal::open(path.clone(), |_| true).unwrap();
         journal.append(&[entry("a\n\"é"), entry("b")]).unwrap();
         drop(journal);
         let whole = std::fs::read(&path).unwrap();
@@ -127,16 +182,51 @@ mod tests {
                     .take(n_bytes),
             );
             std::fs::write(&path, bytes).unwrap();
-            let mut journal = Journal::open(path.clone()).unwrap();
+            let mut journal = Journal::open(path.clone(), |_| true).unwrap();
             let known =
                 |journal: &Journal, input: &str| journal.known.get(&(input.to_owned(), 0)).cloned();
             assert_eq!(known(&journal, "a\n\"é").unwrap().row, row("a\n\"é"));
             assert_eq!(known(&journal, "b").unwrap().key, "key of b");
             assert!(known(&journal, "c").is_none());
             journal.append(&[entry("d")]).unwrap();
-            let journal = Journal::open(path.clone()).unwrap();
+            let journal = Journal::open(path.clone(), |_| true).unwrap();
             assert!(known(&journal, "b").is_some() && known(&journal, "d").is_some());
             assert_eq!(journal.processes.len(), 2);
+        }
+    }
+
+    #[test]
+    fn the_latest_entry_of_all_journals_counts() {
+        let folder = tempfile::tempdir().unwrap();
+        let open = |name: &str| Journal::open(folder.path().join(name), |row| row.input != "c");
+        let entry = |key: &str, time: u64, input: &str| Entry {
+            key: key.to_owned(),
+            time,
+            row: row(input),
+        };
+        for (name, entries) in [
+            ("batch.jsonl", [entry("old", 1, "a"), entry("new", 4, "b")]),
+            (
+                "batch-1-of-2.jsonl",
+                [entry("new", 2, "a"), entry("old", 3, "b")],
+            ),
+            ("batch-2-of-3.jsonl", [entry("", 9, "c"), entry("", 9, "d")]),
+            ("batches.jsonl", [entry("", 9, "e"), entry("", 9, "f")]),
+        ] {
+            open(name).unwrap().append(&entries).unwrap();
+        }
+        for name in ["batch.jsonl", "batch-1-of-2.jsonl", "batch-7-of-9.jsonl"] {
+            let journal = open(name).unwrap();
+            let mut known: Vec<&str> = journal
+                .known
+                .keys()
+                .map(|(input, _)| input.as_str())
+                .collect();
+            known.sort_unstable();
+            assert_eq!(known, ["a", "b", "d"]);
+            for input in ["a", "b"] {
+                assert_eq!(journal.known[&(input.to_owned(), 0)].key, "new");
+            }
         }
     }
 }

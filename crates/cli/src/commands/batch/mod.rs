@@ -20,6 +20,7 @@ mod plan;
 mod row;
 mod sets;
 
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
@@ -52,9 +53,13 @@ pub(crate) fn run(args: &BatchArgs, engine: &Engine) -> anyhow::Result<bool> {
     if let Some(n) = args.estimate {
         return estimate::run(&batch, n);
     }
-    let mut journal = Journal::open(batch.journal())?;
-    batch.remove_stale(&journal.processes);
     let files_of_part = batch.files_of_part();
+    let wanted = files_of_part
+        .iter()
+        .map(|file| (file.path.as_str(), file.number()));
+    let wanted: HashSet<(&str, usize)> = wanted.collect();
+    let mut journal = Journal::open(batch.journal(), |row| wanted.contains(&row.key()))?;
+    batch.remove_stale(&journal.processes);
     let (mut rows, mut kept) = (Vec::with_capacity(files_of_part.len()), 0);
     for files in files_of_part.chunks(CHECKED_AHEAD) {
         let chunk = Chunk::check(&batch, files, &journal)?;
@@ -275,10 +280,7 @@ impl<'b> Chunk<'b> {
                 State::Skipped => {}
             }
             if let Some(key) = &result.key {
-                entries.push(Entry {
-                    key: key.clone(),
-                    row: result.row.clone(),
-                });
+                entries.push(Entry::new(key.clone(), result.row.clone()));
             }
         }
         journal.append(&entries)

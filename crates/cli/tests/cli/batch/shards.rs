@@ -29,7 +29,7 @@ fn parts_are_disjoint_and_merged_they_are_the_whole() {
         .run("batch --merge part3.jsonl part1.jsonl part2.jsonl part1.jsonl --report all.json")
         .with_code(1)
         .prints(&["4 reports, 21 files: 20 ok, 1 failed, 0 not processed\n"]);
-    fs::remove_file(folder.path("out/batch-1-of-3.jsonl")).unwrap();
+    fs::rename(folder.path("out"), folder.path("parts")).unwrap();
     batch(&folder, "--report whole.json").with_code(1);
     assert_eq!(report(&folder, "all.json"), report(&folder, "whole.json"));
 
@@ -41,6 +41,29 @@ fn parts_are_disjoint_and_merged_they_are_the_whole() {
         report(&folder, "some.json")["missing_shards"],
         serde_json::json!([2])
     );
+}
+
+#[test]
+fn a_batch_is_resumed_with_a_different_number_of_parts() {
+    let folder = with_models(12).with("models/broken.obj", "f 1 2 3\n");
+    let kept = |arguments: &str| {
+        let ended = batch(&folder, arguments);
+        assert!(!ended.stdout.contains("models/"), "{ended:#?}");
+        assert!(ended.stdout.contains("finished in earlier runs"));
+    };
+    batch(&folder, "").with_code(1);
+    for part in ["1/2", "2/2", "3/3"] {
+        kept(&format!("--shard {part}"));
+    }
+    // The outputs of another parameter value replace these, so the batch is then processed again.
+    for part in ["1/2", "2/2"] {
+        batch(&folder, &format!("--set levels=2 --shard {part}"));
+    }
+    kept("--set levels=2");
+    let ended = batch(&folder, "").with_code(1);
+    assert!(!ended.stdout.contains("earlier runs"), "{ended:#?}");
+    kept("--shard 2/3");
+    kept("");
 }
 
 trait ConcatAll {

@@ -33,6 +33,7 @@ use std::cell::Cell;
 use std::ffi::OsString;
 use std::io::{self, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use engine::Engine;
@@ -50,6 +51,26 @@ use output::{print_error, print_json};
 pub fn run(registry: Registry) -> ExitCode {
     let arguments: Vec<OsString> = std::env::args_os().collect();
     ExitCode::from(run_with(&registry, &arguments))
+}
+
+/// Returns the recipes that `meshwright test` runs for these recipes and folders of recipes, including the recipes that
+/// cannot be read. Recipes without expectations, and recipes that others of the list call, are not run by themselves.
+///
+/// # Errors
+///
+/// If a path does not exist, or a folder cannot be listed.
+pub fn tested_recipes(registry: &Registry, paths: &[PathBuf]) -> Result<Vec<PathBuf>, String> {
+    commands::test::tested(paths, &Engine::new(registry)).map_err(|error| format!("{error:#}"))
+}
+
+/// Returns the input files that `meshwright batch` processes for these paths and patterns.
+///
+/// # Errors
+///
+/// If a pattern is invalid or no file matches it.
+pub fn batch_inputs(patterns: &[String]) -> Result<Vec<String>, String> {
+    let inputs = commands::batch::inputs::list(patterns).map_err(|error| format!("{error:#}"))?;
+    Ok(inputs.into_iter().map(|input| input.path).collect())
 }
 
 /// Runs the program with these arguments, of which the first is the name of the program, and returns its exit code.

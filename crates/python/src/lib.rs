@@ -22,6 +22,7 @@ mod recipes;
 mod scenes;
 
 use std::ffi::OsString;
+use std::path::PathBuf;
 use std::sync::LazyLock;
 
 use engine::Engine;
@@ -60,6 +61,20 @@ fn program(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
     py.detach(|| cli::run_with(&REGISTRY, &arguments))
 }
 
+/// Returns the recipes that `meshwright test` runs for these recipes and folders.
+#[pyfunction]
+fn tested_recipes(py: Python<'_>, paths: Vec<PathBuf>) -> PyResult<Vec<PathBuf>> {
+    let found = interrupt::run(py, None, |_| cli::tested_recipes(&REGISTRY, &paths))?;
+    found.map_err(|message| errors::error(py, &message))
+}
+
+/// Returns the input files that `meshwright batch` processes for these paths and patterns.
+#[pyfunction]
+fn batch_inputs(py: Python<'_>, patterns: Vec<String>) -> PyResult<Vec<String>> {
+    let found = interrupt::run(py, None, |_| cli::batch_inputs(&patterns))?;
+    found.map_err(|message| errors::error(py, &message))
+}
+
 /// The compiled part of the package.
 #[pymodule]
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
@@ -72,6 +87,8 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(schema, module)?)?;
     module.add_function(wrap_pyfunction!(operations, module)?)?;
     module.add_function(wrap_pyfunction!(program, module)?)?;
+    module.add_function(wrap_pyfunction!(tested_recipes, module)?)?;
+    module.add_function(wrap_pyfunction!(batch_inputs, module)?)?;
     module.add_function(wrap_pyfunction!(build::from_arrays, module)?)?;
     module.add_function(wrap_pyfunction!(matrix::laplacian, module)?)?;
     module.add_function(wrap_pyfunction!(matrix::subdivision, module)?)?;

@@ -1,5 +1,5 @@
-"""A plugin of pytest that collects recipes as tests: `pytest --recipes scenes/` runs every recipe (`*.ron`) below the folder
-that states expectations. Outputs are not kept."""
+"""A plugin of pytest that collects recipes as tests: `pytest --recipes scenes/` runs the recipes (`*.ron`) that
+`meshwright test scenes/` runs. Outputs are not kept."""
 
 from __future__ import annotations
 
@@ -9,6 +9,8 @@ from typing import Any
 
 import pytest
 
+TESTED = pytest.StashKey[set[Path]]()
+
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     """Adds the option."""
@@ -17,23 +19,32 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
     """Collects a recipe."""
-    is_given = file_path.suffix == ".ron" and not file_path.name.endswith(".sweep.ron")
-    if is_given and parent.config.getoption("--recipes"):
-        made: pytest.Collector = RecipeFile.from_parent(parent, path=file_path)
-        return made
-    return None
+    if file_path.suffix != ".ron" or not parent.config.getoption("--recipes"):
+        return None
+    if file_path.resolve() not in tested(parent.config):
+        return None
+    made: pytest.Collector = RecipeFile.from_parent(parent, path=file_path)
+    return made
+
+
+def tested(config: pytest.Config) -> set[Path]:
+    """The recipes that the program tests, of the files and folders in the arguments of pytest."""
+    found: set[Path] | None = config.stash.get(TESTED, None)
+    if found is None:
+        from meshwright._core import tested_recipes
+
+        given = [config.invocation_params.dir / argument.partition("::")[0] for argument in config.args]
+        recipes = tested_recipes([path for path in given if path.is_dir() or path.suffix == ".ron" and path.is_file()])
+        found = config.stash[TESTED] = {path.resolve() for path in recipes}
+    return found
 
 
 class RecipeFile(pytest.File):
     """The file of a recipe."""
 
     def collect(self) -> Iterator[pytest.Item]:
-        """The test of a recipe with expectations. A recipe that cannot be read is a test that fails."""
-        from meshwright import Recipe
-
-        core = Recipe.load(self.path)._core()
-        if core.n_expectations() or any(p["severity"] == "error" for p in core.problems()):
-            yield RecipeTest.from_parent(self, name=self.path.stem)
+        """The test of the recipe. A recipe that cannot be read is a test that fails."""
+        yield RecipeTest.from_parent(self, name=self.path.stem)
 
 
 class RecipeTest(pytest.Item):

@@ -31,7 +31,7 @@ use std::time::{Duration, Instant};
 use ::cache::Cache;
 use anyhow::ensure;
 use engine::{Engine, Loaded, Run};
-use recipe::{Diagnostic, shape::counted};
+use recipe::{Diagnostic, JobLimits, shape::counted};
 use serde_json::{Value as Json, json};
 
 use super::test_update::update_recorded_values;
@@ -111,17 +111,27 @@ pub(crate) fn run(args: &TestArgs, engine: &Engine) -> anyhow::Result<bool> {
     Ok(failed == 0 && not_run == 0 && passed > 0)
 }
 
+/// Returns the recipes that are tested by themselves, below the given folders and with the given paths.
+pub(crate) fn tested(paths: &[PathBuf], engine: &Engine) -> anyhow::Result<Vec<PathBuf>> {
+    let recipes = recipes(paths)?;
+    let limits = JobLimits {
+        threads: 0,
+        jobs: 0,
+        budget: engine::BUDGET,
+    };
+    let mut tests = read(&recipes, None, limits, engine)?;
+    mark_called(&mut tests);
+    tests.retain(|test| test.reason_not_to_run().is_none());
+    Ok(tests.iter().map(|test| test.found.path.clone()).collect())
+}
+
 /// Reads and checks the recipes, and keeps the recipes that the filter selects.
 fn tests<'a>(
     recipes: &'a [RecipeFile],
     args: &TestArgs,
     engine: &Engine,
 ) -> anyhow::Result<Vec<Test<'a>>> {
-    let loaded = run_all(recipes.len(), args.many.limits(), |i| {
-        load(&recipes[i], args, engine)
-    })?;
-    let made = recipes.iter().zip(loaded);
-    let mut tests: Vec<Test> = made.map(|(found, end)| Test::new(found, end)).collect();
+    let mut tests = read(recipes, args.out.as_deref(), args.many.limits(), engine)?;
     if let Some(filter) = &args.filter {
         tests.retain(|test| test.found.path.to_string_lossy().contains(filter));
         let found = counted(recipes.len(), "recipe");
@@ -130,15 +140,7 @@ fn tests<'a>(
             "no recipe with \"{filter}\" in its path, of {found} found"
         );
     }
-    let place = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
-    let read = tests.iter().filter_map(|test| test.loaded.as_ref().ok());
-    let called: HashSet<PathBuf> = read
-        .flat_map(|loaded| loaded.recipe.sources.iter().skip(1))
-        .map(|source| place(&source.path))
-        .collect();
-    for test in &mut tests {
-        test.is_called = !test.found.is_named && called.contains(&place(&test.found.path));
-    }
+    mark_called(&mut tests);
     if let Some(out) = &args.out {
         let mut owners = HashMap::new();
         for Test { found, .. } in &tests {
@@ -155,19 +157,34 @@ fn tests<'a>(
     Ok(tests)
 }
 
-fn load(found: &RecipeFile, args: &TestArgs, engine: &Engine) -> anyhow::Result<Loaded> {
-    let out = match &args.out {
-        Some(out) => out.join(&found.own_folder),
-        None => "out".into(),
-    };
-    let source = engine.open(&found.path).map_err(anyhow::Error::msg)?;
-    load_text(
-        &source,
-        &ValueArgs::default(),
-        &out,
-        args.many.budget,
-        engine,
-    )
+/// Reads and checks the recipes.
+fn read<'a>(
+    recipes: &'a [RecipeFile],
+    out: Option<&Path>,
+    limits: JobLimits,
+    engine: &Engine,
+) -> anyhow::Result<Vec<Test<'a>>> {
+    let loaded = run_all(recipes.len(), limits, |i| {
+        let found = &recipes[i];
+        let out = out.map_or_else(|| "out".into(), |out| out.join(&found.own_folder));
+        let source = engine.open(&found.path).map_err(anyhow::Error::msg)?;
+        load_text(&source, &ValueArgs::default(), &out, limits.budget, engine)
+    })?;
+    let made = recipes.iter().zip(loaded);
+    Ok(made.map(|(found, end)| Test::new(found, end)).collect())
+}
+
+/// Marks the recipes that other recipes of the list call.
+fn mark_called(tests: &mut [Test]) {
+    let place = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
+    let read = tests.iter().filter_map(|test| test.loaded.as_ref().ok());
+    let called: HashSet<PathBuf> = read
+        .flat_map(|loaded| loaded.recipe.sources.iter().skip(1))
+        .map(|source| place(&source.path))
+        .collect();
+    for test in tests {
+        test.is_called = !test.found.is_named && called.contains(&place(&test.found.path));
+    }
 }
 
 /// A recipe to test.
@@ -196,6 +213,19 @@ impl<'a> Test<'a> {
         runs.then_some(loaded)
     }
 
+    /// Returns why the recipe is not run by itself, if it is not.
+    ///
+    /// A recipe that other recipes call may need objects of its callers, so errors from checking the recipe alone are
+    /// ignored.
+    fn reason_not_to_run(&self) -> Option<State> {
+        let loaded = self.loaded.as_ref().ok().filter(|loaded| loaded.is_read)?;
+        match (self.is_called, expects(loaded)) {
+            (true, _) => Some(State::Called),
+            (false, false) => Some(State::NoExpectations),
+            (false, true) => None,
+        }
+    }
+
     fn bytes(&self) -> u64 {
         self.to_run().map_or(0, |l| l.forecast.peak_bytes())
     }
@@ -206,14 +236,7 @@ impl<'a> Test<'a> {
             Ok(loaded) => loaded,
             Err(message) => return TestResult::failed(&[], Some(message.clone())),
         };
-        // A recipe that other recipes call may need objects of its callers, so errors from checking the recipe alone
-        // are ignored.
-        if loaded.is_read && (self.is_called || !expects(loaded)) {
-            let state = if self.is_called {
-                State::Called
-            } else {
-                State::NoExpectations
-            };
+        if let Some(state) = self.reason_not_to_run() {
             return TestResult {
                 state,
                 ..TestResult::default()

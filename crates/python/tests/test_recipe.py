@@ -208,3 +208,26 @@ def test_a_variant_with_one_value_and_with_fields(tmp_path: Path) -> None:
     scene = mw.Scene().cube(name="box").icosahedron(name="ball")
     measured = scene.measure(of=choice.Distance(to="box"), name="far", on="ball")
     assert measured["ball"].attributes["far"].shape == (12,)
+
+
+def test_texts_with_control_characters() -> None:
+    """JSON has escapes that RON does not have."""
+    text = "".join(map(chr, range(1, 256))) + "\u2028\u00e9\U0001f600"
+    assert mw.Scene().cube(name=text).mesh().name == text
+    assert list(mw.recipe().cube(name=text).about(text).run()) == [text]
+
+
+def test_a_check_has_the_budget_of_the_run() -> None:
+    r = mw.recipe().icosahedron(name="ball").loop_subdivide(levels=5)
+    assert not r.problems() and "budget" in r.problems(budget=1000)[0].message
+    with pytest.raises(mw.RecipeError, match="budget"):
+        r.check(budget=1000)
+
+
+def test_parameters_with_the_names_of_options_can_be_checked() -> None:
+    text = '(recipe: 1, params: {"out": Int(default: 1, max: 3)}, steps: [Icosahedron(name: "a"), LoopSubdivide(levels: arg("out"))])'
+    r = mw.Recipe(text)
+    assert r.check({"out": 2}) == () and r.run({"out": 2}).mesh().n_faces == 320
+    assert "out" in r.problems({"out": 9})[0].message
+    with pytest.raises(mw.RecipeError, match="out"):
+        r.check({"out": 9})

@@ -4,6 +4,7 @@ string is a word such as ``Area`` where the schema lists words, and a text in qu
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
@@ -14,6 +15,10 @@ import numpy as np
 from . import _core
 
 Schema = Mapping[str, Any]
+
+#: The characters that are escaped in texts, and the escapes that are not a number.
+ESCAPED = re.compile(r'["\\\x00-\x1f\x7f-\x9f]')
+ESCAPES = {'"': '\\"', "\\": "\\\\", "\n": "\\n", "\r": "\\r", "\t": "\\t"}
 
 
 class Choice:
@@ -117,8 +122,12 @@ def takes_text(schema: Schema) -> bool:
 
 
 def quoted(text: str) -> str:
-    """A text in quotes."""
-    return json.dumps(text, ensure_ascii=False)
+    """A text in quotes, with control characters as escapes."""
+
+    def escape(found: re.Match[str]) -> str:
+        return ESCAPES.get(found[0]) or f"\\u{{{ord(found[0]):x}}}"
+
+    return '"' + ESCAPED.sub(escape, text) + '"'
 
 
 def number(value: float) -> str:

@@ -19,8 +19,12 @@ python=${PYTHON:-python3}
 "$folder/new/bin/pip" install --quiet "$folder"/meshwright-*.whl
 "$folder/new/bin/python" -c 'import meshwright as mw; print(mw.Scene().icosahedron(name="ball").mesh().loop_subdivide(levels=2))'
 "$folder/new/bin/meshwright" ops > /dev/null
-"$folder/new/bin/pip" install --quiet pytest mypy scipy trimesh meshio fsspec 'dask[distributed]' nbclient ipykernel ||
+"$folder/new/bin/pip" install --quiet pytest mypy scipy tqdm trimesh meshio fsspec 'dask[distributed]' nbclient ipykernel ||
     { echo "the packages for the tests cannot be installed from PyPI: check the network and pip's index"; exit 1; }
+for package in pyvista open3d; do
+    "$folder/new/bin/pip" install --quiet "$package" && "$folder/new/bin/python" -c "import $package" ||
+        echo "$package cannot be installed or imported on this machine: the tests of its conversions are skipped"
+done
 "$folder/new/bin/pip" install --quiet ray || echo "Ray has no wheel for this machine: its test is skipped"
 cd crates/python
 "$folder/new/bin/python" -m pytest --quiet -p no:cacheprovider tests

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mesh::{BuildError, DVec2, DVec3, DVec4, NonManifold, Values};
+use mesh::{BuildError, DVec2, DVec3, DVec4, Id, NonManifold, Values};
 use pyo3::buffer::{ElementType, PyBuffer, PyUntypedBuffer};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -12,8 +12,8 @@ use crate::interrupt::run;
 use crate::mesh_views::{Mesh, number};
 
 /// Builds a mesh from positions (`float64`, three for each vertex), the start of the corners of each face and their end
-/// (`uint32`), and the vertex of each corner (`uint32`). Returns the mesh, the repairs in words, and the number of the
-/// face of each polygon.
+/// (`uint32`), and the vertex of each corner (`uint32`). Returns the mesh, the repairs in words, for each vertex of the
+/// mesh the index of its position, and for each face the index of its polygon.
 #[pyfunction]
 pub(crate) fn from_arrays(
     py: Python<'_>,
@@ -21,7 +21,7 @@ pub(crate) fn from_arrays(
     starts: &Bound<'_, PyAny>,
     corners: &Bound<'_, PyAny>,
     repair: bool,
-) -> PyResult<(Mesh, Vec<String>, Array)> {
+) -> PyResult<(Mesh, Vec<String>, Array, Array)> {
     let Values::Vec3(positions) = values_from(positions, 3)? else {
         return Err(PyTypeError::new_err("positions must be numbers"));
     };
@@ -42,12 +42,18 @@ pub(crate) fn from_arrays(
         .into_iter()
         .chain(built.report.dropped());
     let repairs = repairs.map(|repair| repair.to_string()).collect();
-    let faces = built
-        .face_of_polygon
-        .into_iter()
-        .map(|f| f.some().map_or(u32::MAX, number));
-    let faces = Array::ids(faces.collect());
-    Ok((Mesh(Arc::new(built.mesh)), repairs, faces))
+    let mut vertices: Vec<u32> = built.mesh.vertices().map(number).collect();
+    for &(vertex, copy) in &built.report.split_vertices {
+        vertices[copy.index()] = vertices[vertex.index()];
+    }
+    let mut faces = vec![0; built.mesh.n_faces()];
+    for (polygon, face) in (0..).zip(&built.face_of_polygon) {
+        if let Some(face) = face.some() {
+            faces[face.index()] = polygon;
+        }
+    }
+    let mesh = Mesh(Arc::new(built.mesh));
+    Ok((mesh, repairs, Array::ids(vertices), Array::ids(faces)))
 }
 
 /// Copies a contiguous buffer of rows with `columns` numbers each.

@@ -224,6 +224,22 @@ impl Mesh {
         self.0.is_closed()
     }
 
+    /// The sum of the areas of all faces.
+    fn area(&self, py: Python<'_>) -> PyResult<f64> {
+        run(py, None, |_| geometry::area(&self.0))
+    }
+
+    /// The volume inside the mesh, for a closed mesh.
+    fn volume(&self, py: Python<'_>) -> PyResult<f64> {
+        run(py, None, |_| geometry::volume(&self.0))
+    }
+
+    /// The minimum and the maximum of the positions; `None` for a mesh without vertices.
+    fn bounds(&self, py: Python<'_>) -> PyResult<Option<[[f64; 3]; 2]>> {
+        let bounds = run(py, None, |_| geometry::bounds(&self.0))?;
+        Ok(bounds.map(|bounds| bounds.map(|point| point.to_array())))
+    }
+
     /// The number of vertices minus edges plus faces.
     fn euler_characteristic(&self) -> i64 {
         self.0.euler_characteristic()

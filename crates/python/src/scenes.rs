@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use engine::{Disk, Memory, Store};
-use op::{Files, Report};
+use mesh::Domain;
+use op::{ElementKind, Files, Report, Selected};
 use pyo3::exceptions::{PyKeyError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyList};
@@ -13,9 +14,10 @@ use recipe::{Diagnostic, Source, Values, check_from, read_by, run_step};
 use scene::{Geometry, Object, Scene as Kernel};
 
 use crate::SCHEMAS;
+use crate::array::Array;
 use crate::errors::{error, problems, recipe_error};
 use crate::interrupt::{Monitor, run};
-use crate::mesh_views::Mesh;
+use crate::mesh_views::{Mesh, domain, number};
 
 /// The folder of outputs in memory.
 const OUT: &str = "out";
@@ -101,6 +103,17 @@ fn step(
     })
 }
 
+fn element_kind(domain_name: &str) -> PyResult<ElementKind> {
+    match domain(domain_name)? {
+        Domain::Vertex => Ok(ElementKind::Vertices),
+        Domain::Edge => Ok(ElementKind::Edges),
+        Domain::Face => Ok(ElementKind::Faces),
+        Domain::Corner => Err(PyValueError::new_err(
+            "corners cannot be selected: expected \"vertex\", \"edge\" or \"face\"",
+        )),
+    }
+}
+
 impl Scene {
     fn object(&self, name: &str) -> PyResult<&Object> {
         let found = self.0.object(name);
@@ -132,6 +145,30 @@ impl Scene {
         let mesh = object.as_mesh().cloned();
         mesh.map(Mesh)
             .ok_or_else(|| PyTypeError::new_err(format!("{name:?} is {kind}, expected a mesh")))
+    }
+
+    /// The numbers of the elements of a mesh that a selection selects. Without a domain, the selection must be one for
+    /// a single domain.
+    fn select(
+        &self,
+        py: Python<'_>,
+        name: &str,
+        selection: &str,
+        domain_name: Option<&str>,
+    ) -> PyResult<Array> {
+        let kind = domain_name.map(element_kind).transpose()?;
+        let elements = recipe::read_selection(selection, kind)
+            .map_err(|wrong| recipe_error(py, &[Source::new("selection", selection)], &wrong))?;
+        let (object, mesh) = (self.object(name)?, self.mesh(name)?);
+        let found = run(py, None, |_| {
+            recipe::resolve(&elements, &self.0, object, &mesh.0, "")
+        })?;
+        let selected = found.map_err(|why| error(py, &why.to_string()))?;
+        Ok(Array::ids(match selected {
+            Selected::Vertices(ids) => ids.into_iter().map(number).collect(),
+            Selected::Edges(ids) => ids.into_iter().map(number).collect(),
+            Selected::Faces(ids) => ids.into_iter().map(number).collect(),
+        }))
     }
 
     /// The names of the materials of an object.

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import meshwright as mw
+from meshwright import sel
 
 
 @pytest.fixture
@@ -26,6 +27,79 @@ def test_there_and_back(package: str, model: mw.Mesh) -> None:
     assert (again.triangles == model.triangles).all()
     assert np.allclose(again.attributes["heat"], model.attributes["heat"])
     assert (again.attributes["part"] == model.attributes["part"]).all()
+
+
+POINTS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [0, -1, 0]], float)
+FACES = np.array([[0, 1, 2], [0, 0, 1], [1, 0, 3], [0, 1, 4]])
+
+
+@pytest.mark.parametrize("package", ["trimesh", "meshio", "pyvista", "open3d"])
+def test_repairs_keep_the_attributes_of_the_other_elements(package: str) -> None:
+    """One edge has three faces, so that its vertices are split, and one face is dropped."""
+    pytest.importorskip(package, exc_type=ImportError)
+    heat, part = np.arange(5.0), np.array([10, 11, 12, 13])
+    other: Any
+    if package == "trimesh":
+        import trimesh
+
+        other = trimesh.Trimesh(POINTS, FACES, vertex_attributes={"heat": heat}, face_attributes={"part": part}, process=False)
+    elif package == "meshio":
+        import meshio
+
+        other = meshio.Mesh(POINTS, [("triangle", FACES)], point_data={"heat": heat}, cell_data={"part": [part]})
+    elif package == "pyvista":
+        import pyvista
+
+        other = pyvista.PolyData(POINTS, faces=np.column_stack([np.full(4, 3), FACES]))
+        other.point_data["heat"], other.cell_data["part"] = heat, part
+    else:
+        import open3d
+
+        other = open3d.t.geometry.TriangleMesh(open3d.core.Tensor(POINTS), open3d.core.Tensor(FACES))
+        other.vertex["heat"], other.triangle["part"] = open3d.core.Tensor(heat), open3d.core.Tensor(part)
+    m = getattr(mw.Mesh, f"from_{package}")(other)
+    assert m.n_vertices > 5 and m.attributes["part"].tolist() == [10, 12, 13]
+    assert any("split" in note for note in m.notes) and any("dropped" in note for note in m.notes)
+    original = m.attributes["heat"].astype(int)
+    assert (POINTS[original] == m.vertices).all()
+
+
+def test_trimesh_texture_coordinates(model: mw.Mesh) -> None:
+    pytest.importorskip("trimesh")
+    smooth = model.with_attribute("uv", model.vertices[model.corners][:, :2], "corner")
+    other = smooth.to_trimesh()
+    assert (other.visual.uv == model.vertices[:, :2]).all() and len(other.vertices) == model.n_vertices
+    assert (mw.Mesh.from_trimesh(other).attributes["corner", "uv"] == smooth.attributes["corner", "uv"]).all()
+    # With a seam along the corners of the first 9 faces.
+    uv = np.array(smooth.attributes["corner", "uv"])
+    uv[:27] += 10
+    with pytest.warns(UserWarning, match="copies of vertices were made"):
+        other = smooth.with_attribute("uv", uv, "corner").to_trimesh()
+    assert (other.visual.uv[other.faces].reshape(-1, 2) == uv).all()
+    assert (other.vertices[other.faces] == model.vertices[model.triangles]).all()
+    assert (other.vertex_attributes["heat"][other.faces] == model.attributes["heat"][model.triangles]).all()
+    assert (mw.Mesh.from_trimesh(other).attributes["corner", "uv"] == uv).all()
+
+
+def test_trimesh_colors(model: mw.Mesh) -> None:
+    trimesh: Any = pytest.importorskip("trimesh")
+    colors = np.arange(4 * model.n_vertices).reshape(-1, 4).astype(np.uint8)
+    other = trimesh.Trimesh(model.vertices, model.triangles, vertex_colors=colors, process=False)
+    m = mw.Mesh.from_trimesh(other)
+    assert np.allclose(m.attributes["vertex", "color"] * 255, colors)
+    assert (m.to_trimesh().visual.vertex_colors == colors).all()
+    faces = trimesh.Trimesh(model.vertices, model.triangles, face_colors=[255, 0, 0, 255], process=False)
+    assert (mw.Mesh.from_trimesh(faces).attributes["face", "color"] == [1, 0, 0, 1]).all()
+
+
+def test_mixed_polygons_survive(box: mw.Mesh) -> None:
+    mixed = box.triangulate(faces=sel.Faces([0, 2]))
+    mixed = mixed.with_attribute("part", np.arange(mixed.n_faces), "face")
+    for package in ("meshio", "pyvista"):
+        pytest.importorskip(package)
+        again = getattr(mw.Mesh, f"from_{package}")(getattr(mixed, f"to_{package}")())
+        faces = {tuple(again.faces[i]): int(part) for i, part in enumerate(again.attributes["part"])}
+        assert faces == {tuple(face): i for i, face in enumerate(mixed.faces)}
 
 
 def test_polygons_survive_meshio(box: mw.Mesh) -> None:

@@ -219,3 +219,57 @@ def test_threads_run_at_the_same_time() -> None:
         time.sleep(0.001)
     thread.join()
     assert ticks > 3
+
+
+def test_progress(ball: mw.Mesh, capsys: pytest.CaptureFixture[str]) -> None:
+    calls = []
+    ball.loop_subdivide(levels=8, progress=lambda *call: calls.append(call))
+    assert calls and all(0 <= done <= total for _, _, done, total in calls)
+
+    def stop(*call: object) -> None:
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        ball.apply("LoopSubdivide", levels=8, progress=stop)
+    with pytest.raises(TypeError, match="run()"):
+        mw.recipe().cube(name="box", progress=True)
+    pytest.importorskip("tqdm")
+    mw.Scene().icosahedron(name="ball").loop_subdivide(levels=8, progress=True)
+    assert "%|" in capsys.readouterr().err
+
+
+def test_notes_are_kept() -> None:
+    points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [0, -1, 0]]
+    m = mw.Mesh.from_arrays(points, [[0, 1, 2], [0, 1, 3], [0, 1, 4], [0, 0, 1]])
+    assert any("split" in note for note in m.notes) and any("dropped" in note for note in m.notes)
+    assert m.with_attribute("x", m.vertices[:, 0], "vertex").without_attribute("x").with_vertices(m.vertices).notes == m.notes
+    with m.edit() as e:
+        e.poke(0)
+    assert e.mesh.notes == m.notes
+
+
+def test_measures(box: mw.Mesh, ball: mw.Mesh) -> None:
+    a, b, c = (ball.vertices[ball.triangles[:, i]] for i in range(3))
+    assert np.isclose(ball.area, np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2)
+    assert np.isclose(ball.volume, np.einsum("ij,ij->", a, np.cross(b, c)) / 6)
+    assert (ball.bounds == [ball.vertices.min(axis=0), ball.vertices.max(axis=0)]).all()
+    with pytest.raises(ValueError, match="boundary"):
+        mw.Mesh.from_arrays(np.eye(3), [[0, 1, 2]]).volume
+    with pytest.raises(ValueError, match="no vertices"):
+        mw.Mesh.from_arrays([], []).bounds
+
+
+def test_selections(ball: mw.Mesh) -> None:
+    m = ball.with_attribute("top", ball.vertices[:, 1] > 0, "vertex")
+    assert (m.select(sel.Tagged("top"), "vertex") == np.flatnonzero(m.tag("vertex", "top"))).all()
+    edges = m.select(sel.Not(sel.Longer(than=10)))
+    assert edges.dtype == np.uint32 and len(edges) == m.n_edges and m.edges[edges].shape == (30, 2)
+    assert len(m.select("Boundary", "edge")) == 0
+    assert (m.select(sel.Faces([3, 1])) == [1, 3]).all()
+    assert len(m.select(sel.Random(count=5, seed=1), "face")) == 5
+    with pytest.raises(mw.RecipeError, match="vertices or edges or faces: specify which"):
+        m.select("All")
+    with pytest.raises(mw.RecipeError, match="did you mean"):
+        m.select(mw.Choice("Shrap", above=30))
+    with pytest.raises(ValueError, match="corner"):
+        m.select("All", "corner")  # type: ignore[arg-type]

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import importlib
 import warnings
+from collections.abc import Container, Iterable
 from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
@@ -28,12 +29,6 @@ def module(name: str) -> Any:
         raise ImportError(f"this conversion needs {name}: pip install {name}") from error
 
 
-def left_out(target: str, names: list[str]) -> None:
-    """Warns about attributes that a package cannot hold."""
-    if names:
-        warnings.warn(f"{target} cannot hold {', '.join(names)}", stacklevel=3)
-
-
 def plain(values: NDArray[Any]) -> NDArray[Any]:
     """Values that other packages can hold: flags become bytes."""
     return values.astype(np.uint8) if values.dtype == np.bool_ else np.array(values)
@@ -51,6 +46,18 @@ def kept(values: Any) -> NDArray[Any] | None:
     return array
 
 
+def one_for_each_vertex(values: NDArray[Any], mesh: Mesh) -> tuple[NDArray[Any], NDArray[Any], NDArray[np.int64]]:
+    """Values of the corners of triangles as values of vertices. Returns the values, the triangles, and the vertex that each
+    copy is one of: a vertex whose corners have several values is copied for each further value."""
+    corners = mesh.corners.astype(np.int64)
+    of_vertex = np.zeros((mesh.n_vertices, values.shape[1]))
+    of_vertex[corners] = values
+    others = np.flatnonzero((of_vertex[corners] != values).any(axis=1))
+    rows, copies = np.unique(np.column_stack([corners[others], values[others]]), axis=0, return_inverse=True)
+    corners[others] = mesh.n_vertices + copies.reshape(-1)
+    return np.concatenate([of_vertex, rows[:, 1:]]), corners.reshape(-1, 3), rows[:, 0].astype(np.int64)
+
+
 class MeshConversions:
     """Conversions of meshes."""
 
@@ -58,55 +65,107 @@ class MeshConversions:
         return self  # type: ignore[return-value]
 
     @classmethod
-    def _with(cls, mesh: Any, domain: str, columns: Any, source: str) -> Any:
-        """The mesh with columns of another package."""
+    def _of(
+        cls,
+        package: str,
+        name: str,
+        points: Any,
+        faces: Any,
+        face_starts: Any = None,
+        *,
+        of_vertices: Iterable[tuple[str, Any]],
+        of_faces: Iterable[tuple[str, Any]],
+        uv: NDArray[Any] | None = None,
+    ) -> Any:
+        """The mesh of another package, with its columns of values, and one texture coordinate for each vertex.
+
+        If a repair drops a face or splits a vertex, the remaining elements have their values."""
+        this: Any = cls
+        mesh, point_of_vertex, polygon_of_face = this._built(points, faces, face_starts, name)
+        n_faces = len(faces) if face_starts is None else len(face_starts) - 1
         skipped = []
-        for name, values in columns:
-            array = kept(values)
-            n = mesh.n_vertices if domain == "vertex" else mesh.n_faces
-            if array is None or len(array) != n:
-                skipped.append(f"{domain} {name}")
-            else:
-                mesh = mesh.with_attribute(str(name), array, domain)
+        for domain, columns, n, origin in (
+            ("vertex", of_vertices, len(points), point_of_vertex),
+            ("face", of_faces, n_faces, polygon_of_face),
+        ):
+            for column, values in columns:
+                array = kept(values)
+                if array is None or len(array) != n:
+                    skipped.append(f"{domain} {column}")
+                else:
+                    mesh = mesh.with_attribute(str(column), array[origin], domain)
+        if uv is not None:
+            mesh = mesh.with_attribute("uv", uv[point_of_vertex[mesh.corners]], "corner")
         if skipped:
-            warnings.warn(f"not kept from {source}: {', '.join(skipped)}", stacklevel=4)
+            warnings.warn(f"not kept from {package}: {', '.join(skipped)}", stacklevel=3)
         return mesh
+
+    @staticmethod
+    def _columns(mesh: Mesh, package: str, held: Container[str] = ()) -> dict[str, dict[str, NDArray[Any]]]:
+        """The attributes of vertices and faces as columns. Warns about the other attributes, except those in `held`."""
+        columns: dict[str, dict[str, NDArray[Any]]] = {"vertex": {}, "face": {}}
+        left_out = []
+        for domain, name, values in mesh.attributes.items_by_domain():
+            if domain in columns:
+                columns[domain][name] = plain(values)
+            elif f"{domain} {name}" not in held:
+                left_out.append(f"{domain} {name}")
+        if left_out:
+            warnings.warn(f"{package} cannot hold {', '.join(left_out)}", stacklevel=3)
+        return columns
 
     # ---- trimesh
 
     def to_trimesh(self) -> Any:
-        """Returns a `trimesh.Trimesh` with the attributes of vertices and faces. Faces must be triangles. The positions
-        are copied, because trimesh and its simplification need arrays that can be changed."""
+        """Returns a `trimesh.Trimesh` with the attributes of vertices and faces, and with texture coordinates if corners
+        have the attribute "uv". Faces must be triangles. Vertices keep their order, and nothing is merged. A vertex with
+        several texture coordinates is copied for each of them, with a warning; the copies follow the other vertices."""
         mesh = self._mesh()
         trimesh = module("trimesh")
-        of = {"vertex": {}, "face": {}}  # type: dict[str, dict[str, NDArray[Any]]]
-        other = []
-        for domain, name, values in mesh.attributes.items_by_domain():
-            if domain in of:
-                of[domain][name] = plain(values)
-            else:
-                other.append(f"{domain} {name}")
-        left_out("trimesh", other)
+        columns = self._columns(mesh, "trimesh", {"corner uv"})
+        vertices, triangles, of_vertex = mesh.vertices.copy(), mesh.triangles, columns["vertex"]
+        visual, colors = None, of_vertex.get("color")
+        if any((domain, name) == ("corner", "uv") for domain, name, _, _ in mesh._core.attributes()):
+            uv, triangles, point_of_copy = one_for_each_vertex(mesh.attributes["corner", "uv"], mesh)
+            if len(point_of_copy):
+                copies = f"{len(point_of_copy)} copies of vertices were made"
+                warnings.warn(f"trimesh has one texture coordinate for each vertex: {copies}", stacklevel=2)
+            origin = np.concatenate([np.arange(mesh.n_vertices), point_of_copy])
+            vertices, of_vertex = vertices[origin], {name: values[origin] for name, values in of_vertex.items()}
+            visual = trimesh.visual.TextureVisuals(uv=uv)
         return trimesh.Trimesh(
-            mesh.vertices.copy(),
-            mesh.triangles,
-            vertex_attributes=of["vertex"],
-            face_attributes=of["face"],
+            vertices,
+            triangles,
+            vertex_attributes=of_vertex,
+            face_attributes=columns["face"],
+            visual=visual,
+            vertex_colors=None if colors is None else (255 * colors.clip(0, 1)).round().astype(np.uint8),
             process=False,
         )
 
     @classmethod
     def from_trimesh(cls, other: Any, *, name: str = "mesh") -> Self:
-        """Makes a mesh of a `trimesh.Trimesh`, with its attributes of vertices and faces, and its texture
-        coordinates."""
-        mesh: Any = cls.from_arrays(other.vertices, other.faces, name=name)  # type: ignore[attr-defined]
-        columns = list(other.vertex_attributes.items())
-        uv = getattr(other.visual, "uv", None)
-        mesh = cls._with(mesh, "vertex", columns, "trimesh")
-        mesh = cls._with(mesh, "face", other.face_attributes.items(), "trimesh")
-        if uv is not None and len(uv) == len(other.vertices) and mesh.n_vertices == len(uv):
-            mesh = mesh.with_attribute("uv", np.asarray(uv)[mesh.corners][:, :2], "corner")
-        return mesh  # type: ignore[no-any-return]
+        """Makes a mesh of a `trimesh.Trimesh`, with its attributes of vertices and faces, its texture coordinates, and the
+        colors of its vertices or faces as the attribute "color"."""
+        of = {"vertex": dict(other.vertex_attributes), "face": dict(other.face_attributes)}
+        visual = other.visual
+        if visual.kind in of:
+            colors = visual.vertex_colors if visual.kind == "vertex" else visual.face_colors
+            of[visual.kind].setdefault("color", np.asarray(colors) / 255)
+        uv = getattr(visual, "uv", None)
+        if uv is not None:
+            uv = np.asarray(uv, float)[:, :2]
+            uv = uv if len(uv) == len(other.vertices) else None
+        made = cls._of(
+            "trimesh",
+            name,
+            other.vertices,
+            other.faces,
+            of_vertices=of["vertex"].items(),
+            of_faces=of["face"].items(),
+            uv=uv,
+        )
+        return made  # type: ignore[no-any-return]
 
     # ---- meshio
 
@@ -123,16 +182,9 @@ class MeshConversions:
             corners = mesh.corners[first[:, None] + np.arange(degree)]
             cells.append((names.get(int(degree), "polygon"), corners.astype(np.int64)))
             order.append(faces)
-        point_data, cell_data, other = {}, {}, []
-        for domain, name, values in mesh.attributes.items_by_domain():
-            if domain == "vertex":
-                point_data[name] = plain(values)
-            elif domain == "face":
-                cell_data[name] = [plain(values)[faces] for faces in order]
-            else:
-                other.append(f"{domain} {name}")
-        left_out("meshio", other)
-        return meshio.Mesh(np.array(mesh.vertices), cells, point_data=point_data, cell_data=cell_data)
+        columns = self._columns(mesh, "meshio")
+        cell_data = {name: [values[faces] for faces in order] for name, values in columns["face"].items()}
+        return meshio.Mesh(np.array(mesh.vertices), cells, point_data=columns["vertex"], cell_data=cell_data)
 
     @classmethod
     def from_meshio(cls, other: Any, *, name: str = "mesh") -> Self:
@@ -142,19 +194,28 @@ class MeshConversions:
         left = sorted({b.type for b in other.cells} - {b.type for _, b in blocks})
         if left:
             warnings.warn(f"not kept from meshio: cells of type {', '.join(left)}", stacklevel=2)
-        starts: list[int] = [0]
-        corners: list[int] = []
+        lengths, corners = [np.zeros(1, np.int64)], [np.zeros(0, np.int64)]
         for _, block in blocks:
-            for cell in block.data:
-                corners.extend(int(v) for v in cell)
-                starts.append(len(corners))
+            if isinstance(block.data, np.ndarray):
+                lengths.append(np.full(block.data.shape[0], block.data.shape[1]))
+                corners.append(block.data.reshape(-1).astype(np.int64))
+            else:
+                lengths.append(np.array([len(cell) for cell in block.data], np.int64))
+                corners += [np.asarray(cell, np.int64) for cell in block.data]
         points = np.asarray(other.points, float)
         if points.ndim == 2 and points.shape[1] == 2:
             points = np.column_stack([points, np.zeros(len(points))])
-        mesh: Any = cls.from_arrays(points, corners, face_starts=starts, name=name)  # type: ignore[attr-defined]
-        mesh = cls._with(mesh, "vertex", other.point_data.items(), "meshio")
         cell_data = [(n, np.concatenate([np.asarray(d[i]) for i, _ in blocks])) for n, d in other.cell_data.items() if blocks]
-        return cls._with(mesh, "face", cell_data, "meshio")  # type: ignore[no-any-return]
+        made = cls._of(
+            "meshio",
+            name,
+            points,
+            np.concatenate(corners),
+            np.cumsum(np.concatenate(lengths)),
+            of_vertices=other.point_data.items(),
+            of_faces=cell_data,
+        )
+        return made  # type: ignore[no-any-return]
 
     # ---- pyvista
 
@@ -165,32 +226,27 @@ class MeshConversions:
         starts = mesh.face_starts.astype(np.int64)
         cells = np.insert(mesh.corners.astype(np.int64), starts[:-1], np.diff(starts))
         data = pyvista.PolyData(np.array(mesh.vertices), faces=cells)
-        other = []
-        for domain, name, values in mesh.attributes.items_by_domain():
-            if domain == "vertex":
-                data.point_data[name] = plain(values)
-            elif domain == "face":
-                data.cell_data[name] = plain(values)
-            else:
-                other.append(f"{domain} {name}")
-        left_out("pyvista", other)
+        columns = self._columns(mesh, "pyvista")
+        data.point_data.update(columns["vertex"])
+        data.cell_data.update(columns["face"])
         return data
 
     @classmethod
     def from_pyvista(cls, other: Any, *, name: str = "mesh") -> Self:
         """Makes a mesh of the faces of a `pyvista.PolyData`, with its data of points and cells."""
         surface = other if hasattr(other, "faces") else other.extract_surface()
-        cells = np.asarray(surface.faces)
-        starts, corners, i = [0], [], 0
-        while i < len(cells):
-            n = int(cells[i])
-            corners.append(cells[i + 1 : i + 1 + n])
-            starts.append(starts[-1] + n)
-            i += n + 1
-        flat = np.concatenate(corners) if corners else np.zeros(0, np.int64)
-        mesh: Any = cls.from_arrays(surface.points, flat, face_starts=starts, name=name)  # type: ignore[attr-defined]
-        mesh = cls._with(mesh, "vertex", surface.point_data.items(), "pyvista")
-        return cls._with(mesh, "face", surface.cell_data.items(), "pyvista")  # type: ignore[no-any-return]
+        polygons = surface.GetPolys()
+        array = module("pyvista").convert_array
+        made = cls._of(
+            "pyvista",
+            name,
+            surface.points,
+            array(polygons.GetConnectivityArray()),
+            array(polygons.GetOffsetsArray()),
+            of_vertices=surface.point_data.items(),
+            of_faces=surface.cell_data.items(),
+        )
+        return made  # type: ignore[no-any-return]
 
     # ---- Open3D
 
@@ -202,16 +258,11 @@ class MeshConversions:
         made = o3d.t.geometry.TriangleMesh()
         made.vertex.positions = o3d.core.Tensor(np.array(mesh.vertices))
         made.triangle.indices = o3d.core.Tensor(mesh.triangles.astype(np.int64))
-        other = []
-        for domain, name, values in mesh.attributes.items_by_domain():
-            if domain in ("vertex", "face"):
-                target = made.vertex if domain == "vertex" else made.triangle
+        columns = self._columns(mesh, "Open3D")
+        for target, named in ((made.vertex, columns["vertex"]), (made.triangle, columns["face"])):
+            for name, values in named.items():
                 own = {"normal": "normals", "color": "colors"}.get(name, name)
-                array = plain(values)
-                target[own] = o3d.core.Tensor(array[:, :3].copy() if own == "colors" else array)
-            else:
-                other.append(f"{domain} {name}")
-        left_out("Open3D", other)
+                target[own] = o3d.core.Tensor(values[:, :3].copy() if own == "colors" else values)
         return made
 
     @classmethod
@@ -225,8 +276,12 @@ class MeshConversions:
             found = [(own.get(n, n), table[n].numpy()) for n in list(table) if n != skipped]
             return [(n, np.column_stack([v, np.ones(len(v))]) if n == "color" and v.shape[1] == 3 else v) for n, v in found]
 
-        mesh: Any = cls.from_arrays(  # type: ignore[attr-defined]
-            other.vertex.positions.numpy(), other.triangle.indices.numpy(), name=name
+        made = cls._of(
+            "Open3D",
+            name,
+            other.vertex.positions.numpy(),
+            other.triangle.indices.numpy(),
+            of_vertices=columns(other.vertex, "positions"),
+            of_faces=columns(other.triangle, "indices"),
         )
-        mesh = cls._with(mesh, "vertex", columns(other.vertex, "positions"), "Open3D")
-        return cls._with(mesh, "face", columns(other.triangle, "indices"), "Open3D")  # type: ignore[no-any-return]
+        return made  # type: ignore[no-any-return]

@@ -9,11 +9,12 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _core
+from . import _core, _ron
 from ._arrays import indices, numeric, points, view
 from ._convert import MeshConversions
 from ._operations import MeshOperations
-from ._ron import Choice
+from ._progress import Progress
+from ._ron import Choice, Ron
 
 if TYPE_CHECKING:
     from ._editor import Editor
@@ -141,10 +142,23 @@ class Mesh(MeshConversions, MeshOperations):
             more than two faces are split, and faces with fewer than three corners are dropped. `notes` lists the
             repairs. If false, they raise `ValueError`.
         """
+        return cls._built(vertices, faces, face_starts, name, repair)[0]
+
+    @classmethod
+    def _built(
+        cls,
+        vertices: ArrayLike,
+        faces: ArrayLike | Sequence[ArrayLike],
+        face_starts: ArrayLike | None,
+        name: str,
+        repair: bool = True,
+    ) -> tuple[Self, NDArray[np.uint32], NDArray[np.uint32]]:
+        """A mesh of points and polygons, the point of each vertex and the polygon of each face."""
         positions = points(vertices)
         starts, corners = polygons(faces, face_starts)
-        core, repairs, _ = _core.from_arrays(positions, starts, corners, repair)
-        return cls(_core.Scene().with_mesh(name, core), name, tuple(repairs))
+        core, repairs, point_of_vertex, polygon_of_face = _core.from_arrays(positions, starts, corners, repair)
+        mesh = cls(_core.Scene().with_mesh(name, core), name, tuple(repairs))
+        return mesh, view(point_of_vertex), view(polygon_of_face)
 
     # ---- Arrays
 
@@ -218,6 +232,26 @@ class Mesh(MeshConversions, MeshOperations):
     def tags(self) -> list[tuple[str, str]]:
         """The domain and the name of each tag."""
         return [(domain, name) for domain, name, kind, _ in self._core.attributes() if kind == "tag"]
+
+    def select(self, selection: str | Choice | Ron, domain: Literal["vertex", "edge", "face"] | None = None) -> NDArray[np.uint32]:
+        """Returns the numbers of the vertices, edges or faces that a selection selects.
+
+        >>> import meshwright as mw
+        >>> from meshwright import sel
+        >>> m = mw.Scene().cube(name="box").mesh()
+        >>> edges = m.select(sel.Sharp(above=30))
+        >>> m.edges[edges].shape
+        (12, 2)
+        >>> m.select("All", "face")
+        array([0, 1, 2, 3, 4, 5], dtype=uint32)
+
+        :param selection: A word such as ``"Boundary"``, or a value of :mod:`meshwright.sel`.
+        :param domain: vertex, edge or face. If omitted, the only domain that has such a selection.
+        """
+        kinds = [d for d in ("Vertex", "Edge", "Face") if domain in (None, d.lower())]
+        schema = {"anyOf": [{"$ref": f"#/$defs/{kind}Selection"} for kind in kinds]}
+        text = _ron.write(selection, schema)
+        return view(self._scene.select(self._name, text, domain))
 
     def with_attribute(
         self, name: str, values: ArrayLike, domain: Domain | None = None, *, rule: Rule | None = None
@@ -298,13 +332,43 @@ class Mesh(MeshConversions, MeshOperations):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What the last operation reported: repairs, losses and other facts."""
+        """What the last operation or conversion reported: repairs, losses and other facts. :meth:`with_attribute`,
+        :meth:`without_attribute`, :meth:`with_vertices` and :meth:`edit` keep the notes."""
         return self._notes
 
     @property
     def is_closed(self) -> bool:
-        """Whether every edge has two faces."""
+        """Whether every edge has two faces, so that the mesh is watertight. Every mesh is a manifold: each edge has one
+        or two faces, which agree about its direction."""
         return self._core.is_closed()
+
+    @property
+    def area(self) -> float:
+        """The sum of the areas of all faces.
+
+        >>> import meshwright as mw
+        >>> box = mw.Scene().cube(name="box", size=2).mesh()
+        >>> box.area, box.volume, box.bounds.tolist()
+        (24.0, 8.0, [[-1.0, -1.0, -1.0], [1.0, 1.0, 1.0]])
+        """
+        return self._core.area()
+
+    @property
+    def volume(self) -> float:
+        """The volume inside the mesh, which is negative if the faces are oriented inward. Raises `ValueError` if the mesh
+        is not closed."""
+        if not self.is_closed:
+            raise ValueError("the mesh has a boundary, so it has no volume; fill_holes() closes holes")
+        return self._core.volume()
+
+    @property
+    def bounds(self) -> NDArray[np.float64]:
+        """The minimum and the maximum of the coordinates, of shape (2, 3). Raises `ValueError` if the mesh has no
+        vertices."""
+        bounds = self._core.bounds()
+        if bounds is None:
+            raise ValueError("the mesh has no vertices, so it has no bounds")
+        return np.array(bounds)
 
     @property
     def euler_characteristic(self) -> int:
@@ -366,12 +430,17 @@ class Mesh(MeshConversions, MeshOperations):
 
         return View(self, color_by, wireframe, height)
 
-    def apply(self, operation: str, /, **parameters: Any) -> Self:
+    def apply(self, operation: str, /, *, progress: bool | Progress | None = None, **parameters: Any) -> Self:
         """Runs an operation by its name in recipes: ``m.apply("LoopSubdivide", levels=2)``."""
-        return self._apply(operation, parameters, None, None)
+        return self._apply(operation, parameters, None, None, progress)
 
     def _apply(
-        self, operation: str, fields: Mapping[str, Any], on: str | Sequence[str] | None, id: str | None
+        self,
+        operation: str,
+        fields: Mapping[str, Any],
+        on: str | Sequence[str] | None,
+        id: str | None,
+        progress: bool | Progress | None,
     ) -> Self:
         from ._scene import Scene
 
@@ -381,7 +450,7 @@ class Mesh(MeshConversions, MeshOperations):
         for name, other in others.values():
             scene = scene.with_object(other, name=name)
         only_this = [self._name] if others else None
-        done = scene._apply(operation, replaced, only_this, id)
+        done = scene._apply(operation, replaced, only_this, id, progress)
         result = done._core.only([n for n in done if n not in [name for name, _ in others.values()]])
         names = result.names()
         if len(names) != 1 or result.kind(names[0]) != "mesh":
@@ -406,7 +475,7 @@ class Mesh(MeshConversions, MeshOperations):
         return value
 
     def _with_core(self, core: _core.Mesh) -> Self:
-        return type(self)(self._scene.with_mesh(self._name, core), self._name)
+        return type(self)(self._scene.with_mesh(self._name, core), self._name, self._notes)
 
     # ---- Python
 

@@ -70,22 +70,23 @@ class Scene(SceneOperations, Mapping[str, Mesh]):
 
     def with_object(self, mesh: Mesh, *, name: str | None = None) -> Self:
         """Returns the scene with the object of a mesh, which is added under its name or `name`."""
-        return type(self)(self._core.joined(mesh._scene, {mesh.name: name or mesh.name}))
+        return type(self)(self._core.joined(mesh._scene, {mesh.name: name or mesh.name}), self._notes)
 
     def only(self, *names: str) -> Self:
         """Returns the scene with only these objects."""
         for name in names:
             self._core.kind(name)
-        return type(self)(self._core.only(list(names)))
+        return type(self)(self._core.only(list(names)), self._notes)
 
     def placed(self) -> Self:
         """Returns the scene with every object where its nodes show it, and without nodes. An object that several nodes
         show becomes several objects."""
-        return type(self)(self._core.placed())
+        return type(self)(self._core.placed(), self._notes)
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What the last operation reported: repairs, losses and other facts, one line each."""
+        """What the last operation reported: repairs, losses and other facts, one line each. :meth:`with_object`,
+        :meth:`only` and :meth:`placed` keep the notes."""
         return self._notes
 
     @cached_property
@@ -111,28 +112,34 @@ class Scene(SceneOperations, Mapping[str, Mesh]):
         :param operation: The name of the operation.
         :param on: The objects that the operation acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: A callable, or `True` for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True` for
+            a bar of tqdm. An exception cancels the operation.
         :param budget: The memory budget for meshes, in bytes. Defaults to 8 GiB.
         """
-        with callback(progress) as show:
-            return self._run(operation, parameters, on, id, progress=show, budget=budget)[0]
+        return self._run(operation, parameters, on, id, progress=progress, budget=budget)[0]
 
     def _apply(
-        self, operation: str, fields: Mapping[str, Any], on: str | Sequence[str] | None, id: str | None
+        self,
+        operation: str,
+        fields: Mapping[str, Any],
+        on: str | Sequence[str] | None,
+        id: str | None,
+        progress: bool | Progress | None,
     ) -> Self:
         path = fields.get("path")
         if operation not in WRITES or not isinstance(path, str | os.PathLike):
-            return self._run(operation, fields, on, id)[0]
+            return self._run(operation, fields, on, id, progress=progress)[0]
         text = os.fspath(path)
         if is_address(text):
             name = f"file.{extension_of(text)}"
-            done, written = self._run(operation, {**fields, "path": name}, on, id, files={})
+            done, written = self._run(operation, {**fields, "path": name}, on, id, files={}, progress=progress)
             if len(written) != 1:
                 raise ValueError(f"{text} would be several files ({', '.join(written)}): choose .glb or another format")
             write_bytes(text, written[name])
             return done
         file = Path(text)
-        return self._run(operation, {**fields, "path": file.name}, on, id, output=str(file.parent))[0]
+        here = {**fields, "path": file.name}
+        return self._run(operation, here, on, id, output=str(file.parent), progress=progress)[0]
 
     def _run(
         self,
@@ -143,13 +150,14 @@ class Scene(SceneOperations, Mapping[str, Mesh]):
         *,
         output: str = "",
         files: dict[str, bytes] | None = None,
-        progress: Progress | None = None,
+        progress: bool | Progress | None = None,
         budget: int | None = None,
     ) -> tuple[Self, dict[str, bytes]]:
         if operation not in _ron.operations():
             raise AttributeError(f"no operation is named {operation}")
         text = f"(recipe: 1, steps: [\n{whole_step(operation, fields, on, id)}\n])"
-        core, about = self._core.run(text, "", output, files, budget, progress)
+        with callback(progress) as show:
+            core, about = self._core.run(text, "", output, files, budget, show)
         notes = [line for report in about["reports"] for line in lines_of(json.loads(report))]
         notes += [warning["message"] for warning in about["warnings"]]
         return type(self)(core, tuple(notes)), about["written"]

@@ -299,16 +299,19 @@ def method(name: str, entry: Any, of_mesh: bool) -> list[str]:
             tail.append(f"{python_name(n)}: {' | '.join([*kinds, 'None'])} = None")
     takes_on = not of_mesh and entry["takes_on"]
     tail += ["on: str | Sequence[str] | None = None"] if takes_on else []
-    tail.append("id: str | None = None")
+    tail += ["id: str | None = None", "progress: bool | Progress | None = None"]
     lines = [f"    def {snake(name)}("]
     lines += [f"        {part}," for part in [*head, "*", *tail]]
     lines.append("    ) -> Self:")
     text = schema.get("description") or entry["summary"] + "."
     fields = [(n, properties[n]) for n in [*required, *optional]]
+    fields = [(n, in_working_directory(s, of_mesh)) if n == "path" else (n, s) for n, s in fields]
     if of_mesh:
         fields = [(n, {**s, "description": OTHERS[name, n]} if (name, n) in OTHERS else s) for n, s in fields]
     more = [":param on: The objects that the step acts on. If omitted, all that it supports."] if takes_on else []
     more.append(":param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.")
+    shown = ":param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True` for a bar of tqdm."
+    more.append(shown if of_mesh else f"{shown} For a recipe, see :meth:`Recipe.run`.")
     if of_mesh:
         more.append(f":returns: The new mesh. This mesh does not change. {RESULTS.get(name, '')}".rstrip())
     called = in_python(entry["example"]) or ""
@@ -317,9 +320,22 @@ def method(name: str, entry: Any, of_mesh: bool) -> list[str]:
     example = f"Example: ``mesh.{called}``" if of_mesh else f"Example: ``scene.{called}``, in a recipe ``{entry['example']}``"
     lines += [literal(line) for line in docstring(text, fields, " " * 8, example, more)]
     given = ", ".join(f"{n!r}: {python_name(n)}" for n in properties)
-    lines.append(f"        return self._apply({name!r}, {{{given}}}, {'on' if takes_on else 'None'}, id)")
+    lines.append(f"        return self._apply({name!r}, {{{given}}}, {'on' if takes_on else 'None'}, id, progress)")
     lines.append("")
     return lines
+
+
+def in_working_directory(schema: Any, of_mesh: bool) -> Any:
+    """The schema of a path. Outside a recipe, a relative path is relative to the working directory."""
+    text = " ".join(schema.get("description", "").split())
+    found = RELATIVE.search(text)
+    if not found:
+        return schema
+    # A recipe also replaces parameters in the path.
+    outside = "a relative path is relative to the working directory"
+    if of_mesh:
+        return {**schema, "description": f"{text[: found.start()]}{outside[0].upper()}{outside[1:]}."}
+    return {**schema, "description": text.replace(found[0], f"For a scene, {outside}; in a recipe, to {found[1]}.")}
 
 
 def split_union(text: str) -> list[str]:
@@ -337,6 +353,9 @@ OTHERS = {
     ("Transfer", "from"): "The mesh with the attributes.",
     ("Project", "onto"): "The mesh with the surface.",
 }
+
+#: What recipes say about a relative path.
+RELATIVE = re.compile(r"(?:The|A relative) path is relative to (the output folder|the folder of the recipe)\.")
 
 TAGGED = [("Vertices", "vertex"), ("Edges", "edge"), ("Faces", "face")]
 #: Where a method of a mesh leaves its result.
@@ -359,17 +378,18 @@ from typing import {typing}
 
 from numpy.typing import NDArray
 
-from ._ron import Arg, Choice, Ron
+{own}from ._ron import Arg, Choice, Ron
 '''
 
 
 def operations_file() -> str:
-    lines = [HEADER.format(doc="Every operation as a method.", typing="TYPE_CHECKING, Any, Literal, Self", imports="import os\n")]
+    lines = [HEADER.format(doc="Every operation as a method.", typing="TYPE_CHECKING, Any, Literal, Self", imports="import os\n", own="from ._progress import Progress\n")]
     lines += ["if TYPE_CHECKING:", "    from ._mesh import Mesh", ""]
     for of_mesh in (False, True):
         doc = "The operations on one mesh." if of_mesh else "The operations on a scene, and the steps of a recipe."
         lines += ["", f"class {'MeshOperations' if of_mesh else 'SceneOperations'}:", f'    """{doc}"""', ""]
-        lines += ["    def _apply(", "        self, operation: str, fields: Mapping[str, Any], on: str | Sequence[str] | None, id: str | None"]
+        lines += ["    def _apply(", "        self,", "        operation: str,", "        fields: Mapping[str, Any],"]
+        lines += ["        on: str | Sequence[str] | None,", "        id: str | None,", "        progress: bool | Progress | None,"]
         lines += ["    ) -> Self:", "        raise NotImplementedError", ""]
         for name, entry in operations().items():
             if entry["takes_on"] or not of_mesh:
@@ -453,7 +473,7 @@ def is_vector(schema: Any) -> bool:
 
 
 def variants_file(doc: str, found: dict[str, list[Any]]) -> str:
-    lines = [HEADER.format(doc=doc, typing="Any, Literal", imports=""), ""]
+    lines = [HEADER.format(doc=doc, typing="Any, Literal", imports="", own=""), ""]
     for name, alternatives in sorted(found.items()):
         made = function(name, alternatives)
         lines += [*([""] if made[0].startswith("def") else []), *made, *([""] if made[0].startswith("def") else [])]

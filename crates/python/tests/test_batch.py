@@ -64,6 +64,50 @@ def test_a_second_run_does_only_what_is_missing(folder: Path) -> None:
     assert changed == [first[3].input] and rows(first) == rows(second)
 
 
+def test_another_engine_or_number_of_parts_continues_a_batch(folder: Path) -> None:
+    first = mw.batch("clean.ron", "in/*.obj", out="out")
+    times = {path: path.stat().st_mtime_ns for path in Path("out").glob("*.ply")}
+    command = [sys.executable, "-m", "meshwright", "batch", "clean.ron", "--inputs", "in/*.obj", "--shard", "2/2"]
+    subprocess.run(command, capture_output=True)
+    distributed = pytest.importorskip("distributed")
+    with distributed.LocalCluster(n_workers=1, threads_per_worker=2, dashboard_address=None) as cluster:
+        with distributed.Client(cluster) as client:
+            for parts in (1, 3):
+                assert rows(mw.batch("clean.ron", "in/*.obj", out="out", engine=client, parts=parts)) == rows(first)
+    assert times == {path: path.stat().st_mtime_ns for path in Path("out").glob("*.ply")}
+
+
+def test_progress(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    calls: list[tuple[str, str, int, int]] = []
+
+    def show(*call: Any) -> None:
+        calls.append(call)
+
+    mw.batch("clean.ron", "in/*.obj", out="out", progress=show)
+    assert calls == [("batch", "files", done, 13) for done in (*range(1, 14), 13)]
+    calls.clear()
+    os.remove("out/a3.ply")
+    mw.batch("clean.ron", "in/*.obj", out="out", progress=show)
+    assert calls == [("batch", "files", 1, 13), ("batch", "files", 13, 13)]
+
+    pytest.importorskip("tqdm")
+    mw.batch(ball_file(folder), sets=SETS, out="sets", progress=True)
+    assert "batch files 100%" in capsys.readouterr().err
+
+    def stop(*call: Any) -> None:
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        mw.batch("clean.ron", "in/*.obj", out="stopped", progress=stop)
+
+    distributed = pytest.importorskip("distributed")
+    calls.clear()
+    with distributed.LocalCluster(n_workers=1, threads_per_worker=2, dashboard_address=None) as cluster:
+        with distributed.Client(cluster) as client:
+            mw.batch("clean.ron", "in/*.obj", out="parts", engine=client, parts=3, progress=show)
+    assert len(calls) == 3 and calls[-1] == ("batch", "files", 13, 13)
+
+
 def test_addresses(folder: Path) -> None:
     fsspec = pytest.importorskip("fsspec")
     for i in range(3):

@@ -6,14 +6,14 @@ use mesh_io::{Compression, Format, Images, Quantization, Rows, WriteOptions};
 use op::prelude::*;
 use op::{Loss, Operation, target_scene};
 
-/// Writes objects to a file in the output folder.
+/// Writes objects to a file.
 ///
 /// The extension determines the format: `.obj`, `.gltf`, `.glb`, `.ply`, `.stl` or `.off` for meshes, `.bez` for Bezier
 /// patches, `.bzc` for a curve, and `.mws` for a complete scene without any loss. `.csv` is a table of the positions
 /// and attributes of vertices, faces or corners, and `.npz` has the arrays of a mesh for `NumPy`. These two formats
 /// cannot be read. If the name ends with `.gz`, as in `a.obj.gz`, the file is compressed with gzip, which is not
-/// possible for `.glb`, `.mws` and `.npz`. The report lists the content that the format cannot store. The file is only
-/// created when the whole recipe has succeeded.
+/// possible for `.glb`, `.mws` and `.npz`. The report lists the content that the format cannot store. A recipe
+/// creates the file only if all of its steps and expectations succeed.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Save {

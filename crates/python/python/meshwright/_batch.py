@@ -8,13 +8,14 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal
 
+from . import _core
 from ._errors import Error
-from ._progress import numbers
+from ._progress import Progress, callback, numbers
 from ._recipe import Recipe
 from ._scene import fsspec, is_address, write_bytes
 
@@ -100,6 +101,7 @@ def batch(
     report: str | os.PathLike[str] | None = None,
     budget: str | None = None,
     upload: str | None = None,
+    progress: bool | Progress | None = None,
 ) -> Report:
     """Runs one recipe on many files, with many parameter sets, or both; several runs at the same time.
 
@@ -111,7 +113,7 @@ def batch(
 
     A batch that was interrupted, or whose workers were killed, continues when it is called again: a file is not processed
     again if the recipe, the parameters and every file that the run reads are unchanged. This is decided by their content.
-    A file that fails is a row of the report, and does not stop the batch.
+    The engine and the number of parts can differ. A file that fails is a row of the report, and does not stop the batch.
 
     :param recipe: The recipe, or the path of its file. For inputs, it needs a parameter of type Path, which receives the
         input.
@@ -128,11 +130,13 @@ def batch(
     :param param: The parameter that receives the input; needed if the recipe has several of type Path.
     :param folders: Whether the outputs of each input go to a folder of their own.
     :param retry_failed: Whether files that failed before are processed again.
-    :param parts: The number of tasks on a cluster. Defaults to 8 for each thread of the workers. A batch continues only
-        with the same number of parts.
+    :param parts: The number of tasks on a cluster. Defaults to 8 for each thread of the workers.
     :param report: A file for the report: .json, .jsonl or .csv.
     :param budget: The memory budget for meshes of a process, such as "2GiB". Defaults to 8 GiB.
     :param upload: An address such as ``s3://bucket/clean``, to which outputs are copied at the end.
+    :param progress: Called with ``"batch"``, ``"files"``, the number of files that are done and of all files, each counted
+        once for each parameter set; or `True` for a bar of tqdm. On a cluster, it is called when a part is done. An
+        exception cancels the batch.
     """
     folder = Path(out).absolute()
     folder.mkdir(parents=True, exist_ok=True)
@@ -163,11 +167,15 @@ def batch(
             file = Path(temporary, "sets.json")
             file.write_text(texts, encoding="utf-8")
             arguments += ["--sets", os.fspath(file)]
-        if isinstance(engine, str) and engine == "local":
-            run_part([*arguments, "--report", merged], os.getcwd())
-        else:
-            partial = run_parts(engine, arguments, temporary, parts)
-            run_program(["batch", "--merge", *partial, "--report", merged], os.getcwd())
+        with callback(progress) as show:
+            if isinstance(engine, str) and engine == "local":
+                files = _core.batch_inputs(listed) if show else []
+                counter = Counter(show, max(len(files), 1) * max(len(sets or ()), 1))
+                run_program(["batch", *arguments, "--report", merged], os.getcwd(), counter.count)
+                counter.end()
+            else:
+                partial = run_parts(engine, arguments, temporary, parts, show)
+                run_program(["batch", "--merge", *partial, "--report", merged], os.getcwd())
         text = Path(merged).read_text(encoding="utf-8")
         if report is not None:
             copy = os.path.join(temporary, f"report{Path(report).suffix}")
@@ -214,20 +222,50 @@ def recipe_file(recipe: Recipe | str | os.PathLike[str], folder: Path) -> str:
     return os.fspath(written)
 
 
+class Counter:
+    """Shows how many files of a batch are done."""
+
+    def __init__(self, show: Progress | None, total: int) -> None:
+        self.show = show
+        self.done = 0
+        self.total = total
+
+    def add(self, files: int) -> None:
+        """Counts files."""
+        self.done += files
+        if self.show is not None:
+            self.show("batch", "files", self.done, self.total)
+
+    def count(self, line: str) -> None:
+        """Counts the file that a line of the program is about."""
+        if line.startswith(("ok ", "FAILED ")):
+            self.add(1)
+
+    def end(self) -> None:
+        """Counts the files that were finished in earlier runs, for which the program prints no line."""
+        self.add(self.total - self.done)
+
+
 @dataclass(frozen=True)
 class Task:
     """A part of a batch."""
 
     #: The arguments of the program. The last one is the report.
     arguments: list[str]
+    #: The number of its files, each counted once for each parameter set.
+    runs: int
     #: The estimated memory of its process, in bytes.
     bytes: int
 
 
-def run_parts(engine: Any, arguments: list[str], temporary: str, parts: int | None) -> list[str]:
+def run_parts(engine: Any, arguments: list[str], temporary: str, parts: int | None, show: Progress | None) -> list[str]:
     """Runs the parts of a batch on a cluster, and returns their reports."""
+
+    def divided(threads: int) -> list[Task]:
+        return tasks(arguments, temporary, parts or PARTS_PER_THREAD * max(threads, 1))
+
     if engine == "ray":
-        ran = run_on_ray(needed("ray"), arguments, temporary, parts)
+        ran = run_on_ray(needed("ray"), divided, show)
     elif engine == "dask":
         distributed = needed("distributed")
         # The tasks are processes, so one worker with a thread for each processor is enough. It has the memory of the machine.
@@ -237,9 +275,9 @@ def run_parts(engine: Any, arguments: list[str], temporary: str, parts: int | No
             n_workers=1, threads_per_worker=threads, resources=memory, dashboard_address=None
         ) as cluster:
             with distributed.Client(cluster) as client:
-                ran = run_on_dask(client, arguments, temporary, parts)
+                ran = run_on_dask(client, divided, show)
     elif hasattr(engine, "submit") and hasattr(engine, "gather"):
-        ran = run_on_dask(engine, arguments, temporary, parts)
+        ran = run_on_dask(engine, divided, show)
     else:
         raise ValueError(f'unknown engine {engine!r}: expected "local", "dask", "ray" or a client of Dask')
     return [task.arguments[-1] for task in ran]
@@ -253,11 +291,11 @@ def tasks(arguments: list[str], temporary: str, n: int) -> list[Task]:
     for part in json.loads(Path(estimate).read_text(encoding="utf-8"))["parts"]:
         file = os.path.join(temporary, f"{part['part']}.json")
         one = ["--threads", "1", "--shard", f"{part['part']}/{n}", "--report", file]
-        made.append(Task([*arguments, *one], PROCESS_BYTES + part["bytes"]))
+        made.append(Task([*arguments, *one], part["runs"], PROCESS_BYTES + part["bytes"]))
     return made
 
 
-def run_on_ray(ray: Any, arguments: list[str], temporary: str, parts: int | None) -> list[Task]:
+def run_on_ray(ray: Any, divided: Callable[[int], list[Task]], show: Progress | None) -> list[Task]:
     """Runs the parts of a batch on Ray."""
     if not ray.is_initialized():
         ray.init(include_dashboard=False)
@@ -265,25 +303,31 @@ def run_on_ray(ray: Any, arguments: list[str], temporary: str, parts: int | None
     threads = int(sum(node.get("CPU", 0) for node in nodes))
     # A task that needs more memory than every machine has would wait forever.
     room = int(max((node.get("memory", 0) for node in nodes), default=0))
-    made = tasks(arguments, temporary, parts or PARTS_PER_THREAD * max(threads, 1))
+    made = divided(threads)
+    counter = Counter(show, sum(task.runs for task in made))
     remote = ray.remote(max_retries=3, num_cpus=1)(run_part)
-    running = [remote.options(memory=min(task.bytes, room)).remote(task.arguments, os.getcwd()) for task in made]
+    running = {remote.options(memory=min(task.bytes, room)).remote(task.arguments, os.getcwd()): task for task in made}
+    waiting = list(running)
     try:
-        ray.get(running)
+        while waiting:
+            [ended], waiting = ray.wait(waiting)
+            ray.get(ended)
+            counter.add(running[ended].runs)
     except BaseException:
-        for task in running:
-            ray.cancel(task, force=True)
+        for reference in running:
+            ray.cancel(reference, force=True)
         raise
     return made
 
 
-def run_on_dask(client: Any, arguments: list[str], temporary: str, parts: int | None) -> list[Task]:
+def run_on_dask(client: Any, divided: Callable[[int], list[Task]], show: Progress | None) -> list[Task]:
     """Runs the parts of a batch on a cluster of Dask."""
     threads = sum(client.ncores().values())
-    made = tasks(arguments, temporary, parts or PARTS_PER_THREAD * max(threads, 1))
+    made = divided(threads)
+    counter = Counter(show, sum(task.runs for task in made))
     # A task that needs more memory than every worker has would wait forever.
     room = max((m for m in memory_of_workers(client) if m is not None), default=None)
-    running = [
+    running = {
         client.submit(
             run_part,
             task.arguments,
@@ -292,10 +336,12 @@ def run_on_dask(client: Any, arguments: list[str], temporary: str, parts: int | 
             pure=False,
             retries=3,
             resources=None if room is None else {"MEMORY": min(task.bytes, room)},
-        )
+        ): task
         for task in made
-    ]
-    client.gather(running)
+    }
+    for ended in needed("distributed").as_completed(running):
+        ended.result()
+        counter.add(running[ended].runs)
     return made
 
 
@@ -326,30 +372,35 @@ def run_part(arguments: list[str], folder: str) -> str:
     return arguments[-1]
 
 
-def run_program(arguments: list[str], folder: str) -> None:
-    """Runs the program in a process that ends with this one. The last argument is a new file that it writes."""
-    process = subprocess.Popen(
-        [sys.executable, "-m", "meshwright._task", *arguments],
-        cwd=folder,
-        stdin=subprocess.PIPE,
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.PIPE,
-        text=True,
-    )
-    assert process.stderr is not None
-    try:
-        errors = process.stderr.read()
-        code = process.wait()
-    except BaseException:
-        process.kill()
-        process.wait()
-        raise
-    finally:
-        process.stderr.close()
-        if process.stdin is not None:
+def run_program(arguments: list[str], folder: str, each_line: Callable[[str], object] = lambda line: None) -> None:
+    """Runs the program in a process that ends with this one. The last argument is a new file that it writes. Calls
+    `each_line` with the lines that it prints."""
+    with tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace") as errors:
+        process = subprocess.Popen(
+            [sys.executable, "-m", "meshwright._task", *arguments],
+            cwd=folder,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=errors,
+            encoding="utf-8",
+            errors="replace",
+        )
+        assert process.stdin is not None and process.stdout is not None
+        try:
+            for line in process.stdout:
+                each_line(line)
+            code = process.wait()
+        except BaseException:
+            process.kill()
+            process.wait()
+            raise
+        finally:
+            process.stdout.close()
             process.stdin.close()
+        errors.seek(0)
+        text = errors.read().strip()
     if code == 130:
         raise KeyboardInterrupt
     # The code is 1 also if some files fail. They are rows of the report.
     if code > 1 or code < 0 or not os.path.exists(os.path.join(folder, arguments[-1])):
-        raise Error(errors.strip() or f"the batch ended with code {code}")
+        raise Error(text or f"the batch ended with code {code}")

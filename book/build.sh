@@ -22,10 +22,19 @@ pages=$(sed -n 's|^- \[\([A-Za-z0-9]*\)\](#.*|  - [\1](operations/\1.md)|p' ops/
 awk -v pages="$pages\n  - [Types of parameters](operations/types.md)" '
     { print } /\(operations.md\)/ { print pages }
     /\(files.md\)/ { print "  - [What formats preserve](kept.md)" }
+    /\(python.md\)/ { print "  - [A notebook](curvature.md)" }
 ' book/src/SUMMARY.md > "$out/src/SUMMARY.md"
+# The cells of the notebook, without their results.
+python3 - crates/python/examples/curvature.ipynb > "$out/src/curvature.md" << 'END'
+import json, sys
+
+for cell in json.load(open(sys.argv[1], encoding="utf-8"))["cells"]:
+    text = "".join(cell["source"])
+    print(text if cell["cell_type"] == "markdown" else f"```python,ignore\n{text}\n```", end="\n\n")
+END
 # In the repository, these links refer to other files; in the book, to other pages.
 cp crates/io/src/kept.md "$out/src/kept.md"
-sed -i -e 's|(../../crates/io/src/kept.md)|(kept.md)|' -e 's|(../../ops/README.md#reasons-for-refused)|(operations/types.md#reasons-for-refused)|' "$out"/src/*.md
+sed -i -e 's|(../../crates/io/src/kept.md)|(kept.md)|' -e 's|(../../crates/python/examples/curvature.ipynb)|(curvature.md)|' -e 's|(../../ops/README.md#reasons-for-refused)|(operations/types.md#reasons-for-refused)|' "$out"/src/*.md
 # Copies pictures from other folders of the repository.
 for image in $(grep -oh '](\.\./\.\./[^)]*png' "$out"/src/*.md | sed 's|](../../||'); do
     mkdir -p "$out/src/images/$(dirname "$image")"

@@ -142,8 +142,15 @@ class Recipe(SceneOperations):
         return made
 
     def _apply(
-        self, operation: str, fields: Mapping[str, Any], on: str | Sequence[str] | None, id: str | None
+        self,
+        operation: str,
+        fields: Mapping[str, Any],
+        on: str | Sequence[str] | None,
+        id: str | None,
+        progress: bool | Progress | None = None,
     ) -> Self:
+        if progress:
+            raise TypeError("a step of a recipe does not run yet: pass progress= to run()")
         made = self._copy()
         for value in fields.values():
             for arg in _ron.arguments(value):
@@ -222,19 +229,44 @@ class Recipe(SceneOperations):
         """The parameters with their defaults."""
         return tuple(Parameter(*p) for p in self._core().parameters())
 
-    def problems(self, *, preset: str | None = None, out: str | os.PathLike[str] = "out", **values: Any) -> tuple[Problem, ...]:
-        """Returns all errors and warnings, without running a step."""
-        return tuple(Problem(**p) for p in self._core(values, preset, out).problems())
+    def problems(
+        self,
+        values: Mapping[str, Any] | None = None,
+        /,
+        *,
+        preset: str | None = None,
+        out: str | os.PathLike[str] = "out",
+        budget: int | None = None,
+        **more: Any,
+    ) -> tuple[Problem, ...]:
+        """Returns all errors and warnings, without running a step. Takes the parameters of :meth:`check`."""
+        return tuple(Problem(**p) for p in self._core({**(values or {}), **more}, preset, out, budget).problems())
 
-    def check(self, *, preset: str | None = None, out: str | os.PathLike[str] = "out", **values: Any) -> tuple[Problem, ...]:
+    def check(
+        self,
+        values: Mapping[str, Any] | None = None,
+        /,
+        *,
+        preset: str | None = None,
+        out: str | os.PathLike[str] = "out",
+        budget: int | None = None,
+        **more: Any,
+    ) -> tuple[Problem, ...]:
         """Checks the recipe without running a step: types, ranges, files, memory. Returns the warnings.
+
+        >>> import meshwright as mw
+        >>> r = mw.recipe().cube(name="box").loop_subdivide(levels=mw.arg("levels", int, default=1))
+        >>> r.check(levels=2), r.check({"levels": 2})
+        ((), ())
 
         :param preset: The name of a preset of the recipe.
         :param out: The folder for outputs.
-        :param values: Values of the parameters of the recipe.
+        :param budget: The memory budget for meshes, in bytes. Defaults to 8 GiB.
+        :param values: Values of the parameters of the recipe. A parameter named `out` can only be given here.
+        :param more: More values: ``check(levels=3)``.
         :raises RecipeError: All errors at once, with lines and columns.
         """
-        core = self._core(values, preset, out)
+        core = self._core({**(values or {}), **more}, preset, out, budget)
         core.check()
         return tuple(Problem(**p) for p in core.problems())
 

@@ -5,6 +5,8 @@ use std::f64::consts::{PI, TAU};
 use mesh::parallel;
 use mesh::{DVec3, Domain, EdgeId, Mesh, VertexId, angle_between};
 
+use crate::Scaled;
+
 /// Returns the Gaussian curvature at each vertex, by vertex index, in 1 / scene unit². The curvature is 1 / r²
 /// on a sphere of radius r, and 0 on a cylinder. The value is NaN for dead vertices, for isolated vertices, and
 /// for vertices whose faces all have zero area.
@@ -14,7 +16,9 @@ use mesh::{DVec3, Domain, EdgeId, Mesh, VertexId, angle_between};
 /// Differential-Geometry Operators for Triangulated 2-Manifolds", 2003. On a closed mesh of flat faces, the sum
 /// of curvature times vertex area is 2π times the Euler characteristic.
 pub fn gaussian_curvatures(mesh: &Mesh) -> Vec<f64> {
-    at_vertices(mesh, |v| {
+    let scaled = Scaled::new(mesh);
+    let mesh = scaled.mesh();
+    at_vertices(&scaled, -2, |v| {
         let angles: f64 = mesh
             .vertex_half_edges(v)
             .filter(|&h| mesh.face(h).is_some())
@@ -33,7 +37,9 @@ pub fn gaussian_curvatures(mesh: &Mesh) -> Vec<f64> {
 /// The sum at a vertex is divided by the [vertex area](vertex_area). Source: Cohen-Steiner, Morvan, "Restricted
 /// Delaunay Triangulations and Normal Cycle", 2003. Boundary edges contribute 0.
 pub fn mean_curvatures(mesh: &Mesh) -> Vec<f64> {
-    at_vertices(mesh, |v| {
+    let scaled = Scaled::new(mesh);
+    let mesh = scaled.mesh();
+    at_vertices(&scaled, -1, |v| {
         let sum: f64 = mesh
             .vertex_half_edges(v)
             .map(|h| signed_dihedral(mesh, h.edge()) * mesh.length(h))
@@ -54,6 +60,8 @@ pub fn mean_curvatures(mesh: &Mesh) -> Vec<f64> {
 /// close to the mean curvature.
 pub fn principal_curvatures(mesh: &Mesh) -> Vec<[f64; 2]> {
     let none = [f64::NAN; 2];
+    let scaled = Scaled::new(mesh);
+    let mesh = scaled.mesh();
     fill_vertices(mesh, none, |v| {
         let faces = mesh.vertex_half_edges(v).filter_map(|h| mesh.face(h));
         let normal: DVec3 = faces.map(|f| mesh.area_vector(f)).sum();
@@ -75,7 +83,7 @@ pub fn principal_curvatures(mesh: &Mesh) -> Vec<[f64; 2]> {
         let radius = (half * half + ab * ab).sqrt();
         let pair = [(middle - radius) / area, (middle + radius) / area];
         if pair.iter().all(|k| k.is_finite()) {
-            pair
+            pair.map(|k| scaled.restored(k, -1))
         } else {
             none
         }
@@ -107,10 +115,19 @@ fn signed_dihedral(mesh: &Mesh, e: EdgeId) -> f64 {
     }
 }
 
-fn at_vertices(mesh: &Mesh, value: impl Fn(VertexId) -> f64 + Sync) -> Vec<f64> {
-    fill_vertices(mesh, f64::NAN, |v| {
+/// Returns the value of each vertex, by index, in scene units.
+fn at_vertices(
+    scaled: &Scaled,
+    dimension: i32,
+    value: impl Fn(VertexId) -> f64 + Sync,
+) -> Vec<f64> {
+    fill_vertices(scaled.mesh(), f64::NAN, |v| {
         let value = value(v);
-        if value.is_finite() { value } else { f64::NAN }
+        if value.is_finite() {
+            scaled.restored(value, dimension)
+        } else {
+            f64::NAN
+        }
     })
 }
 

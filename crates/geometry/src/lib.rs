@@ -19,6 +19,7 @@
 //! | [`deform`] | bending, twisting, tapering, lattices, falloff, noise |
 //! | [`smooth`](mod@smooth) | smoothing and denoising |
 //! | [`Laplacian`], [`sparse`] | the cotangent Laplacian; sparse symmetric matrices and their solver |
+//! | [`Scaled`] | very small and very large meshes in a suitable unit of length |
 //! | [`samples`] | evenly spread points on a surface |
 //! | [`uv`] | texture coordinates: charts, unwrapping, packing, stretch and overlaps |
 //! | [`tangents`] | tangents for normal maps |
@@ -39,6 +40,7 @@ mod part;
 pub mod predicates;
 pub mod remesh;
 mod sample;
+mod scaled;
 pub mod shapes;
 pub mod simplify;
 pub mod smooth;
@@ -61,5 +63,6 @@ pub use measure::{
 pub use merge::{MergeError, Merged, clusters, merge_clusters, merge_vertices};
 pub use part::{face_components, parts, separated};
 pub use sample::{Sample, samples};
+pub use scaled::Scaled;
 pub use tangent::{Tangents, tangents};
 pub use visibility::{occlusion, thickness};

@@ -5,6 +5,7 @@ use std::collections::BinaryHeap;
 use mesh::{DVec3, FaceId, Mesh};
 use progress::{Cancelled, Progress};
 
+use crate::Scaled;
 use crate::deform::noise::random;
 use crate::tangent::triangles;
 
@@ -39,6 +40,8 @@ pub fn samples(
     seed: u64,
     progress: &dyn Progress,
 ) -> Result<Vec<Sample>, Cancelled> {
+    let scaled = Scaled::new(mesh);
+    let mesh = scaled.mesh();
     let (candidates, area) = candidates(mesh, CANDIDATES * count, seed);
     if candidates.is_empty() || count == 0 {
         return Ok(Vec::new());
@@ -92,6 +95,10 @@ pub fn samples(
     let kept = candidates.into_iter().zip(is_kept);
     Ok(kept
         .filter_map(|(sample, is_kept)| is_kept.then_some(sample))
+        .map(|sample| Sample {
+            position: scaled.restored_point(sample.position),
+            ..sample
+        })
         .collect())
 }
 

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use mesh::{DVec3, FaceId, HalfEdgeId, Mesh, VertexId, parallel};
 use progress::{Cancelled, Meter, Progress};
 
+use crate::Scaled;
 use crate::deform::noise::random;
 use crate::deform::vertex_directions;
 use crate::surface_index::SurfaceIndex;
@@ -30,6 +31,8 @@ const BLOCK: usize = 256;
 ///
 /// Returns [`Cancelled`] if `progress` asks to stop.
 pub fn thickness(mesh: &Mesh, progress: &dyn Progress) -> Result<Vec<f64>, Cancelled> {
+    let scaled = Scaled::new(mesh);
+    let mesh = scaled.mesh();
     let Some(index) = SurfaceIndex::with_progress(mesh, progress)? else {
         return Ok(vec![f64::INFINITY; mesh.n_vertices()]);
     };
@@ -38,7 +41,7 @@ pub fn thickness(mesh: &Mesh, progress: &dyn Progress) -> Result<Vec<f64>, Cance
         let corners = mesh.vertex_half_edges(v);
         let corners = corners.filter_map(|h| Some((h, mesh.face(h)?)));
         let rays = corners.map(|(h, f)| behind(mesh, &index, h, f, offset));
-        rays.fold(f64::INFINITY, f64::min)
+        scaled.restored(rays.fold(f64::INFINITY, f64::min), 1)
     })
 }
 
@@ -89,6 +92,8 @@ pub fn occlusion(
 ) -> Result<Vec<f64>, Cancelled> {
     /// The golden ratio minus 1, whose multiples are spread evenly modulo 1.
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    let scaled = Scaled::new(mesh);
+    let mesh = scaled.mesh();
     let Some(index) = SurfaceIndex::with_progress(mesh, progress)? else {
         return Ok(vec![f64::NAN; mesh.n_vertices()]);
     };

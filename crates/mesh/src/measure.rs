@@ -9,8 +9,29 @@ use crate::{Element, FaceId, HalfEdgeId, Mesh};
 /// The angle is computed as the arc tangent of sine and cosine. The arc tangent is accurate for angles near 0
 /// and π, unlike the arc cosine. Source: Kahan, "How Futile are Mindless Assessments of Roundoff", 2006, §12.
 pub fn angle_between(a: DVec3, b: DVec3) -> f64 {
+    let (a, b) = (ordinary(a).0, ordinary(b).0);
     // Adding 0 turns -0 into 0: the arc tangent of (0, -0) is π.
     libm::atan2(a.cross(b).length(), a.dot(b) + 0.0)
+}
+
+/// Returns the length of a vector. Squares of components cannot overflow or underflow.
+fn length(v: DVec3) -> f64 {
+    match ordinary(v) {
+        (v, 0) => v.length(),
+        (v, exponent) => libm::scalbn(v.length(), exponent),
+    }
+}
+
+/// Returns a multiple of a vector by a power of two, and the exponent that restores the vector. If the components are
+/// neither very small nor very large, the vector is returned as it is.
+fn ordinary(v: DVec3) -> (DVec3, i32) {
+    let largest = v.abs().max_element();
+    if (1e-70..1e70).contains(&largest) || largest == 0.0 || !largest.is_finite() {
+        return (v, 0);
+    }
+    let exponent = libm::ilogb(largest);
+    let scaled = v.to_array().map(|x| libm::scalbn(x, -exponent));
+    (DVec3::from_array(scaled), exponent)
 }
 
 impl Mesh {
@@ -35,12 +56,12 @@ impl Mesh {
 
     /// Returns the area of a face: the length of its [area vector](Self::area_vector).
     pub fn face_area(&self, f: FaceId) -> f64 {
-        self.area_vector(f).length()
+        length(self.area_vector(f))
     }
 
     /// Returns the unit normal of a face; zero if the area of the face is zero.
     pub fn face_normal(&self, f: FaceId) -> DVec3 {
-        self.area_vector(f).normalize_or_zero()
+        ordinary(self.area_vector(f)).0.normalize_or_zero()
     }
 
     /// Returns the mean of the corner positions of a face.
@@ -55,8 +76,7 @@ impl Mesh {
 
     /// Returns the length of the edge of `h`.
     pub fn length(&self, h: HalfEdgeId) -> f64 {
-        self.position(self.origin(h))
-            .distance(self.position(self.target(h)))
+        length(self.position(self.origin(h)) - self.position(self.target(h)))
     }
 
     /// Returns the angle of a face at the corner of `h`, in radians. `h` is the half-edge of the face that
@@ -153,6 +173,26 @@ mod tests {
         for x in [1.0, -1.0, 0.0, -0.0] {
             assert_eq!(angle_between(DVec3::ZERO, DVec3::splat(x)), 0.0);
             assert_eq!(angle_between(DVec3::splat(x), DVec3::ZERO), 0.0);
+        }
+    }
+
+    #[test]
+    fn measures_of_very_small_and_very_large_elements_are_right() {
+        for exponent in [-500, -300, 300, 500] {
+            let mut cube = shapes::cube();
+            for p in cube.positions_mut() {
+                *p *= libm::scalbn(1.0, exponent);
+            }
+            let right = std::f64::consts::FRAC_PI_2;
+            let close = |a: f64, b: f64| (a - b).abs() < 1e-15;
+            for h in cube.half_edges() {
+                assert!(close(cube.corner_angle(h), right));
+                assert!(close(cube.dihedral_angle(h.edge()).unwrap(), right));
+                assert_eq!(libm::scalbn(cube.length(h), -exponent), 2.0);
+            }
+            for f in cube.faces() {
+                assert_eq!(libm::scalbn(cube.face_area(f), -2 * exponent), 4.0);
+            }
         }
     }
 

@@ -1,8 +1,11 @@
 //! The quantities that `Measure` computes.
 
+use geometry::Scaled;
+use geometry::distance::vertex_distances_with;
 use geometry::sparse::SolveError;
 use geometry::surface_index::{SurfaceIndex, Winding};
 use mesh::{Domain, FaceId, VertexId, parallel};
+use op::Refusal;
 use op::prelude::*;
 use op::{Operation, named_object};
 
@@ -17,6 +20,8 @@ pub enum MeasureOf {
     MeanCurvature,
     /// The Gaussian curvature at each vertex, in 1 / scene unit²: the angle defect divided by the area of the vertex
     /// (Meyer, Desbrun, Schröder, Barr, 2003). It is 1 / r² on a sphere, 0 on a cylinder, and negative at saddles.
+    /// On the boundary, the defect is 180° instead of 360° minus the sum of the angles. There, it measures how the
+    /// boundary turns within the surface, so values on the boundary depend on the size of the faces.
     GaussianCurvature,
     /// A principal curvature at each vertex, in 1 / scene unit: an eigenvalue of the curvature tensor of Cohen-Steiner
     /// and Morvan, 2003. On a cylinder of radius r, the two principal curvatures are 0 and 1 / r.
@@ -142,33 +147,39 @@ impl MeasureOf {
     /// # Errors
     ///
     /// [`OpError::Object`] if the other mesh is missing or has no faces; [`OpError::Refused`] if a selection is
-    /// refused; [`OpError::Budget`]; [`OpError::Cancelled`].
+    /// refused, or if the mesh is so small or large that the values are outside of the range of numbers;
+    /// [`OpError::Budget`]; [`OpError::Cancelled`].
     pub(crate) fn values(
         &self,
         mesh: &Mesh,
         scene: &Scene,
         cx: &Context,
     ) -> Result<Vec<f64>, OpError> {
+        let scaled = Scaled::new(mesh);
+        let small = scaled.mesh();
         let faces = |value: &(dyn Fn(FaceId) -> f64 + Sync)| {
             parallel::collect(mesh.n_faces(), |f| value(FaceId::new(f)))
         };
         let principal = |i: usize| {
-            let both = geometry::principal_curvatures(mesh);
+            let both = geometry::principal_curvatures(small);
             both.into_iter().map(|pair| pair[i]).collect()
         };
+        let restored = |values, dimension| restored(&scaled, values, dimension);
         Ok(match self {
-            Self::MeanCurvature => geometry::mean_curvatures(mesh),
-            Self::GaussianCurvature => geometry::gaussian_curvatures(mesh),
-            Self::PrincipalCurvature(Principal::Smallest) => principal(0),
-            Self::PrincipalCurvature(Principal::Largest) => principal(1),
-            Self::Area => faces(&|f| mesh.face_area(f)),
+            Self::MeanCurvature => restored(geometry::mean_curvatures(small), -1)?,
+            Self::GaussianCurvature => restored(geometry::gaussian_curvatures(small), -2)?,
+            Self::PrincipalCurvature(Principal::Smallest) => restored(principal(0), -1)?,
+            Self::PrincipalCurvature(Principal::Largest) => restored(principal(1), -1)?,
+            Self::Area => restored(faces(&|f| small.face_area(f)), 2)?,
             Self::VertexArea => {
-                let area = |v| geometry::vertex_area(mesh, VertexId::new(v));
-                parallel::collect(mesh.n_vertices(), area)
+                let area = |v| geometry::vertex_area(small, VertexId::new(v));
+                restored(parallel::collect(mesh.n_vertices(), area), 2)?
             }
-            Self::MinAngle => faces(&|f| geometry::min_angle(mesh, f).to_degrees()),
-            Self::AspectRatio => faces(&|f| geometry::aspect_ratio(mesh, f)),
-            Self::Distance { to, signed } => distances(mesh, &index(scene, to, cx)?, *signed, cx)?,
+            Self::MinAngle => faces(&|f| geometry::min_angle(small, f).to_degrees()),
+            Self::AspectRatio => faces(&|f| geometry::aspect_ratio(small, f)),
+            Self::Distance { to, signed } => {
+                distances(mesh, other_mesh(scene, to)?, *signed, cx)?.ok_or_else(|| no_faces(to))?
+            }
             Self::Geodesic { from } => {
                 let is_source = from.mask(mesh, cx)?;
                 geometry::geodesic_distances(mesh, &is_source, cx.progress()).map_err(unsolved)?
@@ -178,33 +189,63 @@ impl MeasureOf {
                 geometry::occlusion(mesh, rays.get(), *seed, cx.progress())?
             }
             Self::Winding { of } => {
-                let index = index(scene, of, cx)?;
-                let winding = Winding::new(&index, cx.progress())?;
-                winding.at_points(mesh.positions(), cx.progress())?
+                windings(mesh, other_mesh(scene, of)?, cx)?.ok_or_else(|| no_faces(of))?
             }
         })
     }
 }
 
-/// Returns the distances of all vertices from a surface.
+/// Returns quantities of a scaled mesh in scene units.
+///
+/// # Errors
+///
+/// [`OpError::Refused`] if a quantity is outside of the range of numbers.
+fn restored(scaled: &Scaled, mut values: Vec<f64>, dimension: i32) -> Result<Vec<f64>, OpError> {
+    for x in &mut values {
+        let restored = scaled.restored(*x, dimension);
+        if x.is_finite() && scaled.restored(restored, -dimension) != *x {
+            let size = scaled.restored(1.0, 1);
+            let message = format!(
+                "the coordinates are about {size:.0e}, and values of this quantity are outside of the range of numbers; \
+                 scale the mesh with Transform before the step"
+            );
+            return Err(OpError::refused(Refusal::BadNumber, message));
+        }
+        *x = restored;
+    }
+    Ok(values)
+}
+
+/// Returns the distances of all vertices from the surface of another mesh; `None` if the other mesh has no faces.
 fn distances(
     mesh: &Mesh,
-    index: &SurfaceIndex,
+    other: &Mesh,
     signed: bool,
     cx: &Context,
-) -> Result<Vec<f64>, OpError> {
-    let nearest = index.nearest_to_points(mesh.positions(), cx.progress())?;
-    let mut distances: Vec<f64> = nearest.iter().map(|nearest| nearest.distance).collect();
-    if signed {
-        let winding = Winding::new(index, cx.progress())?;
-        let winding = winding.at_points(mesh.positions(), cx.progress())?;
-        for (distance, winding) in distances.iter_mut().zip(winding) {
+) -> Result<Option<Vec<f64>>, OpError> {
+    let mut found = vertex_distances_with(mesh, other, cx.progress())?;
+    if signed
+        && let Some(distances) = &mut found
+        && let Some(windings) = windings(mesh, other, cx)?
+    {
+        for (distance, winding) in distances.iter_mut().zip(windings) {
             if winding.abs() > 0.5 {
                 *distance = -*distance;
             }
         }
     }
-    Ok(distances)
+    Ok(found)
+}
+
+/// Returns the winding numbers of another mesh around all vertices; `None` if the other mesh has no faces.
+fn windings(mesh: &Mesh, other: &Mesh, cx: &Context) -> Result<Option<Vec<f64>>, OpError> {
+    let [mesh, other] = Scaled::pair(mesh, other);
+    let Some(index) = SurfaceIndex::with_progress(other.mesh(), cx.progress())? else {
+        return Ok(None);
+    };
+    let winding = Winding::new(&index, cx.progress())?;
+    let windings = winding.at_points(mesh.mesh().positions(), cx.progress())?;
+    Ok(Some(windings))
 }
 
 fn unsolved(error: SolveError) -> OpError {
@@ -215,10 +256,8 @@ fn unsolved(error: SolveError) -> OpError {
     }
 }
 
-/// Returns the index of the faces of another object.
-fn index(scene: &Scene, name: &str, cx: &Context) -> Result<SurfaceIndex, OpError> {
-    let index = SurfaceIndex::with_progress(other_mesh(scene, name)?, cx.progress())?;
-    index.ok_or_else(|| OpError::Object(format!("\"{name}\" has no faces")))
+fn no_faces(name: &str) -> OpError {
+    OpError::Object(format!("\"{name}\" has no faces"))
 }
 
 fn other_mesh<'s>(scene: &'s Scene, name: &str) -> Result<&'s Mesh, OpError> {

@@ -26,7 +26,7 @@ use progress::{Cancelled, NoProgress, Progress};
 
 use crate::surface_index::{Nearest, SurfaceIndex, Triangle, triangulate};
 use crate::triangulate::Cutter;
-use crate::{area, bounds};
+use crate::{Scaled, area, bounds};
 
 use piece::{Farthest, Piece, Sample, refine};
 
@@ -97,15 +97,18 @@ impl Distance {
         progress: &dyn Progress,
     ) -> Result<Option<Self>, Cancelled> {
         progress.report(WHAT, 0, 2)?;
+        let [scaled_a, scaled_b] = Scaled::pair(a, b);
+        let (a, b) = (scaled_a.mesh(), scaled_b.mesh());
         let (from_a, from_b) = rayon::join(|| SurfaceIndex::new(a), || SurfaceIndex::new(b));
         let (Some(surface_a), Some(surface_b)) = (from_a, from_b) else {
             return Ok(None);
         };
+        let tolerance = tolerance.map(|tolerance| scaled_a.scaled(tolerance));
         let tolerance = tolerance.unwrap_or_else(|| TOLERANCE * diagonal(a, b));
         let ask = |done| move || progress.report(WHAT, done, 2);
         Ok(Some(Self {
-            forth: OneSided::measure(a, &surface_b, tolerance, &ask(0))?,
-            back: OneSided::measure(b, &surface_a, tolerance, &ask(1))?,
+            forth: OneSided::measure(a, &surface_b, tolerance, &ask(0))?.restored(&scaled_a),
+            back: OneSided::measure(b, &surface_a, tolerance, &ask(1))?.restored(&scaled_a),
         }))
     }
 
@@ -239,6 +242,23 @@ impl OneSided {
     }
 }
 
+impl OneSided {
+    /// Returns the distances in scene units.
+    fn restored(self, scaled: &Scaled) -> Self {
+        let point = |point: SurfacePoint| SurfacePoint {
+            position: scaled.restored_point(point.position),
+            ..point
+        };
+        Self {
+            largest: scaled.restored(self.largest, 1),
+            at_most: scaled.restored(self.at_most, 1),
+            mean: scaled.restored(self.mean, 1),
+            from: point(self.from),
+            to: point(self.to),
+        }
+    }
+}
+
 impl Block {
     fn add(
         &mut self,
@@ -339,9 +359,28 @@ fn vertex_hits(
 /// Returns the distance from each vertex of `from` to the surface of `to`, by vertex index. The distance is NaN
 /// for dead vertices. Returns `None` if `to` has no faces.
 pub fn vertex_distances(from: &Mesh, to: &Mesh) -> Option<Vec<f64>> {
-    let hits = vertex_hits(from, &SurfaceIndex::new(to)?, &|| Ok(())).expect("never canceled");
-    let distance = |hit: Option<Nearest>| hit.map_or(f64::NAN, |hit| hit.distance);
-    Some(hits.into_iter().map(distance).collect())
+    let found = vertex_distances_with(from, to, &NoProgress);
+    found.expect("never canceled")
+}
+
+/// Returns the distances like [`vertex_distances`], and reports progress.
+///
+/// # Errors
+///
+/// Returns [`Cancelled`] if `progress` asks to stop.
+pub fn vertex_distances_with(
+    from: &Mesh,
+    to: &Mesh,
+    progress: &dyn Progress,
+) -> Result<Option<Vec<f64>>, Cancelled> {
+    let [from, to] = Scaled::pair(from, to);
+    let Some(index) = SurfaceIndex::with_progress(to.mesh(), progress)? else {
+        return Ok(None);
+    };
+    let hits = index.nearest_to_vertices(from.mesh(), progress)?;
+    let distance =
+        |hit: Option<Nearest>| hit.map_or(f64::NAN, |hit| from.restored(hit.distance, 1));
+    Ok(Some(hits.into_iter().map(distance).collect()))
 }
 
 fn farthest_vertex(from: &Mesh, hits: &[Option<Nearest>]) -> Option<Farthest> {

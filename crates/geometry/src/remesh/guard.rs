@@ -10,6 +10,7 @@ use progress::{Cancelled, Progress};
 use super::original::Original;
 use super::size::Sizes;
 use super::work::Work;
+use crate::Scaled;
 use crate::distance::Distance;
 use crate::surface_index::SurfaceIndex;
 use crate::surface_index::triangle::nearest_on_triangle;
@@ -76,15 +77,14 @@ pub(super) fn refine(
     limit: f64,
     progress: &dyn Progress,
 ) -> Result<(), Cancelled> {
-    let (Some(new), Some(old)) = (
-        SurfaceIndex::new(result),
-        SurfaceIndex::new(original.source),
-    ) else {
+    let [result, source] = Scaled::pair(result, original.source);
+    let limit = source.scaled(limit);
+    let (result, source) = (result.mesh(), source.mesh());
+    let (Some(new), Some(old)) = (SurfaceIndex::new(result), SurfaceIndex::new(source)) else {
         return Ok(());
     };
     let mut is_marked = vec![false; original.mesh.n_vertices()];
     let is_far = |distance: f64| distance > 0.5 * limit;
-    let source = original.source;
     for f in source.faces() {
         let center = source.face_center(f);
         if f.index() % 1024 == 0 {

@@ -159,3 +159,53 @@ fn thickness_and_occlusion_are_measured_by_rays() {
     assert_eq!(found, [0.0; 8]);
     assert!(read::<Measure>("(of: Occlusion(rays: 0))").is_err());
 }
+
+#[test]
+fn every_quantity_scales_exactly_or_is_refused() {
+    let scene = |factor: f64| {
+        let mut scene = Scene::new();
+        for (name, mut mesh) in [
+            ("mesh", shapes::torus(12, 8, 2.0, 0.5)),
+            ("other", shapes::torus(10, 6, 2.1, 0.6)),
+        ] {
+            mesh.positions_mut().iter_mut().for_each(|p| *p *= factor);
+            scene
+                .insert(Object::new(name, Geometry::Mesh(mesh.into())))
+                .unwrap();
+        }
+        scene
+    };
+    for (of, dimension) in [
+        ("MeanCurvature", -1),
+        ("GaussianCurvature", -2),
+        ("PrincipalCurvature(Largest)", -1),
+        ("PrincipalCurvature(Smallest)", -1),
+        ("Area", 2),
+        ("VertexArea", 2),
+        ("MinAngle", 0),
+        ("AspectRatio", 0),
+        ("Distance(to: \"other\")", 1),
+        ("Distance(to: \"other\", signed: true)", 1),
+        ("Geodesic(from: Ids([0]))", 1),
+        ("Thickness", 1),
+        ("Occlusion(rays: 16)", 0),
+        ("Winding(of: \"other\")", 0),
+    ] {
+        let step = parse(&format!("(of: {of}, name: \"x\")"));
+        let at = |k: i32| -> Result<Vec<f64>, OpError> {
+            let mut scene = scene(libm::scalbn(1.0, k));
+            run(&step, &mut scene)?;
+            let mesh = scene.object("mesh").unwrap().as_mesh().unwrap();
+            Ok(values(mesh, step.of.domain(), "x"))
+        };
+        let expected = at(0).unwrap();
+        for k in [-500, -300, 300, 500] {
+            let expected = expected.iter().map(|x| libm::scalbn(*x, dimension * k));
+            assert_eq!(at(k).unwrap(), Vec::from_iter(expected), "{of} 2^{k}");
+        }
+        for k in [-700, 700] {
+            let is_refused = matches!(at(k), Err(OpError::Refused { .. }));
+            assert_eq!(is_refused, dimension.abs() == 2, "{of} 2^{k}");
+        }
+    }
+}

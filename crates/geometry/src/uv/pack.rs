@@ -28,6 +28,10 @@ pub struct Packed {
 /// Triangles whose area is at most this fraction of the area of their chart do not take part in packing.
 const MIN_AREA: f64 = 1e-11;
 
+/// The shortest edge of a hull, as a fraction of its size. The crate `uvunwrap` leaves out triangles that are lower than
+/// 1e-6 times the diagonal, which would cut the hull into parts.
+const MIN_EDGE: f64 = 4e-6;
+
 /// One chart before it is packed.
 struct Chart {
     /// The corners of its triangles.
@@ -233,7 +237,7 @@ impl Shape {
         (self.points.len() - 1) as u32
     }
 
-    /// Returns the convex hull (Andrew's monotone chain, 1979).
+    /// Returns the convex hull (Andrew's monotone chain, 1979), as triangles around its center, which are not thin.
     fn hull(&self) -> Self {
         let mut points = self.points.clone();
         points.sort_unstable_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
@@ -252,12 +256,19 @@ impl Shape {
         };
         let mut chain = half(&mut points.iter().copied());
         chain.extend(half(&mut points.iter().rev().copied()));
+        let size = match (points.first(), points.last()) {
+            (Some(first), Some(last)) => first.distance(*last),
+            _ => 0.0,
+        };
+        chain.dedup_by(|b, a| a.distance(*b) < MIN_EDGE * size);
         let mut hull = Self::default();
-        for p in chain {
+        hull.push(chain.iter().sum::<DVec2>() / chain.len().max(1) as f64);
+        for &p in &chain {
             hull.push(p);
         }
-        for i in 2..u32::try_from(hull.points.len()).unwrap_or(0) {
-            hull.indices.extend([0, i - 1, i]);
+        let n = u32::try_from(chain.len()).unwrap_or(0);
+        for i in 1..=n {
+            hull.indices.extend([0, i, i % n + 1]);
         }
         hull
     }

@@ -11,7 +11,7 @@ use op::prelude::*;
 use op::{Operation, check_name, named_object};
 use scene::{Geometry, Object};
 
-use crate::simplify::{error, part, plan_goal, triangles_problem, unreached};
+use crate::simplify::{error, note_overlaps, part, plan_goal, triangles_problem, unreached};
 
 /// Makes simplified copies of an object, its levels of detail.
 ///
@@ -119,6 +119,7 @@ impl Operation for Lods {
                 refuse_intersections: false,
             };
             let simplified = simplify(&mesh, &options, cx.progress()).map_err(|e| error(&e))?;
+            note_overlaps(&mesh, &simplified.mesh, &mut report, cx)?;
             mesh = Arc::new(simplified.mesh);
             if mesh.n_faces() as u64 > goal {
                 let refused = unreached(mesh.n_faces(), goal, &simplified.blocked);

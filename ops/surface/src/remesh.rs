@@ -10,9 +10,9 @@
 //!     +-+----------+--+            +-----+-----+
 //! ```
 
-use geometry::remesh::{Counts, Length, Options, RemeshError, remesh};
-use op::Refusal;
+use geometry::remesh::{Counts, Length, MAX_FACES, Options, RemeshError, remesh};
 use op::prelude::*;
+use op::{Refusal, readable};
 
 use crate::simplify::triangles_problem;
 
@@ -37,6 +37,10 @@ use crate::simplify::triangles_problem;
 /// - Vertex tags: a new vertex has a tag if all old vertices around its position had the tag. A tagged vertex keeps its
 ///   exact position unless all corners of one of its triangles, or both of its neighbors on a line, also have the tag.
 ///   Vertices with sharpness also keep their exact positions.
+///
+/// The number of faces depends on the area of the mesh, which is not known before the run. Therefore `check` shows the
+/// largest number that fits the memory budget. When the step starts, it estimates the number from the area, and fails
+/// if the estimate exceeds the budget.
 ///
 /// Edits that would turn a triangle by more than 60 degrees are refused. All elements get new ids. If the distance
 /// between the result and the original could exceed `error`, the step is refused as `Unreached`. With
@@ -107,11 +111,12 @@ impl Remesh {
     }
 }
 
+/// The bytes of the connectivity and the positions, for half a vertex and one and a half edges for each face.
+const BYTES: u64 = 54;
+
 /// Returns the largest number of faces whose arrays fit the memory budget. The arrays are those of the result and of
 /// the copy that is changed.
 fn max_faces(mesh: &Mesh, budget: u64) -> usize {
-    // Connectivity and positions, for half a vertex and one and a half edges for each face.
-    const BYTES: u64 = 54;
     let per_face = BYTES + mesh.bytes() as u64 / (mesh.n_faces() as u64).max(1);
     usize::try_from(budget / per_face).unwrap_or(usize::MAX)
 }
@@ -141,16 +146,26 @@ impl MeshOperation for Remesh {
     const EXAMPLE: &'static str = "Remesh(length: 0.5)";
     const WORDS: &'static [&'static str] = &["isotropic", "retriangulate", "resample", "adaptive"];
 
-    fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
+    fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem> {
         let mut problems = Vec::from_iter(triangles_problem(Self::NAME, plan));
         problems.extend(self.target().err().map(|message| {
             Problem::error(message).help("write, for example, `Remesh(length: 0.02)`")
         }));
-        // The area is not known yet. A mesh without faces gets no faces.
-        for count in [&mut plan.vertices, &mut plan.edges, &mut plan.faces] {
+        // The area of the mesh is not known yet, so only the budget limits the number of faces. A mesh without faces gets
+        // no faces. Isolated vertices stay.
+        let most = match plan.faces.max {
+            0 => 0,
+            _ => (cx.budget / BYTES).min(MAX_FACES as u64),
+        };
+        let isolated = plan.vertices.max;
+        for (count, max) in [
+            (&mut plan.vertices, isolated.saturating_add(3 * most)),
+            (&mut plan.edges, 3 * most),
+            (&mut plan.faces, most),
+        ] {
             *count = Range {
                 min: count.min.min(1),
-                max: if count.max == 0 { 0 } else { u64::MAX },
+                max,
             };
         }
         problems
@@ -181,23 +196,37 @@ impl MeshOperation for Remesh {
                 mesh.replace(remeshed.mesh);
                 Ok(notes(&remeshed.counts))
             }
-            Err(error) => {
-                let message = error.to_string();
-                match error {
-                    RemeshError::Cancelled(_) => Err(OpError::Cancelled),
-                    RemeshError::NotTriangle(f) => {
-                        let message =
-                            format!("{message}; triangulate the faces first, with Triangulate");
-                        Err(OpError::refused(Refusal::NotTriangle, message).about([f]))
-                    }
-                    RemeshError::TooManyFaces { .. } => Err(OpError::Budget(message)),
-                    RemeshError::TooFar { .. } => {
-                        let mut report = Report::default();
-                        let refused = OpError::refused(Refusal::Unreached, message);
-                        self.on_refusal.refuse(refused, &mut report)?;
-                        Ok(report)
-                    }
-                }
+            Err(RemeshError::Cancelled(_)) => Err(OpError::Cancelled),
+            Err(error @ RemeshError::NotTriangle(f)) => {
+                let message = format!("{error}; triangulate the faces first, with Triangulate");
+                Err(OpError::refused(Refusal::NotTriangle, message).about([f]))
+            }
+            Err(RemeshError::TooManyFaces { needed, max }) => {
+                let most = if max == 1 {
+                    "1 is"
+                } else {
+                    &format!("{max} are")
+                };
+                let needed = if needed.is_finite() {
+                    format!("up to about {} faces", readable(needed.round()))
+                } else {
+                    "too many faces to count".to_owned()
+                };
+                let message = format!(
+                    "the target lengths need {needed} during remeshing, but at most {most} possible"
+                );
+                Err(OpError::Budget(message))
+            }
+            Err(RemeshError::TooFar { reached, limit }) => {
+                let mut report = Report::default();
+                let message = format!(
+                    "the distance between the surfaces could be {}, which is above the allowed error {}",
+                    readable(reached),
+                    readable(limit)
+                );
+                let refused = OpError::refused(Refusal::Unreached, message);
+                self.on_refusal.refuse(refused, &mut report)?;
+                Ok(report)
             }
         }
     }
@@ -274,6 +303,37 @@ mod tests {
             .unwrap_err();
         assert!(matches!(refused, OpError::Budget(_)), "{refused}");
         assert_eq!(mesh, shapes::icosahedron());
+    }
+
+    #[test]
+    fn messages_have_few_digits() {
+        let mut huge = shapes::icosahedron();
+        huge.positions_mut().iter_mut().for_each(|p| *p *= 1e150);
+        for text in ["(length: 1)", "(length: 1e150, error: 1e-100)"] {
+            let message = try_applied(&step(text), huge.clone())
+                .unwrap_err()
+                .to_string();
+            assert!(message.len() < 140 && !message.contains("inf"), "{message}");
+        }
+    }
+
+    #[test]
+    fn the_plan_is_limited_by_the_budget() {
+        let files = op::Files::default();
+        for (budget, most) in [(54_000, 1000), (u64::MAX, MAX_FACES as u64)] {
+            let cx = PlanContext {
+                files: &files,
+                on: None,
+                budget,
+            };
+            let mut plan = MeshPlan::of(&shapes::icosahedron());
+            assert_eq!(
+                MeshOperation::plan(&step("(length: 1)"), &mut plan, &cx),
+                []
+            );
+            assert_eq!(plan.faces, Range::between(1, most));
+            assert_eq!(plan.vertices.max, 12 + 3 * most);
+        }
     }
 
     #[test]

@@ -9,6 +9,8 @@
 //! ```
 
 use geometry::simplify::{Blocked, Options, SimplifyError, simplify};
+use geometry::uv::overlapping_faces;
+use mesh::UV;
 use op::Refusal;
 use op::prelude::*;
 
@@ -30,6 +32,10 @@ use op::prelude::*;
 ///   (Hoppe, 1999), and new vertices get the values that fit best. Values are never mixed across a line, and no
 ///   triangle is turned over in the texture. Normals are kept, so that a simplified mesh is shaded like the original.
 /// - Vertex tags: vertices with different tags, whole numbers or sharpness are not merged.
+///
+/// In a texture, the border of a chart is simplified like the surface, and can then cross another chart that is close
+/// to it. The report counts faces that overlap, and `PackUvs` with a larger `padding` before the step leaves more space
+/// between charts.
 ///
 /// No triangle is turned over. Remaining elements get new ids, in the order of their old ids. If the number of faces
 /// cannot be reached and `error` is not given, the step is refused as `Unreached`, and the message states the reasons.
@@ -144,8 +150,14 @@ pub(crate) fn unreached(n_faces: usize, goal: u64, blocked: &[(Blocked, usize)])
         .map(|(reason, n)| format!("{n} {reason}"))
         .collect();
     let n_edges: usize = blocked.iter().map(|(_, n)| n).sum();
+    let faces = if n_faces == 1 {
+        "face was"
+    } else {
+        "faces were"
+    };
+    let edges = if n_edges == 1 { "edge" } else { "edges" };
     let message = format!(
-        "only {n_faces} faces were reached instead of {goal}, because no further edge can be collapsed: of {n_edges} edges, {}",
+        "only {n_faces} {faces} reached instead of {goal}, because no further edge can be collapsed: of {n_edges} {edges}, {}",
         reasons.join(", ")
     );
     OpError::refused(Refusal::Unreached, message)
@@ -202,11 +214,41 @@ impl MeshOperation for Simplify {
             self.on_refusal
                 .refuse(unreached(after, goal, &simplified.blocked), &mut report)?;
         }
+        if before as u64 <= goal {
+            let faces = if before == 1 { "face" } else { "faces" };
+            report = report.note(format!(
+                "a mesh of {before} {faces} already has at most {goal} and does not change"
+            ));
+        }
         if after < before {
+            note_overlaps(mesh, &simplified.mesh, &mut report, cx)?;
             mesh.replace(simplified.mesh);
         }
         Ok(report)
     }
+}
+
+/// Notes how many faces overlap in the texture coordinates `uv` of the simplified mesh, if there are more than before.
+/// Simplified borders of charts can cross other charts.
+pub(crate) fn note_overlaps(
+    before: &Mesh,
+    after: &Mesh,
+    report: &mut Report,
+    cx: &Context,
+) -> Result<(), OpError> {
+    let overlaps = |mesh: &Mesh| match mesh.get(UV) {
+        Some(uvs) => Ok(overlapping_faces(mesh, uvs, cx.progress())?.len()),
+        None => Ok::<usize, OpError>(0),
+    };
+    let new = overlaps(after)?;
+    if new > 0 {
+        let old = overlaps(before)?;
+        if new > old {
+            let note = format!("faces that overlap others in the texture: {new}, before {old}");
+            report.notes.push(note);
+        }
+    }
+    Ok(())
 }
 
 #[cfg(test)]
@@ -257,6 +299,57 @@ mod tests {
             assert_eq!(problems, []);
             assert!(plan.faces.contains(n as u64), "{:?}", plan.faces);
         }
+    }
+
+    #[test]
+    fn a_mesh_with_few_faces_is_noted_and_counts_have_the_right_number() {
+        let (_, report) = try_applied(&step("(faces: 99)"), shapes::icosahedron()).unwrap();
+        assert_eq!(
+            report.notes,
+            ["a mesh of 20 faces already has at most 99 and does not change"]
+        );
+        let triangle = vec![mesh::DVec3::ZERO, mesh::DVec3::X, mesh::DVec3::Y];
+        let triangle = Mesh::from_polygons(triangle, &[[0, 1, 2]]).unwrap().0;
+        let refused = try_applied(&step("(faces: 0)"), triangle)
+            .unwrap_err()
+            .to_string();
+        assert!(refused.starts_with("only 1 face was reached"), "{refused}");
+    }
+
+    #[test]
+    fn new_overlaps_in_the_texture_are_counted() {
+        // The texture of half a ring closely surrounds the texture of a smaller one. With few vertices, the inner border
+        // of the larger ring cuts through the smaller ring.
+        let (mut positions, mut faces) = (Vec::new(), Vec::<[u32; 3]>::new());
+        let n = 32;
+        for (inner, outer) in [(0.5, 1.0), (1.001, 2.0)] {
+            let first = u32::try_from(positions.len()).unwrap();
+            for i in 0..=n {
+                let (sin, cos) = geometry::sin_cos_degrees(180.0 * f64::from(i) / f64::from(n));
+                for r in [inner, outer] {
+                    positions.push(mesh::DVec3::new(r * cos, r * sin, 0.0));
+                }
+            }
+            for i in 0..n {
+                let a = first + 2 * i;
+                faces.extend([[a, a + 1, a + 3], [a, a + 3, a + 2]]);
+            }
+        }
+        let mut mesh = Mesh::from_polygons(positions, &faces).unwrap().0;
+        let uvs = (0..mesh.n_half_edges()).map(|h| {
+            let v = mesh.origin(mesh::HalfEdgeId::new(h));
+            mesh.position(v).truncate()
+        });
+        let uvs = uvs.collect();
+        mesh.set(UV, uvs);
+        let text = "(faces: 40, on_refusal: Skip)";
+        let (after, report) = try_applied(&step(text), mesh).unwrap();
+        let n = overlapping_faces(&after, after.get(UV).unwrap(), &op::NoProgress)
+            .unwrap()
+            .len();
+        assert!(n > 0);
+        let note = format!("faces that overlap others in the texture: {n}, before 0");
+        assert_eq!(report.notes, [note]);
     }
 
     #[test]

@@ -202,7 +202,12 @@ impl MeshOperation for Smooth {
         };
         let moved = smooth(mesh, &smoothing, cx.progress()).map_err(error)?;
         mesh.remove_normals();
-        Ok(Report::changed(moved))
+        let report = Report::changed(moved);
+        Ok(if is_free.contains(&true) {
+            report
+        } else {
+            report.note("no vertex may move, because none is selected or all are pinned")
+        })
     }
 }
 
@@ -276,6 +281,16 @@ mod tests {
                 assert_eq!(after.position(v), before.position(v), "{by}");
             }
             assert!(report.changed > 700, "{by}");
+        }
+    }
+
+    #[test]
+    fn a_step_that_may_move_no_vertex_says_so() {
+        for choice in ["vertices: Not(All)", "pin: All"] {
+            let text = format!("(by: Taubin(), {choice})");
+            let (after, report) = try_applied(&parse(&text), spiky()).unwrap();
+            assert_eq!(after.positions(), spiky().positions());
+            assert_eq!(report.notes.len(), 1, "{choice}");
         }
     }
 

@@ -22,8 +22,9 @@ use op::prelude::*;
 /// overwritten; with a different type, the step fails. Without `on`, the step acts on all meshes except `from`.
 ///
 /// All corners of a face take their values from one chart of the source, that is, from faces that are connected without
-/// crossing a seam of the attribute. The chart is the one nearest to the center of the face, so no triangle is
-/// stretched across a seam of texture coordinates.
+/// crossing a seam of the attribute, so no triangle is stretched across a seam of texture coordinates. If the corners
+/// and the center of the face are nearest to different charts, the step takes the chart whose distance from the
+/// farthest of these points is the smallest.
 ///
 /// Elements whose distance from the source exceeds `within` keep their values, or get zeros if the attribute is new. If
 /// a corner or the center of a face is that far away, this applies to all corners of the face. The report counts these
@@ -245,20 +246,48 @@ impl Source<'_> {
             if target.face_half_edges(f).any(is_far) {
                 continue;
             }
-            let chart = chart_of_face[middle.face.index()];
-            for h in target.face_half_edges(f) {
-                let hit = hit_of(h);
-                let mut triangle = self.index.triangle(hit.triangle);
-                let mut point = hit.point;
-                if chart_of_face[triangle.face.index()] != chart {
-                    let index = indices[chart].get_or_insert_with(|| {
+            let chart_of = |hit: &Nearest| {
+                let face = self.index.triangle(hit.triangle).face;
+                chart_of_face[face.index()]
+            };
+            let mut candidates = vec![chart_of_face[middle.face.index()]];
+            for chart in target.face_half_edges(f).map(|h| chart_of(hit_of(h))) {
+                if !candidates.contains(&chart) {
+                    candidates.push(chart);
+                }
+            }
+            if candidates.len() > 1 {
+                for &chart in &candidates {
+                    indices[chart].get_or_insert_with(|| {
                         let faces = charts[chart].iter().copied();
                         SurfaceIndex::of_faces(self.mesh, faces).expect("a chart has faces")
                     });
-                    let hit = index.nearest(target.position(target.origin(h)), 0);
-                    triangle = index.triangle(hit.triangle);
-                    point = hit.point;
                 }
+            }
+            let nearest = |chart: usize, p: DVec3| {
+                let index = indices[chart].as_ref()?;
+                Some((index, index.nearest(p, 0)))
+            };
+            // The largest distance of a corner or the center of the face from a chart.
+            let distance = |&chart: &usize| {
+                let corners = target.face_vertices(f).map(|v| target.position(v));
+                let points = corners.chain([target.face_center(f)]);
+                let found = points.filter_map(|p| nearest(chart, p));
+                found.fold(0.0, |largest: f64, (_, hit)| largest.max(hit.distance))
+            };
+            let chart = (candidates.iter())
+                .min_by(|a, b| distance(a).total_cmp(&distance(b)))
+                .copied()
+                .unwrap_or(candidates[0]);
+            for h in target.face_half_edges(f) {
+                let hit = hit_of(h);
+                let in_chart = (chart_of(hit) != chart)
+                    .then(|| nearest(chart, target.position(target.origin(h))))
+                    .flatten();
+                let (triangle, point) = match in_chart {
+                    Some((index, hit)) => (index.triangle(hit.triangle), hit.point),
+                    None => (self.index.triangle(hit.triangle), hit.point),
+                };
                 let weights = triangle.barycentric(point);
                 origins[h.index()] =
                     Some([0, 1, 2].map(|k| (triangle.corners[k].index(), weights[k])));

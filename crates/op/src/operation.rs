@@ -42,6 +42,11 @@ pub trait MeshOperation:
         Vec::new()
     }
 
+    /// Returns the paths of the files that the operation reads, as written in the recipe.
+    fn files(&self) -> Vec<&str> {
+        Vec::new()
+    }
+
     /// Changes `plan` as [`apply`](Self::apply) will change the mesh, and returns the problems.
     /// Runs before any geometry exists and must be fast.
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem>;
@@ -107,6 +112,8 @@ impl<T: MeshOperation> Operation for T {
     const ATOMIC: bool = true;
 
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
+        let files = self.files().into_iter();
+        plan.inputs.extend(files.map(|path| cx.files.to_read(path)));
         let reads = self.reads();
         let mut problems = Vec::new();
         for &(name, parameter) in &reads {

@@ -85,26 +85,11 @@ impl Image {
     /// [`PictureError::Size`] if a side is 0 or longer than [`LARGEST_SIDE`]; [`PictureError::Decode`] if the file is
     /// not a PNG file, or is broken.
     pub fn from_png(bytes: &[u8]) -> Result<Self, PictureError> {
-        let failed = |error: png::DecodingError| PictureError::Decode(error.to_string());
-        let mut reader = decoder(bytes).read_info().map_err(failed)?;
-        let (width, height) = reader.info().size();
-        let n = checked_size(width, height)?;
-        let size = reader.output_buffer_size().unwrap_or(usize::MAX);
-        if size > 8 * n {
-            let message = "its pixels take more than 8 bytes each";
-            return Err(PictureError::Decode(message.to_owned()));
-        }
-        let mut bytes = vec![0; size];
-        let info = reader.next_frame(&mut bytes).map_err(failed)?;
-        let pixels = rgba(&info, bytes);
-        if (info.width, info.height, pixels.len()) != (width, height, n) {
-            let message = "its first image does not have the size that the file declares";
-            return Err(PictureError::Decode(message.to_owned()));
-        }
+        let (info, samples) = png_samples(bytes)?;
         Ok(Self {
-            width,
-            height,
-            pixels,
+            width: info.width,
+            height: info.height,
+            pixels: rgba(&info, samples),
         })
     }
 
@@ -211,6 +196,30 @@ pub(crate) fn decoder(bytes: &[u8]) -> png::Decoder<Cursor<&[u8]>> {
     let mut decoder = png::Decoder::new(Cursor::new(bytes));
     decoder.set_transformations(png::Transformations::ALPHA | png::Transformations::EXPAND);
     decoder
+}
+
+/// Decodes the samples of the first image of a PNG file: gray and alpha, or red, green, blue and alpha.
+///
+/// # Errors
+///
+/// The errors of [`Image::from_png`].
+pub(crate) fn png_samples(bytes: &[u8]) -> Result<(png::OutputInfo, Vec<u8>), PictureError> {
+    let failed = |error: png::DecodingError| PictureError::Decode(error.to_string());
+    let mut reader = decoder(bytes).read_info().map_err(failed)?;
+    let (width, height) = reader.info().size();
+    let n = checked_size(width, height)?;
+    let size = reader.output_buffer_size().unwrap_or(usize::MAX);
+    if size > 8 * n {
+        let message = "its pixels take more than 8 bytes each";
+        return Err(PictureError::Decode(message.to_owned()));
+    }
+    let mut samples = vec![0; size];
+    let info = reader.next_frame(&mut samples).map_err(failed)?;
+    if [info.width, info.height] != [width, height] || info.buffer_size() != size {
+        let message = "its first image does not have the size that the file declares";
+        return Err(PictureError::Decode(message.to_owned()));
+    }
+    Ok((info, samples))
 }
 
 /// Creates the decoder of a JPEG file, and decodes the headers of the file.

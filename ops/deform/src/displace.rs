@@ -8,9 +8,10 @@
 
 use geometry::deform::noise::{gradient, random};
 use geometry::deform::vertex_directions;
-use mesh::{DVec3, Domain, Values, VertexId};
-use op::Refusal;
+use mesh::{DVec2, DVec3, Domain, UV, Value, Values, VertexId};
 use op::prelude::*;
+use op::{Files, Refusal};
+use render::{Heights, Image};
 
 use crate::moved::moved;
 
@@ -60,39 +61,88 @@ pub enum DisplaceBy {
         /// The name of the attribute.
         name: String,
     },
+    /// The brightness of an image (a height map), from 0 (black) to 1 (white), at the texture coordinates of the
+    /// vertex. Brightness is the mean of red, green and blue as they are stored in the file. The step interpolates
+    /// between the pixels. Outside of 0 to 1, the image is repeated. A vertex on a seam moves by the mean over its
+    /// corners. Gray PNG files with 16 bits per pixel give smoother surfaces than files with 8 bits.
+    Image {
+        /// The PNG or JPEG file. A relative path is relative to the folder of the recipe.
+        path: String,
+        /// The name of the texture coordinates. Defaults to `uv`.
+        #[serde(default = "uv")]
+        uv: String,
+    },
+}
+
+fn uv() -> String {
+    UV.name.to_owned()
 }
 
 impl MeshOperation for Displace {
     const NAME: &'static str = "Displace";
-    const SUMMARY: &'static str = "Move vertices along their normals by noise or by an attribute";
+    const SUMMARY: &'static str =
+        "Move vertices along their normals by noise, an image or an attribute";
     const EXAMPLE: &'static str = "Displace(by: Noise(scale: 0.5, seed: 7), distance: 0.1)";
-    const WORDS: &'static [&'static str] = &["noise", "bump", "terrain", "rough", "jitter"];
+    const WORDS: &'static [&'static str] = &[
+        "noise",
+        "bump",
+        "terrain",
+        "rough",
+        "jitter",
+        "heightmap",
+        "height map",
+        "displacement map",
+    ];
 
-    fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        plan.drop_normals();
-        let DisplaceBy::Attribute { name } = &self.by else {
-            return Vec::new();
-        };
-        let mut listed = plan.attributes.iter();
-        if plan.has_unlisted_attributes
-            || listed.any(|a| a.domain == Domain::Vertex && a.name == *name)
-        {
-            return Vec::new();
+    fn files(&self) -> Vec<&str> {
+        match &self.by {
+            DisplaceBy::Image { path, .. } => vec![path],
+            _ => Vec::new(),
         }
-        vec![Problem::error(missing(name)).at(["by", "name"])]
+    }
+
+    fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem> {
+        plan.drop_normals();
+        let is_missing = |domain, name: &str| {
+            let mut listed = plan.attributes.iter();
+            !plan.has_unlisted_attributes && !listed.any(|a| a.domain == domain && a.name == name)
+        };
+        let mut problems = Vec::new();
+        match &self.by {
+            DisplaceBy::Attribute { name } if is_missing(Domain::Vertex, name) => {
+                problems.push(Problem::error(missing(name)).at(["by", "Attribute", "name"]));
+            }
+            DisplaceBy::Image { path, uv } => {
+                if is_missing(Domain::Corner, uv) {
+                    let problem = Problem::error(missing_uv(uv)).at(["by", "Image", "uv"]);
+                    problems.push(problem.help("add texture coordinates with Unwrap"));
+                }
+                if let Err(error) = image(path, cx.files, cx.budget) {
+                    problems.push(Problem::error(error.to_string()).at(["by", "Image", "path"]));
+                }
+            }
+            _ => {}
+        }
+        problems
     }
 
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
         let mask = self.vertices.mask(mesh, cx)?;
         cx.advance("displace", 0, 1)?;
-        let attribute = match &self.by {
-            DisplaceBy::Attribute { name } => Some(numbers(mesh, name)?),
-            _ => None,
+        let stored = match &self.by {
+            DisplaceBy::Attribute { name } => numbers(mesh, name)?,
+            DisplaceBy::Image { path, uv } => {
+                let bytes = image(path, cx.files(), cx.budget)?;
+                cx.files().has_read(cx.files().to_read(path));
+                let decoded = Heights::decode(&bytes).map_err(|error| unreadable(path, &error))?;
+                heights(mesh, &decoded, uv)?
+            }
+            _ => Vec::new(),
         };
         let value = |v: VertexId, p: DVec3| match self.by {
             DisplaceBy::Noise { scale, seed } => gradient(seed, p / scale.get()),
             DisplaceBy::Random { seed } => random(seed, v.index() as u64),
-            DisplaceBy::Attribute { .. } => attribute.as_ref().map_or(0.0, |a| a[v.index()]),
+            DisplaceBy::Attribute { .. } | DisplaceBy::Image { .. } => stored[v.index()],
         };
         let normals = vertex_directions(mesh);
         let without = normals
@@ -125,6 +175,46 @@ fn numbers(mesh: &Mesh, name: &str) -> Result<Vec<f64>, OpError> {
             format!("by: {}", missing(name)),
         )),
     }
+}
+
+/// Reads an image, and checks its format and size without decoding its pixels.
+fn image(path: &str, files: &Files, budget: u64) -> Result<Vec<u8>, OpError> {
+    let bytes = files.store.read(&files.to_read(path));
+    let bytes = bytes.map_err(|error| OpError::File(error.to_string()))?;
+    let [width, height] = Image::size(&bytes).map_err(|error| unreadable(path, &error))?;
+    let needed = Heights::DECODING_BYTES * u64::from(width) * u64::from(height);
+    if needed > budget {
+        return Err(OpError::Budget(format!(
+            "\"{path}\" needs {needed} bytes, which exceeds the memory budget of {budget} bytes"
+        )));
+    }
+    Ok(bytes)
+}
+
+fn unreadable(path: &str, error: &render::PictureError) -> OpError {
+    OpError::File(format!("{path}: {error}"))
+}
+
+/// Returns the mean height at the corners of each vertex.
+fn heights(mesh: &Mesh, heights: &Heights, uv: &str) -> Result<Vec<f64>, OpError> {
+    let column = mesh.attributes().column(Domain::Corner, uv);
+    let uvs = column
+        .and_then(|column| DVec2::of(&column.values))
+        .ok_or_else(|| OpError::refused(Refusal::Missing, format!("by: {}", missing_uv(uv))))?;
+    let mean = |v: VertexId| {
+        let corners = mesh
+            .vertex_half_edges(v)
+            .filter(|&h| mesh.face(h).is_some());
+        let (sum, n) = corners.fold((0.0, 0.0), |(sum, n), h| {
+            (sum + heights.at(uvs[h.index()]), n + 1.0)
+        });
+        if n > 0.0 { sum / n } else { 0.0 }
+    };
+    Ok(mesh.vertices().map(mean).collect())
+}
+
+fn missing_uv(uv: &str) -> String {
+    format!("the mesh has no texture coordinates \"{uv}\"")
 }
 
 fn missing(name: &str) -> String {
@@ -211,5 +301,106 @@ mod tests {
             try_applied(&step, wrong),
             Err(OpError::Parameter(_))
         ));
+    }
+
+    /// Returns a plane grid whose texture coordinates are its positions, and the folder of an image whose left half is
+    /// black and whose right half is white.
+    fn grid_and_image() -> (Mesh, tempfile::TempDir) {
+        let mut grid = shapes::grid(4, 4);
+        let [min, max] = geometry::bounds(&grid).unwrap();
+        let mut uvs = vec![DVec2::ZERO; grid.domain_len(Domain::Corner)];
+        for h in grid.half_edges() {
+            let p = grid.position(grid.origin(h));
+            uvs[h.index()] = ((p - min) / (max - min)).truncate();
+        }
+        grid.set(UV, uvs);
+        let mut image = Image::filled(2, 1, [0, 0, 0, 255]).unwrap();
+        image.pixels[1] = [255; 4];
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("a.png"), image.to_png(&[]).unwrap()).unwrap();
+        std::fs::write(folder.path().join("bad.png"), "no image").unwrap();
+        (grid, folder)
+    }
+
+    fn files(folder: &tempfile::TempDir) -> Files {
+        Files {
+            input: folder.path().into(),
+            ..Files::default()
+        }
+    }
+
+    #[test]
+    fn an_image_gives_heights_at_the_texture_coordinates() {
+        let (grid, folder) = grid_and_image();
+        let (mut mesh, files) = (grid.clone(), files(&folder));
+        let step = parse(r#"(by: Image(path: "a.png"), distance: 2)"#);
+        let mut cx = Context::new(&op::NoProgress, &files);
+        let report = step.apply(&mut mesh, &mut cx).unwrap();
+        // Three of five columns are not black: 1/2, 1 and 1.
+        assert_eq!(report.changed, 15);
+        let [min, max] = geometry::bounds(&grid).unwrap();
+        for (p, q) in grid.positions().iter().zip(mesh.positions()) {
+            let u = (p.x - min.x) / (max.x - min.x);
+            let height = (2.0 * u - 0.5).clamp(0.0, 1.0);
+            assert_eq!(*q, *p + 2.0 * height * DVec3::Z);
+        }
+        let uses = files.log.take();
+        let is_read = |file: &op::FileUse| *file == op::FileUse::Read(folder.path().join("a.png"));
+        assert!(uses.iter().any(is_read));
+    }
+
+    #[test]
+    fn vertices_on_a_seam_move_by_the_mean_over_their_corners() {
+        let (mut grid, folder) = grid_and_image();
+        let mut uvs = vec![DVec2::ZERO; grid.domain_len(Domain::Corner)];
+        for h in grid.half_edges() {
+            let is_white = grid.face(h) == Some(mesh::FaceId::new(0));
+            uvs[h.index()].x = f64::from(u8::from(is_white));
+        }
+        grid.set(UV, uvs);
+        let files = files(&folder);
+        let step = parse(r#"(by: Image(path: "a.png", uv: "uv"), distance: 1)"#);
+        let mut cx = Context::new(&op::NoProgress, &files);
+        step.apply(&mut grid, &mut cx).unwrap();
+        let corners = grid.face_vertices(mesh::FaceId::new(0));
+        let mut heights: Vec<f64> = corners.map(|v| grid.position(v).z).collect();
+        heights.sort_by(f64::total_cmp);
+        assert_eq!(heights, [0.25, 0.5, 0.5, 1.0]);
+    }
+
+    #[test]
+    fn missing_images_and_texture_coordinates_are_refused_in_the_plan_and_in_the_run() {
+        let (grid, folder) = grid_and_image();
+        let files = files(&folder);
+        let problems = |text: &str, mesh: &Mesh| {
+            let mut plan = MeshPlan::of(mesh);
+            let cx = PlanContext {
+                files: &files,
+                on: None,
+                budget: 1 << 20,
+            };
+            MeshOperation::plan(&parse(text), &mut plan, &cx)
+        };
+        let run = |text: &str, mut mesh: Mesh, budget: u64| {
+            let mut cx = Context::new(&op::NoProgress, &files);
+            cx.budget = budget;
+            parse(text).apply(&mut mesh, &mut cx)
+        };
+        let good = r#"(by: Image(path: "a.png"), distance: 1)"#;
+        assert_eq!(problems(good, &grid), []);
+        for bad in ["no.png", "bad.png"] {
+            let text = good.replace("a.png", bad);
+            assert_eq!(problems(&text, &grid).len(), 1);
+            assert!(matches!(
+                run(&text, grid.clone(), u64::MAX),
+                Err(OpError::File(_))
+            ));
+        }
+        assert_eq!(problems(good, &shapes::cube()).len(), 1);
+        assert!(matches!(
+            run(good, shapes::cube(), u64::MAX),
+            Err(OpError::Refused { .. })
+        ));
+        assert!(matches!(run(good, grid, 1), Err(OpError::Budget(_))));
     }
 }

@@ -2015,6 +2015,10 @@ class SceneOperations:
           original.
         - Vertex tags: vertices with different tags, whole numbers or sharpness are not merged.
 
+        In a texture, the border of a chart is simplified like the surface, and can then cross another chart that is
+        close to it. The report counts faces that overlap, and ``pack_uvs()`` with a larger ``padding`` before the step
+        leaves more space between charts.
+
         No triangle is turned over. Remaining elements get new ids, in the order of their old ids. If the number of
         faces cannot be reached and ``error`` is not given, the step is refused as ``Unreached``, and the message states
         the reasons. With ``on_refusal="Skip"``, the step keeps the mesh with the fewest faces that it reached.
@@ -2113,6 +2117,10 @@ class SceneOperations:
         - Vertex tags: a new vertex has a tag if all old vertices around its position had the tag. A tagged vertex keeps
           its exact position unless all corners of one of its triangles, or both of its neighbors on a line, also have
           the tag. Vertices with sharpness also keep their exact positions.
+
+        The number of faces depends on the area of the mesh, which is not known before the run. Therefore ``check``
+        shows the largest number that fits the memory budget. When the step starts, it estimates the number from the
+        area, and fails if the estimate exceeds the budget.
 
         Edits that would turn a triangle by more than 60 degrees are refused. All elements get new ids. If the distance
         between the result and the original could exceed ``error``, the step is refused as ``Unreached``. With
@@ -2215,8 +2223,9 @@ class SceneOperations:
         all meshes except ``from_``.
 
         All corners of a face take their values from one chart of the source, that is, from faces that are connected
-        without crossing a seam of the attribute. The chart is the one nearest to the center of the face, so no triangle
-        is stretched across a seam of texture coordinates.
+        without crossing a seam of the attribute, so no triangle is stretched across a seam of texture coordinates. If
+        the corners and the center of the face are nearest to different charts, the step takes the chart whose distance
+        from the farthest of these points is the smallest.
 
         Elements whose distance from the source exceeds ``within`` keep their values, or get zeros if the attribute is
         new. If a corner or the center of a face is that far away, this applies to all corners of the face. The report
@@ -2295,6 +2304,8 @@ class SceneOperations:
             ``choice.Noise(..)``: Smooth noise from -1 to 1 (Perlin, "Improving Noise", 2002).
             ``choice.Random(..)``: A random number from -1 to 1 for each vertex, which depends on the id of the vertex.
             ``choice.Attribute(..)``: A vertex attribute that holds one number for each vertex.
+            ``choice.Image(..)``: The brightness of an image (a height map), from 0 (black) to 1 (white), at the texture
+                coordinates of the vertex.
         :param distance: The distance that a vertex with the value 1 moves, in scene units. A negative distance moves
             the vertex inwards.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
@@ -4317,6 +4328,10 @@ class MeshOperations:
           original.
         - Vertex tags: vertices with different tags, whole numbers or sharpness are not merged.
 
+        In a texture, the border of a chart is simplified like the surface, and can then cross another chart that is
+        close to it. The report counts faces that overlap, and ``pack_uvs()`` with a larger ``padding`` before the step
+        leaves more space between charts.
+
         No triangle is turned over. Remaining elements get new ids, in the order of their old ids. If the number of
         faces cannot be reached and ``error`` is not given, the step is refused as ``Unreached``, and the message states
         the reasons. With ``on_refusal="Skip"``, the step keeps the mesh with the fewest faces that it reached.
@@ -4380,6 +4395,10 @@ class MeshOperations:
         - Vertex tags: a new vertex has a tag if all old vertices around its position had the tag. A tagged vertex keeps
           its exact position unless all corners of one of its triangles, or both of its neighbors on a line, also have
           the tag. Vertices with sharpness also keep their exact positions.
+
+        The number of faces depends on the area of the mesh, which is not known before the run. Therefore ``check``
+        shows the largest number that fits the memory budget. When the step starts, it estimates the number from the
+        area, and fails if the estimate exceeds the budget.
 
         Edits that would turn a triangle by more than 60 degrees are refused. All elements get new ids. If the distance
         between the result and the original could exceed ``error``, the step is refused as ``Unreached``. With
@@ -4480,8 +4499,9 @@ class MeshOperations:
         all meshes except ``from_``.
 
         All corners of a face take their values from one chart of the source, that is, from faces that are connected
-        without crossing a seam of the attribute. The chart is the one nearest to the center of the face, so no triangle
-        is stretched across a seam of texture coordinates.
+        without crossing a seam of the attribute, so no triangle is stretched across a seam of texture coordinates. If
+        the corners and the center of the face are nearest to different charts, the step takes the chart whose distance
+        from the farthest of these points is the smallest.
 
         Elements whose distance from the source exceeds ``within`` keep their values, or get zeros if the attribute is
         new. If a corner or the center of a face is that far away, this applies to all corners of the face. The report
@@ -4555,6 +4575,8 @@ class MeshOperations:
             ``choice.Noise(..)``: Smooth noise from -1 to 1 (Perlin, "Improving Noise", 2002).
             ``choice.Random(..)``: A random number from -1 to 1 for each vertex, which depends on the id of the vertex.
             ``choice.Attribute(..)``: A vertex attribute that holds one number for each vertex.
+            ``choice.Image(..)``: The brightness of an image (a height map), from 0 (black) to 1 (white), at the texture
+                coordinates of the vertex.
         :param distance: The distance that a vertex with the value 1 moves, in scene units. A negative distance moves
             the vertex inwards.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a

@@ -142,6 +142,20 @@ def Geodesic(*, from_: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | R
 
 
 
+def Image(*, path: str | Arg | Ron, uv: str | Arg | Ron | None = None) -> Choice:
+    """The brightness of an image (a height map), from 0 (black) to 1 (white), at the texture coordinates of the vertex.
+
+    Brightness is the mean of red, green and blue as they are stored in the file. The step interpolates between the
+    pixels. Outside of 0 to 1, the image is repeated. A vertex on a seam moves by the mean over its corners. Gray PNG
+    files with 16 bits per pixel give smoother surfaces than files with 8 bits.
+
+    :param path: The PNG or JPEG file. A relative path is relative to the folder of the recipe.
+    :param uv: The name of the texture coordinates. Defaults to ``uv``.
+    """
+    return Choice('Image', path=path, uv=uv)
+
+
+
 def Implicit(*, time: float | Arg | Ron) -> Choice:
     """Moves the surface by mean curvature flow for the given time, in one stable step.
 

@@ -1,13 +1,16 @@
 //! Encodes any edit of a mesh as numbers, for the random tests and the fuzzer: local edits, and algorithms that change the
 //! whole surface.
 
+use geometry::surface_index::{SurfaceIndex, Winding};
 use geometry::{deform, remesh, simplify, smooth, uv};
-use op::NoProgress;
+use op::{Context, Files, MeshOperation, NoProgress};
+use ops_surface::Transfer;
+use scene::{Object, Scene};
 
 use mesh::{DVec3, Domain, EdgeId, EditError, FaceId, HalfEdgeId, Mesh, Seams, VertexId};
 
 /// The number of kinds of edits.
-const KINDS: u8 = 33;
+const KINDS: u8 = 40;
 
 /// An encoded edit: its kind, and numbers that determine its elements and parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,6 +47,7 @@ pub(crate) const LAST_LOCAL: u8 = 26;
 
 const SPLIT: u8 = 1;
 const SYMMETRIZE: u8 = 31;
+const UNWRAP: u8 = 32;
 
 /// Applies the edit. Ids can be beyond the last element, and elements can be dead.
 ///
@@ -199,7 +203,7 @@ fn change_surface(mesh: &mut Mesh, code: EditCode) {
                 mesh.replace(mirrored);
             }
         }
-        _ => {
+        UNWRAP => {
             let options = uv::UnwrapOptions {
                 seams: &some(mesh, Domain::Edge, a, b, EdgeId::new)
                     .into_iter()
@@ -224,7 +228,129 @@ fn change_surface(mesh: &mut Mesh, code: EditCode) {
             geometry::thickness(mesh, &NoProgress).ok();
             geometry::principal_curvatures(mesh);
         }
+        _ => change_surface_further(mesh, code),
     }
+}
+
+/// Changes a dense mesh as a whole, by the remaining kinds of edits.
+fn change_surface_further(mesh: &mut Mesh, code: EditCode) {
+    let EditCode { kind, a, b, place } = code;
+    let t = f64::from(place) / 4.0;
+    match kind {
+        33 => {
+            let frame = deform::Frame {
+                origin: DVec3::ZERO,
+                axes: [DVec3::X, DVec3::Y, DVec3::Z],
+                from: -f64::from(a % 3),
+                to: f64::from(b % 3),
+            };
+            for p in mesh.positions_mut() {
+                let moved = match a % 4 {
+                    0 => deform::Bend { frame, angle: t }.point(*p),
+                    1 => deform::Twist { frame, angle: t }.point(*p),
+                    _ => deform::Taper { frame, factor: t }.point(*p),
+                };
+                // The operations refuse results that are not finite.
+                if moved.is_finite() {
+                    *p = moved;
+                }
+            }
+        }
+        34 => {
+            let normals = deform::vertex_directions(mesh);
+            for (p, normal) in mesh.positions_mut().iter_mut().zip(normals) {
+                *p += t * deform::noise::gradient(b.into(), *p) * normal;
+            }
+        }
+        35 => {
+            let selected: Vec<bool> = (0..mesh.n_vertices()).map(|v| v % 3 == 0).collect();
+            let weights = deform::falloff(mesh.positions(), &selected, f64::from(a % 3));
+            let index = SurfaceIndex::new(mesh);
+            for (p, weight) in mesh.positions_mut().iter_mut().zip(weights) {
+                *p += weight * t * DVec3::ONE;
+                if let (Some(index), 0) = (&index, b % 2) {
+                    *p = index.nearest(*p, 0).point;
+                }
+            }
+        }
+        36 => {
+            let page = uv::Page {
+                size: 256,
+                padding: 2,
+            };
+            if let Some(uvs) = mesh.get(mesh::UV).map(<[_]>::to_vec)
+                && let Ok(packed) = uv::pack(mesh, &uvs, page, &NoProgress)
+            {
+                assert!(packed.uvs.iter().all(|uv| uv.is_finite()));
+                mesh.set(mesh::UV, packed.uvs);
+            }
+        }
+        37 => {
+            let features: Vec<EdgeId> = mesh.edges().step_by(1 + usize::from(b % 4)).collect();
+            let options = remesh::Options {
+                length: remesh::Length::Curvature {
+                    error: 0.1,
+                    min: 0.5,
+                    max: 2.0,
+                },
+                error: (place != 0).then_some(t.abs()),
+                features: &features,
+                passes: 1 + u32::from(a % 3),
+                max_faces: 400,
+                ..remesh::Options::default()
+            };
+            if let Ok(remeshed) = remesh::remesh(mesh, &options, &NoProgress) {
+                mesh.replace(remeshed.mesh);
+            }
+        }
+        38 => transfer(mesh, a),
+        _ => measure(mesh, a),
+    }
+}
+
+/// Transfers all attributes of the mesh, moved a little, to the mesh itself.
+fn transfer(mesh: &mut Mesh, a: u16) {
+    let mut from = mesh.clone();
+    for p in from.positions_mut() {
+        *p += DVec3::splat(f64::from(a % 4) / 8.0);
+    }
+    let names = |domain| from.attributes().of(domain).iter().map(|c| c.name.clone());
+    let domains = [Domain::Vertex, Domain::Corner, Domain::Face];
+    let attributes: Vec<String> = domains.into_iter().flat_map(names).collect();
+    let mut scene = Scene::new();
+    for (name, mesh) in [("mesh", mesh.clone()), ("from", from)] {
+        scene
+            .insert(Object::mesh(name, mesh))
+            .expect("the name is free");
+    }
+    let files = Files::default();
+    let mut cx = Context::new(&NoProgress, &files);
+    cx.set_object(&scene, "mesh");
+    let transfer = Transfer {
+        from: "from".to_owned(),
+        attributes,
+        within: None,
+    };
+    let mut changed = mesh.clone();
+    if transfer.apply(&mut changed, &mut cx).is_ok() {
+        mesh.replace(changed);
+    }
+}
+
+/// Measures the mesh, which must not panic, and scatters points over it.
+fn measure(mesh: &Mesh, a: u16) {
+    geometry::occlusion(mesh, 4, a.into(), &NoProgress).ok();
+    let count = usize::from(a % 8);
+    let points = geometry::samples(mesh, count, a.into(), &NoProgress).expect("never canceled");
+    assert!(points.is_empty() || points.len() == count);
+    if let Some(index) = SurfaceIndex::new(mesh) {
+        let winding = Winding::new(&index, &NoProgress).expect("never canceled");
+        let windings = winding.at_points(mesh.positions(), &NoProgress);
+        assert!(windings.is_ok_and(|all| all.iter().all(|w| w.is_finite())));
+    }
+    geometry::distance::vertex_distances(mesh, mesh);
+    geometry::gaussian_curvatures(mesh);
+    geometry::mean_curvatures(mesh);
 }
 
 /// Returns the id of an element, or an id beyond the last element.

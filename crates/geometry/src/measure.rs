@@ -2,13 +2,9 @@
 
 use mesh::{DVec3, Domain, FaceId, Mesh, VertexId, parallel};
 
-use crate::Scaled;
-
 /// Returns the sum of the areas of all faces.
 pub fn area(mesh: &Mesh) -> f64 {
-    let scaled = Scaled::new(mesh);
-    let mesh = scaled.mesh();
-    scaled.restored(sum_over_faces(mesh, |f| mesh.face_area(f)), 2)
+    sum_over_faces(mesh, |f| mesh.face_area(f))
 }
 
 /// Returns the volume inside the mesh. The volume is negative if the faces are oriented inward. It is meaningful
@@ -18,10 +14,8 @@ pub fn area(mesh: &Mesh) -> f64 {
 /// fixed point to these triangles, by the divergence theorem. The point is the center of the bounding box, so
 /// that meshes far from the origin do not lose precision.
 pub fn volume(mesh: &Mesh) -> f64 {
-    let scaled = Scaled::new(mesh);
-    let mesh = scaled.mesh();
     let middle = bounds(mesh).map_or(DVec3::ZERO, |[min, max]| 0.5 * (min + max));
-    let volume = sum_over_faces(mesh, |f| {
+    sum_over_faces(mesh, |f| {
         let mut corners = mesh.face_vertices(f).map(|v| mesh.position(v) - middle);
         let (Some(first), Some(mut last)) = (corners.next(), corners.next()) else {
             return 0.0;
@@ -32,8 +26,7 @@ pub fn volume(mesh: &Mesh) -> f64 {
             last = p;
         }
         sum / 6.0
-    });
-    scaled.restored(volume, 3)
+    })
 }
 
 fn sum_over_faces(mesh: &Mesh, term: impl Fn(FaceId) -> f64 + Sync) -> f64 {

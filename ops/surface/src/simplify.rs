@@ -321,8 +321,7 @@ mod tests {
         // The texture of half a ring closely surrounds the texture of a smaller one. With few vertices, the inner border
         // of the larger ring cuts through the smaller ring.
         let (mut positions, mut faces) = (Vec::new(), Vec::<[u32; 3]>::new());
-        let n = 32;
-        for (inner, outer) in [(0.5, 1.0), (1.001, 2.0)] {
+        for (inner, outer, n) in [(0.5, 1.0, 32), (1.005, 2.0, 27)] {
             let first = u32::try_from(positions.len()).unwrap();
             for i in 0..=n {
                 let (sin, cos) = geometry::sin_cos_degrees(180.0 * f64::from(i) / f64::from(n));

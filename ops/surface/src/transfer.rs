@@ -22,9 +22,9 @@ use op::prelude::*;
 /// overwritten; with a different type, the step fails. Without `on`, the step acts on all meshes except `from`.
 ///
 /// All corners of a face take their values from one chart of the source, that is, from faces that are connected without
-/// crossing a seam of the attribute, so no triangle is stretched across a seam of texture coordinates. If the corners
-/// and the center of the face are nearest to different charts, the step takes the chart whose distance from the
-/// farthest of these points is the smallest.
+/// crossing a seam of the attribute, so no triangle is stretched across a seam of texture coordinates. Usually this is
+/// the chart that is nearest to the center of the face. A chart that is nearest to a corner is used instead if it is
+/// much nearer to the whole face, as where parts of the source intersect.
 ///
 /// Elements whose distance from the source exceeds `within` keep their values, or get zeros if the attribute is new. If
 /// a corner or the center of a face is that far away, this applies to all corners of the face. The report counts these
@@ -275,10 +275,16 @@ impl Source<'_> {
                 let found = points.filter_map(|p| nearest(chart, p));
                 found.fold(0.0, |largest: f64, (_, hit)| largest.max(hit.distance))
             };
-            let chart = (candidates.iter())
-                .min_by(|a, b| distance(a).total_cmp(&distance(b)))
-                .copied()
-                .unwrap_or(candidates[0]);
+            // The chart at the center, unless another chart is less than half as far away.
+            let mut chart = candidates[0];
+            if candidates.len() > 1 {
+                let mut least = 0.5 * distance(&chart);
+                for other in &candidates[1..] {
+                    if distance(other) < least {
+                        (chart, least) = (*other, distance(other));
+                    }
+                }
+            }
             for h in target.face_half_edges(f) {
                 let hit = hit_of(h);
                 let in_chart = (chart_of(hit) != chart)

@@ -1,4 +1,4 @@
-use mesh::{DVec2, DVec3, EdgeId, Mesh};
+use mesh::{DVec2, DVec3, EdgeId, FaceId, HalfEdgeId, Mesh};
 use progress::{NoProgress, Progress};
 
 use super::*;
@@ -353,6 +353,38 @@ fn charts_that_overlap_themselves_are_packed_by_their_hulls() {
     let none = vec![DVec2::ONE; mesh.n_half_edges()];
     let packed = pack(&mesh, &none, PAGE, &NoProgress).unwrap();
     assert_eq!((packed.n_flat, packed.coverage), (1, 0.0));
+}
+
+#[test]
+fn a_hull_with_two_points_that_nearly_coincide_stays_in_one_part() {
+    // Two quads that lie on each other in the texture, and six squares. Two corners of the quads nearly coincide.
+    let (mut positions, mut faces) = (Vec::new(), Vec::<[u32; 4]>::new());
+    for (x, y) in [(0, 0), (1, 0), (1, 1), (0, 1), (-1, 0), (-1, 1)] {
+        positions.push(DVec3::new(f64::from(x), f64::from(y), 0.0));
+    }
+    faces.extend([[0, 1, 2, 3], [4, 0, 3, 5]]);
+    for i in 1..=6 {
+        let first = 2 + 4 * i;
+        for (x, y) in [(0, 0), (1, 0), (1, 1), (0, 1)] {
+            positions.push(DVec3::new(f64::from(x), f64::from(y), f64::from(i)));
+        }
+        faces.push([first, first + 1, first + 2, first + 3]);
+    }
+    let mesh = Mesh::from_polygons(positions, &faces).unwrap().0;
+    let uvs = (0..mesh.n_half_edges()).map(|h| {
+        let p = mesh.position(mesh.origin(HalfEdgeId::new(h)));
+        let corner = DVec2::new(10.0 * p.z, 0.0);
+        corner
+            + match (p.x < 0.0, p.y > 0.0) {
+                (true, true) => DVec2::new(1.0 + 3e-7, 1.0 - 3e-7),
+                (true, false) => DVec2::new(0.9, 0.1),
+                (false, _) => p.truncate(),
+            }
+    });
+    let packed = pack(&mesh, &uvs.collect::<Vec<_>>(), PAGE, &NoProgress).unwrap();
+    assert_eq!((packed.n_charts, packed.n_overlapping), (7, 1));
+    let overlapping = overlapping_faces(&mesh, &packed.uvs, &NoProgress).unwrap();
+    assert_eq!(overlapping, [0, 1].map(FaceId::new));
 }
 
 #[test]

@@ -2223,9 +2223,9 @@ class SceneOperations:
         all meshes except ``from_``.
 
         All corners of a face take their values from one chart of the source, that is, from faces that are connected
-        without crossing a seam of the attribute, so no triangle is stretched across a seam of texture coordinates. If
-        the corners and the center of the face are nearest to different charts, the step takes the chart whose distance
-        from the farthest of these points is the smallest.
+        without crossing a seam of the attribute, so no triangle is stretched across a seam of texture coordinates.
+        Usually this is the chart that is nearest to the center of the face. A chart that is nearest to a corner is used
+        instead if it is much nearer to the whole face, as where parts of the source intersect.
 
         Elements whose distance from the source exceeds ``within`` keep their values, or get zeros if the attribute is
         new. If a corner or the center of a face is that far away, this applies to all corners of the face. The report
@@ -4499,9 +4499,9 @@ class MeshOperations:
         all meshes except ``from_``.
 
         All corners of a face take their values from one chart of the source, that is, from faces that are connected
-        without crossing a seam of the attribute, so no triangle is stretched across a seam of texture coordinates. If
-        the corners and the center of the face are nearest to different charts, the step takes the chart whose distance
-        from the farthest of these points is the smallest.
+        without crossing a seam of the attribute, so no triangle is stretched across a seam of texture coordinates.
+        Usually this is the chart that is nearest to the center of the face. A chart that is nearest to a corner is used
+        instead if it is much nearer to the whole face, as where parts of the source intersect.
 
         Elements whose distance from the source exceeds ``within`` keep their values, or get zeros if the attribute is
         new. If a corner or the center of a face is that far away, this applies to all corners of the face. The report

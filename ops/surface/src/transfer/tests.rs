@@ -95,6 +95,45 @@ fn affine_values_are_exact_and_no_face_lies_in_two_charts() {
 }
 
 #[test]
+fn a_face_over_a_crossing_sheet_takes_the_chart_of_its_corners() {
+    // The center of the target lies on the upright sheet.
+    let points = [
+        [-1.0, -1.0, 0.0],
+        [1.0, -1.0, 0.0],
+        [1.0, 1.0, 0.0],
+        [-1.0, 1.0, 0.0],
+        [0.0, -1.0, -1.0],
+        [0.0, 1.0, -1.0],
+        [0.0, 1.0, 1.0],
+        [0.0, -1.0, 1.0],
+    ];
+    let points = points.map(DVec3::from_array).to_vec();
+    let mut from = Mesh::from_polygons(points, &[[0, 1, 2, 3], [4, 5, 6, 7]])
+        .unwrap()
+        .0;
+    let uvs = (0..from.n_half_edges()).map(|i| {
+        let v = from.origin(HalfEdgeId::new(i));
+        let p = from.position(v);
+        DVec2::new(if v.index() < 4 { p.x } else { 10.0 + p.z }, p.y)
+    });
+    let uvs = uvs.collect();
+    from.set(UV, uvs);
+    let corners = [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)];
+    let corners = corners.map(|(x, y)| DVec3::new(x, y, 0.01)).to_vec();
+    let target = Mesh::from_polygons(corners, &[[0, 1, 2, 3]]).unwrap().0;
+    let mut scene = Scene::new();
+    scene.insert(Object::mesh("scan", from)).unwrap();
+    scene.insert(Object::mesh("low", target)).unwrap();
+    op::test::run(&step(r#"(from: "scan", attributes: ["uv"])"#), &mut scene).unwrap();
+    let mesh = low(&scene);
+    let f = mesh.faces().next().unwrap();
+    for h in mesh.face_half_edges(f) {
+        let p = mesh.position(mesh.origin(h));
+        assert!(mesh.get(UV).unwrap()[h.index()].distance(p.truncate()) < 1e-12);
+    }
+}
+
+#[test]
 fn elements_that_are_too_far_keep_their_values_and_are_counted() {
     let mut target = target();
     let v = VertexId::new(0);

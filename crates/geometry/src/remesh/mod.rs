@@ -173,8 +173,8 @@ pub enum RemeshError {
     NotTriangle(FaceId),
     /// The target length is too small for the size of the mesh.
     #[error(
-        "the target lengths need up to about {needed:.0} faces during remeshing, but at most {max} are possible; use \
-         a longer target length"
+        "the target lengths need up to about {} faces during remeshing, but at most {max} are possible; use a longer \
+         target length", readable(*.needed)
     )]
     TooManyFaces {
         /// An estimate of the largest number of faces during remeshing.
@@ -288,9 +288,10 @@ fn run(
     }
     let mut work = Work::new(original, sizes, options.error.map(|e| e * original.scale));
     work.counts.max_passes = options.passes.into();
+    let enough = ENOUGH * needed;
     for _ in 0..options.passes {
         work.counts.refused = [0; 6];
-        let mut n_changes = work.split_long(max_faces, progress)?;
+        let mut n_changes = work.split_long(max_faces, enough, progress)?;
         n_changes += work.collapse_short(progress)?;
         n_changes += work.flip_all(progress)?;
         work.compact();
@@ -304,8 +305,11 @@ fn run(
     Ok((work.finish(progress)?, counts))
 }
 
-/// The largest number of faces. All half-edges must have ids, including those that are removed during a pass.
-const MAX_FACES: usize = u32::MAX as usize / 12;
+/// Splitting stops at this multiple of the estimated number of faces, so that it ends for every input.
+const ENOUGH: f64 = 4.0;
+
+/// The largest number of faces during remeshing. All half-edges must have ids, including those that are removed during a pass.
+pub const MAX_FACES: usize = u32::MAX as usize / 12;
 
 impl Default for Options<'_> {
     /// Returns options with ten passes, edges of length 1 and no limits.

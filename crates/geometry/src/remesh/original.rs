@@ -90,9 +90,10 @@ impl Chain {
         (self.half_edges[i], t)
     }
 
-    /// Returns the arc length from one parameter to another, in the direction of the chain.
+    /// Returns the arc length from one parameter to another, in the direction of the chain. Equal parameters are the
+    /// ends of a zero-length edge, because a closed chain has at least three vertices.
     pub(super) fn way(&self, from: f64, to: f64) -> f64 {
-        if self.is_closed && to <= from {
+        if self.is_closed && to < from {
             to - from + self.length
         } else {
             to - from

@@ -9,16 +9,17 @@ use super::work::{LONG, Work, cross, is_turned};
 use super::{Refused, RemeshError, WHAT};
 
 impl Work<'_> {
-    /// Splits edges at their midpoints, the longest first, until no edge that can be split is too long. Returns the
-    /// number of splits.
+    /// Splits edges at their midpoints, the longest first, until no edge that can be split is too long or the mesh has
+    /// `enough` faces. Returns the number of splits.
     pub(super) fn split_long(
         &mut self,
         max_faces: usize,
+        enough: f64,
         progress: &dyn Progress,
     ) -> Result<usize, RemeshError> {
         let mut n_splits = 0;
         let mut long: Vec<EdgeId> = self.mesh.edges().collect();
-        while !long.is_empty() {
+        while !long.is_empty() && (self.mesh.n_faces() as f64) < enough {
             let lengths = parallel::collect(long.len(), |i| self.relative_length(long[i]));
             let mut sorted: Vec<(f64, EdgeId)> = lengths.into_iter().zip(long.drain(..)).collect();
             sorted.retain(|&(length, _)| length > LONG);

@@ -364,6 +364,16 @@ fn small_and_degenerate_meshes_are_remeshed() {
         let result = remeshed(&triangle(points), &to(length));
         assert!(result.mesh.n_faces() < 200);
     }
+    // A boundary with a zero-length edge.
+    for first in 0..3 {
+        let mut points = [(0.1, 0.2), (1.3, 2.7), (0.1, 0.2)];
+        points.rotate_left(first);
+        for passes in [1, 10] {
+            let options = Options { passes, ..to(0.3) };
+            let result = remeshed(&triangle(points), &options);
+            assert!(result.mesh.n_faces() < 200);
+        }
+    }
     let empty = Mesh::default();
     assert_eq!(remeshed(&empty, &to(1.0)).mesh, empty);
     // The mesh has two components, one of them smaller than the target length.
@@ -388,6 +398,20 @@ fn small_and_degenerate_meshes_are_remeshed() {
     let both = Mesh::from_polygons(positions, &polygons).unwrap().0;
     let after = remeshed(&both, &to(0.2)).mesh;
     assert_eq!(crate::n_components(&after), 2);
+}
+
+#[test]
+fn an_error_holds_for_very_small_and_very_large_meshes() {
+    for factor in [1e-150, 1e150] {
+        let mesh = scaled(&triangles(&shapes::uv_sphere(12, 8)), factor);
+        let options = Options {
+            error: Some(0.05 * factor),
+            ..to(0.5 * factor)
+        };
+        let after = remeshed(&mesh, &options).mesh;
+        let distance = Distance::between(&mesh, &after, None).unwrap();
+        assert!(distance.at_most() <= 0.051 * factor);
+    }
 }
 
 #[test]

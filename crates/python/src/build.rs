@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mesh::{BuildError, DVec2, DVec3, DVec4, Id, NonManifold, Values};
+use mesh::{BuildError, DVec2, DVec3, DVec4, NonManifold, Values};
 use pyo3::buffer::{ElementType, PyBuffer, PyUntypedBuffer};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;

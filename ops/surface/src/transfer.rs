@@ -66,6 +66,21 @@ impl MeshOperation for Transfer {
         vec![(&self.from, "from")]
     }
 
+    fn plan_reading(&self, name: &str, mesh: &MeshPlan) -> Vec<Problem> {
+        if mesh.has_unlisted_attributes {
+            return Vec::new();
+        }
+        let known = |name: &str| mesh.attributes.iter().any(|a| a.name == name);
+        let unknown = (self.attributes.iter().enumerate()).filter(|(_, name)| !known(name));
+        let list = mesh.attributes.iter().map(|a| (a.domain, a.name.as_str()));
+        let list = list.collect::<Vec<_>>();
+        let problem = |(i, wanted): (usize, &String)| {
+            let message = missing(name, wanted, list.iter().copied());
+            Problem::error(message).at(["attributes", &i.to_string()])
+        };
+        unknown.map(problem).collect()
+    }
+
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         // The domains are known only if the other object is known.
         plan.has_unlisted_attributes = true;
@@ -141,18 +156,9 @@ impl Transfer {
         for name in &self.attributes {
             let found = || other.attributes().iter().filter(|(_, c)| c.name == *name);
             if found().next().is_none() {
-                let known: Vec<String> = (other.attributes().iter())
-                    .map(|(domain, c)| format!("{domain} attribute \"{}\"", c.name))
-                    .collect();
-                let known = if known.is_empty() {
-                    "none".to_owned()
-                } else {
-                    known.join(", ")
-                };
-                let message = format!(
-                    "\"{}\" has no attribute \"{name}\"; it has: {known}",
-                    self.from
-                );
+                let known = other.attributes().iter();
+                let known = known.map(|(domain, c)| (domain, c.name.as_str()));
+                let message = missing(&self.from, name, known);
                 return Err(OpError::refused(Refusal::Missing, message));
             }
             for (domain, column) in found() {
@@ -183,6 +189,19 @@ impl Transfer {
         }
         Ok(columns)
     }
+}
+
+/// Returns the message that the object `from` does not have the attribute `name`.
+fn missing<'a>(from: &str, name: &str, known: impl Iterator<Item = (Domain, &'a str)>) -> String {
+    let known: Vec<String> = known
+        .map(|(domain, name)| format!("{domain} attribute \"{name}\""))
+        .collect();
+    let known = if known.is_empty() {
+        "none".to_owned()
+    } else {
+        known.join(", ")
+    };
+    format!("\"{from}\" has no attribute \"{name}\"; it has: {known}")
 }
 
 const fn plural(domain: Domain) -> &'static str {
@@ -258,10 +277,10 @@ impl Source<'_> {
             }
             if candidates.len() > 1 {
                 for &chart in &candidates {
-                    indices[chart].get_or_insert_with(|| {
+                    if indices[chart].is_none() {
                         let faces = charts[chart].iter().copied();
-                        SurfaceIndex::of_faces(self.mesh, faces).expect("a chart has faces")
-                    });
+                        indices[chart] = SurfaceIndex::of_faces(self.mesh, faces, cx.progress())?;
+                    }
                 }
             }
             let nearest = |chart: usize, p: DVec3| {

@@ -44,8 +44,18 @@ impl Work<'_> {
     }
 
     /// Splits an edge at its midpoint. An edge on a line is split at the midpoint of its part of the line. Returns
-    /// false if this would turn a triangle too far.
+    /// false if this would turn a triangle too far, or if both triangles have the same opposite vertex.
     fn split(&mut self, e: EdgeId) -> Result<bool, RemeshError> {
+        let opposite = |h: HalfEdgeId| {
+            let is_inner = self.mesh.face(h).is_some();
+            is_inner.then(|| self.mesh.origin(self.mesh.prev(h)))
+        };
+        let [left, right] = e.half_edges().map(opposite);
+        if left.is_some() && left == right {
+            // The new vertex would have two edges to the opposite vertex.
+            self.counts.refuse(Refused::Topology);
+            return Ok(false);
+        }
         let track = self.tracks[e.index()];
         let [a, b] = self.mesh.edge_vertices(e);
         let mut point = 0.5 * (self.mesh.position(a) + self.mesh.position(b));

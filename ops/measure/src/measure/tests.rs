@@ -201,8 +201,9 @@ fn every_quantity_scales_exactly_or_is_refused() {
         let expected = at(0).unwrap();
         for k in [-500, -300, 300, 500] {
             let expected = expected.iter().map(|x| libm::scalbn(*x, dimension * k));
+            let expected: Vec<f64> = expected.collect();
             match at(k) {
-                Ok(found) => assert_eq!(found, Vec::from_iter(expected), "{of} 2^{k}"),
+                Ok(found) => assert_eq!(found, expected, "{of} 2^{k}"),
                 // Curvatures that are nearly 0 are out of range.
                 Err(OpError::Refused { .. }) => assert_eq!((dimension, k), (-2, 500)),
                 Err(other) => panic!("{of} 2^{k}: {other}"),

@@ -364,16 +364,6 @@ fn small_and_degenerate_meshes_are_remeshed() {
         let result = remeshed(&triangle(points), &to(length));
         assert!(result.mesh.n_faces() < 200);
     }
-    // A boundary with a zero-length edge.
-    for first in 0..3 {
-        let mut points = [(0.1, 0.2), (1.3, 2.7), (0.1, 0.2)];
-        points.rotate_left(first);
-        for passes in [1, 10] {
-            let options = Options { passes, ..to(0.3) };
-            let result = remeshed(&triangle(points), &options);
-            assert!(result.mesh.n_faces() < 200);
-        }
-    }
     let empty = Mesh::default();
     assert_eq!(remeshed(&empty, &to(1.0)).mesh, empty);
     // The mesh has two components, one of them smaller than the target length.
@@ -398,6 +388,30 @@ fn small_and_degenerate_meshes_are_remeshed() {
     let both = Mesh::from_polygons(positions, &polygons).unwrap().0;
     let after = remeshed(&both, &to(0.2)).mesh;
     assert_eq!(crate::n_components(&after), 2);
+}
+
+#[test]
+fn a_boundary_with_a_zero_length_edge_is_remeshed() {
+    for first in 0..3 {
+        let mut points = [[0.1, 0.2, 0.3], [1.3, 2.7, 3.1], [0.1, 0.2, 0.3]];
+        points.rotate_left(first);
+        let points = points.map(DVec3::from_array).to_vec();
+        let slit = Mesh::from_polygons(points, &[[0, 1, 2]]).unwrap().0;
+        for passes in [1, 10] {
+            let options = Options { passes, ..to(0.3) };
+            assert!(remeshed(&slit, &options).mesh.n_faces() < 200);
+        }
+    }
+}
+
+#[test]
+fn an_edge_with_one_vertex_opposite_on_both_sides_is_not_split() {
+    // Two triangles back to back: a split would add two edges between the new vertex and the opposite one.
+    let points = [DVec3::ZERO, DVec3::X, DVec3::Y].to_vec();
+    let mesh = Mesh::from_polygons(points, &[[0, 1, 2], [0, 2, 1]]);
+    let mesh = mesh.unwrap().0;
+    let after = remeshed(&mesh, &to(0.2));
+    assert_eq!(after.mesh.n_edges(), 3);
 }
 
 #[test]

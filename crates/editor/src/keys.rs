@@ -28,6 +28,10 @@ pub enum Action {
     Dissolve,
     /// Show or hide arrows that move the picked elements.
     Move,
+    /// Show or hide rings that rotate the picked elements.
+    Rotate,
+    /// Show or hide handles that scale the picked elements.
+    Scale,
     /// One level of Loop subdivision.
     Loop,
     /// One level of Catmull-Clark subdivision.
@@ -72,6 +76,10 @@ pub enum Action {
     EdgeLoop,
     /// Pick the edge ring through the picked edges.
     EdgeRing,
+    /// Pick the shortest path between two picked vertices.
+    Path,
+    /// Pick the faces around the picked faces, up to sharp edges.
+    ByAngle,
     /// Pick all elements.
     SelectAll,
     /// Pick nothing.
@@ -99,146 +107,216 @@ pub enum Action {
 impl Action {
     /// Returns what the action does, for the help.
     pub fn doc(self) -> &'static str {
-        let found = TABLE.iter().find(|row| row.0 == self);
+        let found = rows().find(|row| row.0 == self);
         found.map_or("", |row| row.2)
     }
 
     /// All actions, in the order of the help.
     pub fn all() -> impl Iterator<Item = Self> {
-        TABLE.iter().map(|row| row.0)
+        rows().map(|row| row.0)
+    }
+
+    /// All actions by task: the name of the task, and its actions.
+    pub fn groups() -> impl Iterator<Item = (&'static str, impl Iterator<Item = Self>)> {
+        GROUPS
+            .iter()
+            .map(|(name, rows)| (*name, rows.iter().map(|row| row.0)))
     }
 }
 
-/// The default keys: the action, its keys, and what it does.
-const TABLE: &[(Action, &[&str], &str)] = &[
+/// An action, its default keys, and what it does.
+type Row = (Action, &'static [&'static str], &'static str);
+
+/// The actions by task.
+const GROUPS: &[(&str, &[Row])] = &[
     (
-        Action::Next,
-        &["N"],
-        "walk to the next half-edge of the face",
-    ),
-    (Action::Twin, &["T"], "walk to the other half of the edge"),
-    (
-        Action::Previous,
-        &["P"],
-        "walk to the previous half-edge of the face",
-    ),
-    (
-        Action::AroundVertex,
-        &["V"],
-        "walk to the next half-edge around the vertex",
-    ),
-    (Action::Flip, &["F"], "flip the picked edges"),
-    (Action::Split, &["S"], "split the picked edges"),
-    (Action::Collapse, &["C"], "collapse the picked edges"),
-    (Action::Extrude, &["E"], "extrude the picked faces"),
-    (
-        Action::Dissolve,
-        &["D"],
-        "dissolve the picked vertices or edges",
-    ),
-    (
-        Action::Move,
-        &["G"],
-        "show or hide arrows that move the picked elements",
-    ),
-    (Action::Loop, &["L"], "one level of Loop subdivision"),
-    (
-        Action::CatmullClark,
-        &["K"],
-        "one level of Catmull-Clark subdivision",
-    ),
-    (Action::Wireframe, &["W"], "show or hide the wireframe"),
-    (
-        Action::Smooth,
-        &["Q"],
-        "switch between smooth and flat shading",
+        "Edit",
+        &[
+            (Action::Flip, &["F"], "flip the picked edges"),
+            (Action::Split, &["S"], "split the picked edges"),
+            (Action::Collapse, &["C"], "collapse the picked edges"),
+            (Action::Extrude, &["E"], "extrude the picked faces"),
+            (
+                Action::Dissolve,
+                &["D"],
+                "dissolve the picked vertices or edges",
+            ),
+            (Action::Loop, &["L"], "one level of Loop subdivision"),
+            (
+                Action::CatmullClark,
+                &["K"],
+                "one level of Catmull-Clark subdivision",
+            ),
+            (Action::Palette, &["Ctrl+K"], "search all operations"),
+        ],
     ),
     (
-        Action::Information,
-        &["I"],
-        "show or hide information about the scene",
-    ),
-    (Action::Help, &["H", "F1"], "show or hide this help"),
-    (Action::ResetView, &["Space"], "reset the view"),
-    (
-        Action::Fit,
-        &["Home"],
-        "fit the view to the picked elements or the scene",
-    ),
-    (Action::Palette, &["Ctrl+K"], "search all operations"),
-    (Action::Undo, &["Ctrl+Z"], "undo"),
-    (Action::Redo, &["Ctrl+Shift+Z", "Ctrl+Y"], "redo"),
-    (Action::Save, &["Ctrl+S"], "save the recipe"),
-    (
-        Action::SaveAs,
-        &["Ctrl+Shift+S"],
-        "save the recipe under a new name",
-    ),
-    (Action::Open, &["Ctrl+O"], "open a file"),
-    (Action::New, &["Ctrl+N"], "start a new recipe"),
-    (Action::Quit, &["Ctrl+Q"], "close the window"),
-    (
-        Action::Cancel,
-        &["Escape"],
-        "cancel the run, or close what is open",
+        "Move",
+        &[
+            (
+                Action::Move,
+                &["G"],
+                "show or hide arrows that move the picked elements",
+            ),
+            (
+                Action::Rotate,
+                &["Shift+R"],
+                "show or hide rings that rotate the picked elements",
+            ),
+            (
+                Action::Scale,
+                &["Shift+S"],
+                "show or hide handles that scale the picked elements",
+            ),
+        ],
     ),
     (
-        Action::NextProposal,
-        &["Tab"],
-        "show the next selection that means the picked elements",
+        "Pick",
+        &[
+            (Action::PickVertices, &["Alt+1"], "pick vertices"),
+            (Action::PickEdges, &["Alt+2"], "pick edges"),
+            (Action::PickFaces, &["Alt+3"], "pick faces"),
+            (Action::PickHalfEdges, &["Alt+4"], "pick half-edges"),
+            (
+                Action::Grow,
+                &["Plus"],
+                "pick the elements around the picked elements too",
+            ),
+            (
+                Action::Shrink,
+                &["Minus"],
+                "remove the outermost of the picked elements",
+            ),
+            (
+                Action::EdgeLoop,
+                &["O"],
+                "pick the edge loop through the picked edges",
+            ),
+            (
+                Action::EdgeRing,
+                &["R"],
+                "pick the edge ring through the picked edges",
+            ),
+            (
+                Action::Path,
+                &["Shift+P"],
+                "pick the shortest path between two picked vertices",
+            ),
+            (
+                Action::ByAngle,
+                &["Shift+F"],
+                "pick the faces around the picked faces, up to sharp edges",
+            ),
+            (Action::SelectAll, &["Ctrl+A"], "pick all elements"),
+            (Action::SelectNone, &["Ctrl+Shift+A"], "pick nothing"),
+            (
+                Action::NextProposal,
+                &["A"],
+                "show the next selection that means the picked elements",
+            ),
+        ],
     ),
     (
-        Action::Grow,
-        &["Plus"],
-        "pick the elements around the picked elements too",
+        "Walk over half-edges",
+        &[
+            (
+                Action::Next,
+                &["N"],
+                "walk to the next half-edge of the face",
+            ),
+            (Action::Twin, &["T"], "walk to the other half of the edge"),
+            (
+                Action::Previous,
+                &["P"],
+                "walk to the previous half-edge of the face",
+            ),
+            (
+                Action::AroundVertex,
+                &["V"],
+                "walk to the next half-edge around the vertex",
+            ),
+        ],
     ),
     (
-        Action::Shrink,
-        &["Minus"],
-        "remove the outermost of the picked elements",
+        "Look",
+        &[
+            (Action::Wireframe, &["W"], "show or hide the wireframe"),
+            (
+                Action::Smooth,
+                &["Q"],
+                "switch between smooth and flat shading",
+            ),
+            (Action::ResetView, &["Space"], "reset the view"),
+            (
+                Action::Fit,
+                &["Home"],
+                "fit the view to the picked elements or the scene",
+            ),
+            (
+                Action::Information,
+                &["I"],
+                "show or hide information about the scene",
+            ),
+        ],
     ),
     (
-        Action::EdgeLoop,
-        &["O"],
-        "pick the edge loop through the picked edges",
+        "Steps",
+        &[
+            (
+                Action::StepBack,
+                &["Alt+Up"],
+                "move the cursor to the step before",
+            ),
+            (
+                Action::StepForward,
+                &["Alt+Down"],
+                "move the cursor to the step after",
+            ),
+            (
+                Action::DuplicateStep,
+                &["Ctrl+D"],
+                "duplicate the step at the cursor",
+            ),
+            (
+                Action::ToggleStep,
+                &["Ctrl+E"],
+                "enable or disable the step at the cursor",
+            ),
+            (
+                Action::DeleteStep,
+                &["Ctrl+Delete"],
+                "delete the step at the cursor",
+            ),
+        ],
     ),
     (
-        Action::EdgeRing,
-        &["R"],
-        "pick the edge ring through the picked edges",
-    ),
-    (Action::SelectAll, &["Ctrl+A"], "pick all elements"),
-    (Action::SelectNone, &["Ctrl+Shift+A"], "pick nothing"),
-    (Action::PickVertices, &["Alt+1"], "pick vertices"),
-    (Action::PickEdges, &["Alt+2"], "pick edges"),
-    (Action::PickFaces, &["Alt+3"], "pick faces"),
-    (Action::PickHalfEdges, &["Alt+4"], "pick half-edges"),
-    (
-        Action::StepBack,
-        &["Alt+Up"],
-        "move the cursor to the step before",
-    ),
-    (
-        Action::StepForward,
-        &["Alt+Down"],
-        "move the cursor to the step after",
-    ),
-    (
-        Action::DeleteStep,
-        &["Ctrl+Delete"],
-        "delete the step at the cursor",
-    ),
-    (
-        Action::ToggleStep,
-        &["Ctrl+E"],
-        "enable or disable the step at the cursor",
-    ),
-    (
-        Action::DuplicateStep,
-        &["Ctrl+D"],
-        "duplicate the step at the cursor",
+        "Recipe and window",
+        &[
+            (Action::Undo, &["Ctrl+Z"], "undo"),
+            (Action::Redo, &["Ctrl+Shift+Z", "Ctrl+Y"], "redo"),
+            (Action::New, &["Ctrl+N"], "start a new recipe"),
+            (Action::Open, &["Ctrl+O"], "open a file"),
+            (Action::Save, &["Ctrl+S"], "save the recipe"),
+            (
+                Action::SaveAs,
+                &["Ctrl+Shift+S"],
+                "save the recipe under a new name",
+            ),
+            (Action::Quit, &["Ctrl+Q"], "close the window"),
+            (
+                Action::Cancel,
+                &["Escape"],
+                "cancel the run, or close what is open",
+            ),
+            (Action::Help, &["H", "F1"], "show or hide this help"),
+        ],
     ),
 ];
+
+/// Returns all rows of the table.
+fn rows() -> impl Iterator<Item = &'static Row> {
+    GROUPS.iter().flat_map(|(_, rows)| *rows)
+}
 
 /// The keys of all actions. A key is written as modifiers and the name of the key: `N`, `Ctrl+Shift+Z`, `Alt+Up`.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -248,10 +326,9 @@ pub struct Keys {
 
 impl Default for Keys {
     fn default() -> Self {
-        let row =
-            |row: &(Action, &[&str], &str)| (row.0, row.1.iter().map(|key| normal(key)).collect());
+        let row = |row: &Row| (row.0, row.1.iter().map(|key| normal(key)).collect());
         Self {
-            of_action: TABLE.iter().map(row).collect(),
+            of_action: rows().map(row).collect(),
         }
     }
 }

@@ -15,8 +15,8 @@
 //! | --- | --- |
 //! | the recipe and its file | [`Editor`], [`Document`], [`Outline`] |
 //! | the results | [`RunState`], [`StepState`], [`ExpectationState`], [`Snapshot`] |
-//! | operations | [`Command`], [`Panel`], [`FieldKind`] |
-//! | picking | [`pick`], [`pick_area`], [`Projection`], [`Indexes`], [`Picked`], [`propose`] |
+//! | operations | [`Command`], [`Panel`], [`FieldKind`], [`Part`] |
+//! | picking | [`pick`], [`pick_area`], [`keep_visible`], [`Projection`], [`Indexes`], [`Picked`], [`propose`] |
 //! | curves and patches | [`control_points`], [`pick_control_point`], [`Editor::move_control_point`] |
 //! | half-edges | [`walk`], [`HalfEdgeInfo`], [`Play`] |
 //! | recovery after a crash | [`recoverable`], [`Editor::recover`] |
@@ -37,12 +37,16 @@ mod text;
 
 pub use curve::{ControlPoint, control_points, pick_control_point};
 pub use document::{Conflict, Document, FileChange};
-pub use edit::{Command, CommandError, Editor, OpenError, SelectionText, Settings, Update, View};
+pub use edit::{
+    Command, CommandError, Editor, Movement, OpenError, SelectionText, Settings, Update, View,
+};
 pub use half_edge::{AttributeInfo, HalfEdgeInfo, Walk, of_element, walk};
 pub use journal::{Recovery, recoverable};
 pub use keys::{Action, Keys, KeysError};
-pub use panel::{FieldKind, FieldValue, Limits, Panel, PanelField};
-pub use pick::{Area, Hit, Indexes, PICK_RADIUS, PickMode, Projection, pick, pick_area};
+pub use panel::{FieldKind, FieldValue, Limits, Panel, PanelField, Part, Variant};
+pub use pick::{
+    Area, Hit, Indexes, PICK_RADIUS, PickMode, Projection, keep_visible, pick, pick_area,
+};
 pub use play::{Play, PlayedEdit, PointerChange, Pointers};
 pub use run::{
     ExpectationState, FailureState, Progress, RunState, Snapshot, Status, StepState, Verdict, Wake,

@@ -2,6 +2,8 @@
 
 use eframe::egui::{Color32, CornerRadius, Frame, Margin, RichText, Stroke, Ui};
 
+use engine::Diagnostic;
+
 use crate::app::Parts;
 use crate::theme::Colors;
 use crate::widgets::dot;
@@ -63,18 +65,20 @@ pub(crate) fn banners(ui: &mut Ui, parts: &mut Parts, colors: &Colors) {
             });
         });
     }
-    let first = first_error(parts);
-    if let Some((message, offset)) = first {
+    if let Some((error, offset)) = first_error(parts) {
         frame(colors.bad).show(ui, |ui| {
             ui.horizontal_wrapped(|ui| {
                 dot(ui, colors.bad);
-                ui.label(message);
+                ui.label(error.message);
                 if let Some(offset) = offset
                     && ui.small_button("Show in the recipe").clicked()
                 {
                     parts.text.go_to(offset);
                 }
             });
+            if let Some(help) = error.help {
+                ui.label(RichText::new(help).color(colors.weak));
+            }
         });
     }
     for message in &parts.view.messages {
@@ -82,8 +86,8 @@ pub(crate) fn banners(ui: &mut Ui, parts: &mut Parts, colors: &Colors) {
     }
 }
 
-/// Returns the message of the first error and its place in the text.
-fn first_error(parts: &Parts) -> Option<(String, Option<usize>)> {
+/// Returns the first error and its place in the text.
+fn first_error(parts: &Parts) -> Option<(Diagnostic, Option<usize>)> {
     if parts.editor.is_running() {
         return None;
     }
@@ -97,5 +101,5 @@ fn first_error(parts: &Parts) -> Option<(String, Option<usize>)> {
     let place = first
         .span
         .filter(|_| first.source == 0 && parts.editor.is_run_current());
-    Some((first.message.clone(), place.map(|span| span.start)))
+    Some((first.clone(), place.map(|span| span.start)))
 }

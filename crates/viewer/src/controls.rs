@@ -2,7 +2,8 @@
 
 use editor::PickMode;
 use eframe::egui::{
-    self, Button, ComboBox, CornerRadius, Frame, Margin, Rect, Stroke, Ui, UiBuilder,
+    self, Align, Button, ComboBox, CornerRadius, Frame, Layout, Margin, ProgressBar, Rect, Stroke,
+    Ui, UiBuilder,
 };
 use render::Shading;
 use view::{ColorBy, Quantity};
@@ -26,6 +27,25 @@ pub(crate) fn over_view(ui: &mut Ui, rect: Rect, parts: &mut Parts) {
             .stroke(Stroke::new(1.0, colors.line));
         frame.show(ui, |ui| ui.horizontal_wrapped(|ui| controls(ui, parts)));
         banners(ui, parts, &colors);
+        progress(ui, parts);
+    });
+}
+
+/// The progress of a run that takes long, at the bottom of the view.
+fn progress(ui: &mut Ui, parts: &Parts) {
+    let Some(progress) = parts.editor.progress().filter(|_| parts.runs_long()) else {
+        return;
+    };
+    let part = progress.done as f32 / progress.total.max(1) as f32;
+    let text = match progress.task.as_str() {
+        "" => format!("Running {}", progress.step),
+        task => format!("Running {}: {task}", progress.step),
+    };
+    ui.with_layout(Layout::bottom_up(Align::Center), |ui| {
+        let bar = ProgressBar::new(part)
+            .desired_width(320.0)
+            .text(text.as_str());
+        ui.add(bar).accessible_name(text);
     });
 }
 
@@ -193,12 +213,12 @@ fn color_combo(ui: &mut Ui, view: &mut ViewPane, scene: &scene::Scene) {
         .width(64.0)
         .show_ui(ui, |ui| {
             if ui.selectable_label(current.is_none(), "Material").clicked() {
-                view.look.color_by = None;
+                view.look.set_color_by(None);
             }
             for quantity in Quantity::of_scene(scene) {
                 let is_current = current.as_ref() == Some(&quantity);
                 if ui.selectable_label(is_current, quantity.title()).clicked() {
-                    view.look.color_by = Some(ColorBy::new(quantity));
+                    view.look.set_color_by(Some(ColorBy::new(quantity)));
                 }
             }
         });

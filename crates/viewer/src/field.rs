@@ -2,8 +2,8 @@
 
 use editor::{FieldKind, FieldValue, Limits, PanelField, SelectionText};
 use eframe::egui::{
-    self, Align, Button, Checkbox, ComboBox, DragValue, Id, Layout, Response, RichText, Slider,
-    TextEdit, Ui,
+    self, Align, Button, Checkbox, CollapsingHeader, ComboBox, DragValue, Id, Layout, Response,
+    RichText, Slider, TextEdit, Ui,
 };
 
 use crate::theme::Colors;
@@ -33,6 +33,9 @@ pub(crate) enum Change {
 /// The largest range of whole numbers that gets a slider.
 const MAX_SLIDER: f64 = 1000.0;
 
+/// The largest number of parts of a value that are shown without a click.
+const MAX_OPEN_PARTS: usize = 4;
+
 /// Draws the widget of a parameter.
 pub(crate) fn ui(ui: &mut Ui, field: &Field) -> Option<Change> {
     let colors = Colors::current(ui);
@@ -51,12 +54,8 @@ pub(crate) fn ui(ui: &mut Ui, field: &Field) -> Option<Change> {
             colors.weak
         };
         let label = ui.label(RichText::new(&name).size(12.5).color(color));
-        let doc = if of.doc.is_empty() {
-            of.type_name.clone()
-        } else {
-            format!("{}\n\n{}", of.doc, of.type_name)
-        };
-        label.on_hover_text(doc)
+        let doc = format!("{}\n\n{}", of.doc, of.type_name);
+        label.on_hover_text(doc.trim())
     };
     if wide {
         ui.horizontal(|ui| {
@@ -76,8 +75,45 @@ pub(crate) fn ui(ui: &mut Ui, field: &Field) -> Option<Change> {
                 change = change.take().or(new);
             });
         });
+        change = change.take().or(parts(ui, field));
     }
     change
+}
+
+/// The parts of a struct or of a variant, each with its own widget.
+fn parts(ui: &mut Ui, field: &Field) -> Option<Change> {
+    let of = field.of;
+    let whole = field.live.or(of.current())?;
+    let (_, parts) = of.kind.parts(whole);
+    if parts.is_empty() {
+        return None;
+    }
+    let salt = format!("{}.{}", field.salt, of.name);
+    let draw = |ui: &mut Ui| {
+        let mut change = None;
+        for part in &parts {
+            let inner = Field {
+                of: &part.field,
+                live: None,
+                selection: field.selection,
+                salt: &salt,
+            };
+            let new = self::ui(ui, &inner).and_then(|new| match new {
+                Change::Set(value) => part.in_whole(whole, Some(&value)).map(Change::Set),
+                Change::Drag(value) => part.in_whole(whole, Some(&value)).map(Change::Drag),
+                Change::Reset => part.in_whole(whole, None).map(Change::Set),
+            });
+            change = change.or(new);
+        }
+        change
+    };
+    let inside = |ui: &mut Ui| ui.indent(&salt, draw).inner;
+    if parts.len() <= MAX_OPEN_PARTS {
+        return inside(ui);
+    }
+    let title = RichText::new(format!("{} parts", parts.len())).size(12.0);
+    let header = CollapsingHeader::new(title).id_salt(&salt);
+    header.show(ui, inside).body_returned.flatten()
 }
 
 /// Whether the widget has a line of its own.
@@ -149,10 +185,10 @@ fn widget(ui: &mut Ui, field: &Field) -> Option<Change> {
             let response = response.accessible_name(format!("Set {}", of.name));
             return response
                 .changed()
-                .then(|| Change::Set(first(kind).to_ron()));
+                .then(|| Change::Set(kind.first().to_ron()));
         }
         Some(value) => value,
-        None => first(kind),
+        None => kind.first(),
     };
     let name = of.name.clone();
     match (kind, current) {
@@ -181,25 +217,22 @@ fn widget(ui: &mut Ui, field: &Field) -> Option<Change> {
                 .changed()
                 .then(|| Change::Set(FieldValue::Bool(is).to_ron()))
         }
-        (FieldKind::Choice(choices), FieldValue::Choice(current)) => {
-            let mut chosen = None;
-            let combo = ComboBox::from_id_salt((field.salt, &of.name))
-                .selected_text(&current)
-                .show_ui(ui, |ui| {
-                    for (choice, doc) in choices {
-                        let response = ui.selectable_label(*choice == current, choice);
-                        let response = if doc.is_empty() {
-                            response
-                        } else {
-                            response.on_hover_text(doc)
-                        };
-                        if response.clicked() {
-                            chosen = Some(Change::Set(choice.clone()));
-                        }
-                    }
-                });
-            combo.response.accessible_name(name);
-            chosen
+        (FieldKind::Choice(names), FieldValue::Choice(current)) => {
+            let choices = names
+                .iter()
+                .map(|(name, doc)| (name.as_str(), doc.as_str()));
+            let chosen = choice(ui, field, &current, choices);
+            chosen.map(|i| Change::Set(names[i].0.clone()))
+        }
+        (FieldKind::Variants(variants), FieldValue::Ron(text)) => {
+            // Without a value, no variant is chosen yet.
+            let current = field.live.or(of.current()).map_or("", |_| text.as_str());
+            let current = of.kind.parts(current).0.unwrap_or_default();
+            let choices = variants
+                .iter()
+                .map(|variant| (variant.name.as_str(), variant.doc.as_str()));
+            let chosen = choice(ui, field, &current, choices);
+            chosen.map(|i| Change::Set(variants[i].first()))
         }
         (FieldKind::Vector(_), FieldValue::Vector(mut parts)) => {
             let mut change = None;
@@ -222,6 +255,36 @@ fn widget(ui: &mut Ui, field: &Field) -> Option<Change> {
         }
         _ => None,
     }
+}
+
+/// A list of choices, each with its description. Returns the index of the choice that was clicked.
+fn choice<'c>(
+    ui: &mut Ui,
+    field: &Field,
+    current: &str,
+    choices: impl Iterator<Item = (&'c str, &'c str)>,
+) -> Option<usize> {
+    let name = &field.of.name;
+    let mut chosen = None;
+    let combo = ComboBox::from_id_salt((field.salt, name))
+        .selected_text(if current.is_empty() {
+            "Choose"
+        } else {
+            current
+        })
+        .show_ui(ui, |ui| {
+            for (i, (choice, doc)) in choices.enumerate() {
+                let mut response = ui.selectable_label(choice == current, choice);
+                if !doc.is_empty() {
+                    response = response.on_hover_text(doc);
+                }
+                if response.clicked() {
+                    chosen = Some(i);
+                }
+            }
+        });
+    combo.response.accessible_name(name.clone());
+    chosen
 }
 
 fn unlimited<'a>(x: &'a mut f64, limits: &Limits) -> DragValue<'a> {
@@ -308,39 +371,6 @@ fn range(limits: &Limits) -> Option<(f64, f64)> {
     (max > min && (max - min).is_finite()).then_some((min, max))
 }
 
-/// Returns a first value of a kind, for a parameter that was not set before.
-fn first(kind: &FieldKind) -> FieldValue {
-    let inside = |limits: &Limits| {
-        let (min, max) = (
-            limits.min.unwrap_or(f64::NEG_INFINITY),
-            limits.max.unwrap_or(f64::INFINITY),
-        );
-        if limits.allows(1.0) {
-            1.0
-        } else if min.is_finite() && max.is_finite() {
-            0.5 * (min + max)
-        } else if min.is_finite() {
-            min + 1.0
-        } else {
-            0.0
-        }
-    };
-    match kind {
-        FieldKind::Number(limits) => FieldValue::Number(inside(limits)),
-        FieldKind::Integer(limits) => FieldValue::Integer(integer(inside(limits).round())),
-        FieldKind::Bool => FieldValue::Bool(false),
-        FieldKind::Choice(names) => FieldValue::Choice(
-            names
-                .first()
-                .map_or_else(String::new, |(name, _)| name.clone()),
-        ),
-        FieldKind::Text => FieldValue::Text(String::new()),
-        FieldKind::Vector(n) => FieldValue::Vector(vec![0.0; *n]),
-        FieldKind::Selection(_) => FieldValue::Ron("All".to_owned()),
-        FieldKind::Other | FieldKind::Optional(_) => FieldValue::Ron(String::new()),
-    }
-}
-
 /// Rounds to six significant digits, which is finer than a pixel of a slider.
 fn rounded(x: f64) -> f64 {
     format!("{x:.5e}").parse().unwrap_or(x)
@@ -354,7 +384,7 @@ fn integer(x: f64) -> i64 {
     x as i64
 }
 
-/// A text field. The change is complete when Enter is pressed or the field loses the focus.
+/// A text field for a value.
 fn text(ui: &mut Ui, field: &Field) -> Option<Change> {
     let of = field.of;
     let id = Id::unique(("field", field.salt, &of.name));
@@ -363,29 +393,32 @@ fn text(ui: &mut Ui, field: &Field) -> Option<Change> {
         Some(FieldValue::Text(text)) if is_text => text,
         _ => of.current().unwrap_or_default().to_owned(),
     };
-    let has_focus = ui.memory(|memory| memory.has_focus(id));
+    let hint = if of.is_missing() { "required" } else { "" };
+    let new = line(ui, &of.name, &current, hint, id)?;
+    if new.trim().is_empty() && of.default.is_some() {
+        return Some(Change::Reset);
+    }
+    Some(Change::Set(if is_text {
+        FieldValue::Text(new).to_ron()
+    } else {
+        new
+    }))
+}
+
+/// A line of text. Returns the new text when Enter is pressed or the line loses the focus.
+pub(crate) fn line(ui: &mut Ui, name: &str, current: &str, hint: &str, id: Id) -> Option<String> {
+    // In the frame in which Tab moves the focus, the text is still there.
+    let has_focus = ui.memory(|memory| memory.has_focus(id) || memory.had_focus_last_frame(id));
     let mut buffer = ui
         .data_mut(|data| data.get_temp::<String>(id))
         .filter(|_| has_focus)
-        .unwrap_or_else(|| current.clone());
-    let hint = if of.is_missing() { "required" } else { "" };
+        .unwrap_or_else(|| current.to_owned());
     let edit = TextEdit::singleline(&mut buffer)
         .id(id)
         .font(egui::TextStyle::Monospace)
         .desired_width(f32::INFINITY)
         .hint_text(hint);
-    let response = ui.add(edit).accessible_name(of.name.clone());
-    let is_done = response.lost_focus();
+    let response = ui.add(edit).accessible_name(name);
     ui.data_mut(|data| data.insert_temp(id, buffer.clone()));
-    if !is_done || buffer == current {
-        return None;
-    }
-    if buffer.trim().is_empty() && of.default.is_some() {
-        return Some(Change::Reset);
-    }
-    Some(Change::Set(if is_text {
-        FieldValue::Text(buffer).to_ron()
-    } else {
-        buffer
-    }))
+    (response.lost_focus() && buffer != current).then_some(buffer)
 }

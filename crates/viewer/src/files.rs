@@ -1,12 +1,12 @@
-//! Dialogs for files, recent files, and the offer to recover texts after a crash.
+//! Saved files, recent files, and the offer to recover texts after a crash.
 
 use std::path::{Path, PathBuf};
 
 use editor::{Keys, Recovery};
 use eframe::egui::{self, Context, Id};
-use mesh_io::Format;
 
 use crate::app::{Parts, Pending};
+use crate::paths::{self, Purpose};
 
 /// The maximum number of recent files.
 const MAX_RECENT: usize = 10;
@@ -85,24 +85,10 @@ pub(crate) fn journals(state_folder: Option<&Path>) -> Option<PathBuf> {
     state_folder.map(|folder| folder.join("journals"))
 }
 
-/// Asks for a file to open.
-pub(crate) fn ask_open() -> Option<PathBuf> {
-    let formats = Format::all().filter(|format| format.can_read());
-    let extensions: Vec<&str> = ["ron", "gz"]
-        .into_iter()
-        .chain(formats.map(Format::extension))
-        .collect();
-    rfd::FileDialog::new()
-        .set_title("Open a model or a recipe")
-        .add_filter("Models and recipes", &extensions)
-        .add_filter("All files", &["*"])
-        .pick_file()
-}
-
 /// Saves the recipe, and asks for a file if it has none.
-pub(crate) fn save(parts: &mut Parts) {
+pub(crate) fn save(parts: &mut Parts, ctx: &Context) {
     if !parts.editor.document().has_file() {
-        save_as(parts);
+        paths::ask(parts, Purpose::SaveRecipe, ctx);
         return;
     }
     let result = parts.editor.save();
@@ -110,22 +96,10 @@ pub(crate) fn save(parts: &mut Parts) {
     finish(parts, result, &path);
 }
 
-/// Asks for a file and saves the recipe.
-pub(crate) fn save_as(parts: &mut Parts) {
-    let path = parts.editor.document().path();
-    let mut dialog = rfd::FileDialog::new()
-        .set_title("Save the recipe")
-        .add_filter("Recipes", &["ron"]);
-    if let Some(name) = path.file_name() {
-        dialog = dialog.set_file_name(name.to_string_lossy());
-    }
-    if let Some(folder) = path.parent().filter(|folder| folder.is_dir()) {
-        dialog = dialog.set_directory(folder);
-    }
-    if let Some(path) = dialog.save_file() {
-        let result = parts.editor.save_as(&path);
-        finish(parts, result, &path);
-    }
+/// Saves the recipe to a file, which becomes its file.
+pub(crate) fn save_to(parts: &mut Parts, path: &Path) {
+    let result = parts.editor.save_as(path);
+    finish(parts, result, path);
 }
 
 fn finish(parts: &mut Parts, result: Result<(), String>, path: &Path) {
@@ -157,7 +131,7 @@ pub(crate) fn question(ctx: &Context, parts: &mut Parts) {
             ui.add_space(6.0);
             ui.horizontal(|ui| {
                 if ui.button("Save").clicked() {
-                    save(parts);
+                    save(parts, ctx);
                     if !parts.editor.document().is_dirty() {
                         parts.proceed(pending.clone(), ctx);
                     }

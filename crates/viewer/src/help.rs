@@ -7,7 +7,7 @@ use crate::app::Parts;
 use crate::theme::Colors;
 
 /// How the mouse is used.
-const MOUSE: [(&str, &str); 9] = [
+const MOUSE: [(&str, &str); 10] = [
     ("Drag", "turn the view"),
     ("Right or middle drag", "move the view"),
     ("Wheel", "zoom to the cursor"),
@@ -16,10 +16,19 @@ const MOUSE: [(&str, &str); 9] = [
         "Shift+Click",
         "add to the picked elements, or remove from them",
     ),
-    ("Shift+Drag", "pick all elements in a box"),
-    ("Ctrl+Drag", "pick all elements in a lasso"),
+    ("Shift+Drag", "add all elements in a box"),
+    ("Ctrl+Drag", "add all elements in a lasso"),
+    ("with Alt", "remove the elements in a box or a lasso"),
     ("Double click", "pick an edge loop"),
     ("Drag a control point", "move it (curves and patches)"),
+];
+
+/// The task whose keys include those of the sides.
+const LOOK: &str = "Look";
+/// Keys that the table of actions does not have.
+const SIDES: [(&str, &str); 2] = [
+    ("1 to 7", "look from the sides"),
+    ("0", "switch perspective"),
 ];
 
 pub(crate) fn ui(ctx: &Context, parts: &mut Parts) {
@@ -38,26 +47,37 @@ pub(crate) fn ui(ctx: &Context, parts: &mut Parts) {
         });
         ui.label(RichText::new("Everything you do becomes a step of the recipe at the left. Undo goes back in the history of the recipe.").weak());
         ui.separator();
-        let actions: Vec<Action> = Action::all().collect();
-        let n = actions.len().div_ceil(3);
         ui.columns(3, |columns| {
-            for (column, actions) in columns.iter_mut().zip(actions.chunks(n)) {
-                for &action in actions {
-                    row(column, &parts.keys.of(action).join(", "), action.doc());
+            let mut lengths = [0; 3];
+            for (task, actions) in Action::groups() {
+                let rows = actions.map(|action| (parts.keys.of(action).join(", "), action.doc()));
+                let mut rows: Vec<(String, &str)> = rows.collect();
+                if task == LOOK {
+                    rows.extend(SIDES.map(|(keys, doc)| (keys.to_owned(), doc)));
                 }
+                // Each task goes to the shortest column.
+                let shortest = (0..3).min_by_key(|&i| lengths[i]).unwrap_or_default();
+                lengths[shortest] += rows.len() + 2;
+                group(&mut columns[shortest], task, &rows);
             }
-        });
-        ui.separator();
-        ui.columns(3, |columns| {
-            for (i, (keys, doc)) in MOUSE.iter().enumerate() {
-                row(&mut columns[i % 3], keys, doc);
-            }
-            row(&mut columns[1], "1 to 7", "views from the sides; 0 switches perspective");
+            let shortest = (0..3).min_by_key(|&i| lengths[i]).unwrap_or_default();
+            let mouse: Vec<_> = MOUSE.iter().map(|&(keys, doc)| (keys.to_owned(), doc)).collect();
+            group(&mut columns[shortest], "Mouse", &mouse);
         });
     });
     if modal.should_close() || ctx.input(|input| input.key_pressed(Key::Escape)) {
         parts.shows_help = false;
     }
+}
+
+/// The keys of a task.
+fn group(ui: &mut Ui, task: &str, rows: &[(String, &str)]) {
+    ui.add_space(4.0);
+    ui.label(RichText::new(task).strong().size(13.0));
+    for (keys, doc) in rows {
+        row(ui, keys, doc);
+    }
+    ui.add_space(6.0);
 }
 
 fn row(ui: &mut Ui, keys: &str, doc: &str) {

@@ -1,15 +1,15 @@
 //! Keys that do something in the whole window.
 
 use editor::{Action, Keys};
-use eframe::egui::{Context, Event, Key, Modifiers};
+use eframe::egui::{Context, Event, Id, Key, Modifiers};
 
 /// Removes the keys with an action from the input, and returns the actions.
 ///
-/// While a text is edited, keys without Ctrl or Alt belong to the text. While another widget has the focus, Space, Enter
-/// and Tab belong to the widget.
-pub(crate) fn actions(ctx: &Context, keys: &Keys, is_modal: bool) -> Vec<Action> {
+/// While a text is edited, only keys of the whole window have an action. While another widget than the view has the focus,
+/// Space and Enter belong to the widget.
+pub(crate) fn actions(ctx: &Context, keys: &Keys, is_modal: bool, view: Option<Id>) -> Vec<Action> {
     let is_text = ctx.text_edit_focused();
-    let has_focus = ctx.memory(|memory| memory.focused().is_some());
+    let has_focus = ctx.memory(|memory| memory.focused().is_some_and(|id| Some(id) != view));
     let mut actions = Vec::new();
     ctx.input_mut(|input| {
         input.events.retain(|event| {
@@ -25,13 +25,11 @@ pub(crate) fn actions(ctx: &Context, keys: &Keys, is_modal: bool) -> Vec<Action>
             let Some(action) = keys.action(&name(*key, *modifiers)) else {
                 return true;
             };
-            let is_plain = !modifiers.command && !modifiers.alt;
-            let is_function = matches!(key, Key::F1 | Key::Escape);
-            if is_text && is_plain && !is_function || is_text && *key == Key::A && modifiers.command
-            {
+            let is_letter = !modifiers.command && !matches!(key, Key::F1 | Key::Escape);
+            if is_text && (is_letter || !is_for_window(action)) {
                 return true;
             }
-            if has_focus && matches!(key, Key::Space | Key::Enter | Key::Tab) {
+            if has_focus && matches!(key, Key::Space | Key::Enter) {
                 return true;
             }
             if is_modal && !matches!(action, Action::Cancel | Action::Help) {
@@ -42,6 +40,23 @@ pub(crate) fn actions(ctx: &Context, keys: &Keys, is_modal: bool) -> Vec<Action>
         });
     });
     actions
+}
+
+/// Whether an action is about the window or the file, so that it does not disturb the text that is being edited.
+fn is_for_window(action: Action) -> bool {
+    matches!(
+        action,
+        Action::Undo
+            | Action::Redo
+            | Action::Save
+            | Action::SaveAs
+            | Action::Open
+            | Action::New
+            | Action::Quit
+            | Action::Palette
+            | Action::Help
+            | Action::Cancel
+    )
 }
 
 /// Writes a key as the table of keys does: `Ctrl+Shift+Z`.

@@ -9,6 +9,7 @@ mod banners;
 pub mod camera;
 mod code;
 mod controls;
+mod export;
 mod field;
 mod files;
 pub mod gpu;
@@ -17,6 +18,7 @@ mod inspector;
 mod keyboard;
 mod overlay;
 mod palette;
+mod paths;
 mod player;
 mod steps_pane;
 mod text_pane;
@@ -30,6 +32,7 @@ use std::process::ExitCode;
 use std::sync::{Arc, OnceLock};
 
 use eframe::egui;
+use op::Registry;
 use view_pane::Loss;
 
 pub use app::{App, Start};
@@ -42,14 +45,14 @@ Usage: meshwright-viewer [FILE]
 
 FILE is a model or a recipe (.ron). Press H in the window for the list of all keys.";
 
-/// Runs the program with these arguments. Returns 0 if the window was closed, 1 if it could not be opened, and 2 if the
+/// Runs the program with these operations and arguments. Returns 0 if the window was closed, 1 if it could not be opened, and 2 if the
 /// arguments are wrong.
 #[expect(
     clippy::print_stdout,
     clippy::print_stderr,
     reason = "this is a program"
 )]
-pub fn run(arguments: &[String]) -> ExitCode {
+pub fn run(registry: Registry, arguments: &[String]) -> ExitCode {
     let path = match arguments {
         [] => None,
         [flag] if flag == "--help" || flag == "-h" => {
@@ -67,8 +70,10 @@ pub fn run(arguments: &[String]) -> ExitCode {
         }
     };
     let start = Start {
+        registry: Arc::new(registry),
         path,
         state_folder: state_folder(),
+        has_dialogs: true,
     };
     let remembered = app::Remembered::read(start.state_folder.as_deref());
     let options = eframe::NativeOptions {

@@ -4,11 +4,12 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use editor::{Play, PlayedEdit, Pointers};
-use eframe::egui::{Grid, Label, RichText, Slider, Ui};
+use eframe::egui::{Button, Grid, Label, RichText, Slider, Ui};
 use mesh::{EdgeId, HalfEdgeId};
 use scene::{Geometry, Scene};
 
 use crate::app::Parts;
+use crate::paths::{self, Purpose};
 use crate::steps_pane::heading;
 use crate::theme::Colors;
 
@@ -51,8 +52,23 @@ impl Player {
             .get(self.play.position().saturating_sub(1))
     }
 
+    /// Returns the number of edits.
+    pub(crate) fn n_edits(&self) -> usize {
+        self.play.edits().len()
+    }
+
+    /// Returns the number of edits per second.
+    pub(crate) fn speed(&self) -> f64 {
+        self.speed
+    }
+
+    /// Stops between two edits.
+    pub(crate) fn pause(&mut self) {
+        self.next = None;
+    }
+
     /// Moves to a number of edits that are done.
-    fn go_to(&mut self, position: usize) {
+    pub(crate) fn go_to(&mut self, position: usize) {
         while self.play.position() < position && self.play.forward() {}
         while self.play.position() > position && self.play.back() {}
         self.update();
@@ -120,8 +136,19 @@ pub(crate) fn ui(ui: &mut Ui, parts: &mut Parts) {
         return;
     };
     let mut closes = false;
+    let mut exports = None;
     heading(ui, "Edits of the step", |ui| {
         closes = ui.small_button("Close").clicked();
+        for (name, purpose) in [("APNG", Purpose::SaveApng), ("GIF", Purpose::SaveGif)] {
+            let button = ui.add_enabled(parts.export.is_none(), Button::new(name).small());
+            let button = button.accessible_name(format!("Export as {name}"));
+            if button
+                .on_hover_text("Save the edits as an animation, as the view shows them")
+                .clicked()
+            {
+                exports = Some(purpose);
+            }
+        }
     });
     let n = player.play.edits().len();
     let mut position = player.play.position();
@@ -164,6 +191,9 @@ pub(crate) fn ui(ui: &mut Ui, parts: &mut Parts) {
     ui.add_space(12.0);
     if closes {
         parts.player = None;
+    } else if let Some(purpose) = exports {
+        let ctx = ui.ctx().clone();
+        paths::ask(parts, purpose, &ctx);
     }
 }
 

@@ -42,7 +42,9 @@ pub(crate) fn ui(ui: &mut Ui, parts: &mut Parts) {
             heading(ui, "Steps", |ui| {
                 records = ui
                     .small_button("Record a test")
-                    .on_hover_text("Writes expectations of the counts that are there now")
+                    .on_hover_text(
+                        "Writes expectations that hold for the scene after the selected step",
+                    )
                     .clicked();
             });
             ScrollArea::vertical()
@@ -53,7 +55,8 @@ pub(crate) fn ui(ui: &mut Ui, parts: &mut Parts) {
                     expectations(ui, parts);
                 });
             if records {
-                record(parts);
+                let result = parts.editor.record_test().map(|_| ());
+                parts.report(result);
             }
         });
     let editor = &mut parts.editor;
@@ -252,7 +255,11 @@ impl Summary {
     fn of(editor: &Editor, item: usize) -> Self {
         let run = editor.run();
         let is_current = editor.is_run_current() || editor.is_preview();
-        let range = if is_current { run.steps_of(item) } else { 0..0 };
+        let range = if is_current {
+            editor.steps_of_item(item)
+        } else {
+            0..0
+        };
         let steps = &run.steps[range.clone()];
         let results: Vec<_> = steps
             .iter()
@@ -363,34 +370,4 @@ fn expectations(ui: &mut Ui, parts: &mut Parts) {
     if let Some(offset) = go_to {
         parts.text.go_to(offset);
     }
-}
-
-/// Writes expectations of the counts at the end of the recipe.
-fn record(parts: &mut Parts) {
-    let end = parts
-        .editor
-        .run()
-        .steps
-        .last()
-        .and_then(|step| step.result.clone());
-    let Some(result) = end.filter(|_| !parts.editor.is_running()) else {
-        parts.warn("The recipe has no result yet, so that nothing can be recorded.");
-        return;
-    };
-    let done = &result.done;
-    let mut list = vec![
-        format!("Vertices(eq: {})", done.vertices),
-        format!("Faces(eq: {})", done.faces),
-    ];
-    let mut meshes = result
-        .scene
-        .objects()
-        .iter()
-        .filter_map(|object| object.as_mesh())
-        .peekable();
-    if meshes.peek().is_some() && meshes.all(|mesh| mesh.is_closed()) {
-        list.push("Closed".to_owned());
-    }
-    let result = parts.editor.add_expectations(&list);
-    parts.report(result);
 }

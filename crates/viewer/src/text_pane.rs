@@ -221,7 +221,13 @@ fn completions(parts: &Parts, ui: &Ui, id: Id) -> Words {
     if pane.closed_at == Some(start) || word.is_empty() {
         return none;
     }
-    let texts: Vec<String> = if word.starts_with(char::is_uppercase) {
+    let variants = variants_at(&parts.editor, start);
+    let texts: Vec<String> = if !variants.is_empty() && word.starts_with(char::is_uppercase) {
+        let names = variants.into_iter().map(|variant| variant.name);
+        names
+            .filter(|name| name.starts_with(word) && name != word)
+            .collect()
+    } else if word.starts_with(char::is_uppercase) {
         let found = palette::search(parts.editor.registry(), word);
         found
             .iter()
@@ -246,6 +252,20 @@ fn completions(parts: &Parts, ui: &Ui, id: Id) -> Words {
         range: start..end,
         texts: texts.into_iter().take(8).collect(),
     }
+}
+
+/// Returns the variants of the parameter whose value contains a byte of the text. Selections inside of a selection have the
+/// same variants. Empty outside of the parameters of a step.
+fn variants_at(editor: &editor::Editor, at: usize) -> Vec<recipe::VariantDoc> {
+    let outline = editor.outline();
+    let field = outline.step_at(at).and_then(|step| {
+        let fields = outline.run_of(step)?.fields();
+        let inside = |span: recipe::Span| span.start <= at && at <= span.end;
+        let written = fields.iter().find(|field| inside(field.value.span))?;
+        let panel = editor.panel(step)?;
+        panel.field(&written.name.text).cloned()
+    });
+    field.map_or_else(Vec::new, |field| field.variants)
 }
 
 /// Handles the keys of the completion. Returns the range that was replaced.

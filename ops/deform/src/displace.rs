@@ -185,7 +185,9 @@ fn image(path: &str, files: &Files, budget: u64) -> Result<Vec<u8>, OpError> {
     let needed = Heights::DECODING_BYTES * u64::from(width) * u64::from(height);
     if needed > budget {
         return Err(OpError::Budget(format!(
-            "\"{path}\" needs {needed} bytes, which exceeds the memory budget of {budget} bytes"
+            "\"{path}\" needs {}, which exceeds the memory budget of {}",
+            op::readable_bytes(needed),
+            op::readable_bytes(budget)
         )));
     }
     Ok(bytes)

@@ -8,8 +8,9 @@
 //! ```
 
 use geometry::deform::{falloff, vertex_directions};
-use mesh::{DVec3, VertexId};
+use mesh::{DMat3, DVec3, VertexId};
 use op::prelude::*;
+use op::{Axis, Turn};
 
 use crate::moved::moved;
 
@@ -47,6 +48,16 @@ pub enum MoveBy {
     Distance(Distance),
     /// By one offset for all selected vertices. The offset moves the mean of the selected vertices to this point.
     To(Vector),
+    /// By a rotation around an axis through the mean of the selected vertices.
+    Rotate {
+        /// The direction of the axis.
+        axis: Axis,
+        /// The angle in degrees, counter-clockwise when the axis points towards the viewer.
+        angle: Angle,
+    },
+    /// By scaling along x, y and z about the mean of the selected vertices. With the factor 0, all selected vertices get
+    /// the same coordinate.
+    Scale(Vector),
 }
 
 impl MeshOperation for MoveVertices {
@@ -64,11 +75,7 @@ impl MeshOperation for MoveVertices {
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
         let mut mask = self.vertices.mask(mesh, cx)?;
         cx.advance("move", 0, 1)?;
-        let offset = match self.by {
-            MoveBy::Offset(offset) => Some(offset.get()),
-            MoveBy::Distance(_) => None,
-            MoveBy::To(point) => Some(center(mesh, &mask).map_or(DVec3::ZERO, |c| point.get() - c)),
-        };
+        let center = center(mesh, &mask).unwrap_or_default();
         let weights = self
             .falloff
             .map(|radius| falloff(mesh.positions(), &mask, radius.get()));
@@ -78,23 +85,35 @@ impl MeshOperation for MoveVertices {
             }
         }
         let weight = |v: VertexId| weights.as_ref().map_or(1.0, |w| w[v.index()]);
-        let Some(offset) = offset else {
-            let MoveBy::Distance(distance) = self.by else {
-                return Ok(Report::default());
-            };
-            let normals = vertex_directions(mesh);
-            let without = normals
-                .iter()
-                .zip(&mask)
-                .filter(|(n, m)| **m && **n == DVec3::ZERO)
-                .count();
-            let report = moved(mesh, &mask, Self::NAME, "by", |v, p| {
-                p + weight(v) * distance.get() * normals[v.index()]
-            })?;
-            return Ok(report.count("vertices without a normal, not moved", without));
-        };
-        moved(mesh, &mask, Self::NAME, "by", |v, p| p + weight(v) * offset)
+        let about = |map: DMat3| move |v, p: DVec3| p.lerp(center + map * (p - center), weight(v));
+        match self.by {
+            MoveBy::Offset(offset) => by(mesh, &mask, |v, p| p + weight(v) * offset.get()),
+            MoveBy::To(point) => {
+                let offset = point.get() - center;
+                by(mesh, &mask, |v, p| p + weight(v) * offset)
+            }
+            MoveBy::Rotate { axis, angle } => by(mesh, &mask, about(Turn { axis, angle }.matrix())),
+            MoveBy::Scale(factors) => by(mesh, &mask, about(DMat3::from_diagonal(factors.get()))),
+            MoveBy::Distance(distance) => {
+                let normals = vertex_directions(mesh);
+                let selected = normals.iter().zip(&mask).filter(|(_, selected)| **selected);
+                let without = selected.filter(|(n, _)| **n == DVec3::ZERO).count();
+                let report = by(mesh, &mask, |v, p| {
+                    p + weight(v) * distance.get() * normals[v.index()]
+                })?;
+                Ok(report.count("vertices without a normal, not moved", without))
+            }
+        }
     }
+}
+
+/// Moves the vertices of `mask` to new positions.
+fn by(
+    mesh: &mut Mesh,
+    mask: &[bool],
+    position: impl Fn(VertexId, DVec3) -> DVec3 + Sync,
+) -> Result<Report, OpError> {
+    moved(mesh, mask, MoveVertices::NAME, "by", position)
 }
 
 /// Returns the mean of the selected vertices.
@@ -153,6 +172,42 @@ mod tests {
         let after = applied_as_planned(&step, &shapes::cube());
         let moved = [0, 1, 4, 5].map(|v| after.positions()[v]);
         assert!((moved.iter().sum::<DVec3>() / 4.0).distance(DVec3::new(1.0, 2.0, 3.0)) < 1e-15);
+    }
+
+    #[test]
+    fn a_rotation_and_a_scaling_keep_the_mean_of_the_selection() {
+        let cube = shapes::cube();
+        let top = [0, 1, 4, 5];
+        let mean = |mesh: &Mesh| top.map(|v| mesh.positions()[v]).iter().sum::<DVec3>() / 4.0;
+        let center = mean(&cube);
+        let step = |by| parse(&format!("(vertices: Vertices([0, 1, 4, 5]), by: {by})"));
+        let quarter = applied_as_planned(&step("Rotate(axis: Y, angle: 90)"), &cube);
+        let scaled = applied_as_planned(&step("Scale((2, 1, 0))"), &cube);
+        for after in [&quarter, &scaled] {
+            assert_eq!(mean(after), center);
+            for v in [2, 3, 6, 7] {
+                assert_eq!(after.positions()[v], cube.positions()[v]);
+            }
+        }
+        for v in top {
+            let [before, turned, scaled] =
+                [&cube, &quarter, &scaled].map(|mesh| mesh.positions()[v] - center);
+            assert_eq!(turned, DVec3::new(before.z, before.y, -before.x));
+            assert_eq!(scaled, DVec3::new(2.0 * before.x, before.y, 0.0));
+        }
+        let half = shapes::grid(8, 8);
+        let with = |by| {
+            let text = format!("(vertices: Nearest(to: (0, 0, 0)), by: {by}, falloff: 0.5)");
+            applied_as_planned(&parse(&text), &half)
+        };
+        // A movement that keeps the selected vertex moves the vertices near it by a part.
+        let after = with("Scale((3, 3, 3))");
+        let moved = half.positions().iter().zip(after.positions());
+        assert!(
+            moved
+                .filter(|(p, q)| p != q)
+                .all(|(p, q)| q.distance(*p) <= 2.0 * 0.5)
+        );
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use op::ElementKind;
 use ron_tree::string_literal;
+use scene::Geometry;
 
 use super::Editor;
 use crate::keys::Action;
@@ -271,6 +272,35 @@ impl Editor {
         let picked = self.picked.take().filter(|_| keeps_numbers);
         self.set_picked(picked);
         Ok(())
+    }
+
+    /// Returns the names of the objects that consist of Bezier patches, in the scene that the view shows.
+    pub fn patches(&self) -> Vec<&str> {
+        let objects = self.shown.objects().iter();
+        let patches = objects.filter(|object| matches!(object.geometry, Geometry::Patches(_)));
+        patches.map(|object| object.name.as_str()).collect()
+    }
+
+    /// Inserts steps after the cursor that turn all Bezier patches of the scene into meshes, whose elements can be picked:
+    /// `Tessellate` and `Weld`.
+    ///
+    /// # Errors
+    ///
+    /// [`CommandError::Text`] if the text cannot be edited.
+    pub fn turn_into_mesh(&mut self) -> Result<(), CommandError> {
+        let patches = self.patches();
+        let is_all = patches.len() == self.shown.objects().len();
+        let names: Vec<String> = patches.into_iter().map(string_literal).collect();
+        let steps = ["Tessellate()", "Weld(distance: 0)"].map(|step| {
+            if is_all {
+                step.to_owned()
+            } else {
+                format!("(run: {step}, on: [{}])", names.join(", "))
+            }
+        });
+        let cursor = self.cursor() + steps.len();
+        let edits = text::insert_steps(self.text(), &self.outline, self.cursor(), &steps)?;
+        self.edit(edits, "turn into a mesh", Some(cursor))
     }
 
     /// Runs a command without writing it to the text, for a live preview. [`end_preview`](Self::end_preview) goes back.

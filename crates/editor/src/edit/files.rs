@@ -1,9 +1,10 @@
 //! The files of an editor: recipes and models that are opened, recipes that are saved, and unsaved texts.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use mesh_io::Format;
+use recipe::Rebase;
 
 use crate::document::Document;
 use crate::journal::Recovery;
@@ -95,16 +96,39 @@ impl Editor {
         Ok(())
     }
 
-    /// Saves the recipe to a file, which becomes the file of the document. Paths in the recipe are relative to its new
-    /// folder.
+    /// Saves the recipe to a file, which becomes the file of the document. The relative paths of its inputs are rewritten if
+    /// the file is in another folder.
     ///
     /// # Errors
     ///
     /// The errors of [`Document::save_as`].
     pub fn save_as(&mut self, path: &Path) -> Result<(), String> {
-        self.document.save_as(&*self.store, path)?;
-        self.show(None);
-        Ok(())
+        let moved = self
+            .with_moved_inputs(path)
+            .filter(|text| text != self.text());
+        if let Some(text) = &moved {
+            self.document
+                .replace(text.as_str(), "move the recipe", false);
+        }
+        let saved = self.document.save_as(&*self.store, path);
+        if saved.is_err() && moved.is_some() {
+            self.document.undo();
+        }
+        self.text_changed(Some(self.cursor()));
+        saved
+    }
+
+    /// Returns the text with the paths of its inputs relative to the folder of `path`.
+    fn with_moved_inputs(&self, path: &Path) -> Option<String> {
+        let rebase = Rebase {
+            from: self.document.path().parent()?,
+            to: path.parent()?,
+            store: &*self.store,
+        };
+        let called = self.run.sources.iter().skip(1).map(|source| &source.path);
+        let inputs: Vec<PathBuf> = called.chain(&self.run.inputs).cloned().collect();
+        let edits = rebase.edits(self.outline.root(), &inputs);
+        crate::text::apply(self.text(), edits).ok()
     }
 
     /// Ends a conflict with another program that changed the file: the text stays, and the next save replaces the file.

@@ -20,11 +20,13 @@ use web_time::Instant;
 use crate::document::{Document, FileChange};
 use crate::journal::Journal;
 use crate::pick::Indexes;
-use crate::run::{Event, Progress, Request, RunState, Runner, Status, Wake};
+use crate::run::{Event, Progress, Request, RunState, Runner, Snapshot, Status, Wake};
 use crate::select::{Picked, Proposal};
 use crate::text::Outline;
+use picks::Proposals;
 
 pub use command::{Command, CommandError, SelectionText};
+pub use moves::Movement;
 
 /// The settings of an editor.
 #[derive(Clone, Debug)]
@@ -82,9 +84,9 @@ pub struct Editor {
     picked: Option<Picked>,
     /// Whether the scene that is shown has all picked elements. A preview may lack some of them for a while.
     has_picked: bool,
-    /// The selections that mean the picked elements, once they were asked for.
-    proposals: Option<Vec<Proposal>>,
-    /// The selection that means one picked element, until all selections are asked for.
+    /// The selections that mean the picked elements.
+    proposals: Proposals,
+    /// The selection that was typed, or that means one picked element, until another one is asked for.
     first_proposal: Option<Proposal>,
     proposal: usize,
     indexes: Indexes,
@@ -145,7 +147,7 @@ impl Editor {
             shown: Arc::default(),
             picked: None,
             has_picked: true,
-            proposals: None,
+            proposals: Proposals::default(),
             first_proposal: None,
             proposal: 0,
             indexes: Indexes::new(),
@@ -350,17 +352,40 @@ impl Editor {
 
     /// Returns the scene that the view shows.
     pub fn view(&self) -> View {
-        let (_, is_known) = self.run.result_after(self.cursor + self.preview_steps);
+        let (_, is_known) = self.result();
         View {
             scene: self.shown.clone(),
             is_current: self.is_checked && is_known,
         }
     }
 
-    /// Keeps the scene at the cursor as the scene that is shown.
+    /// Returns the steps of the newest run that belong to a step of the text, as a range of indices. A preview can have more
+    /// steps than the text.
+    pub fn steps_of_item(&self, item: usize) -> std::ops::Range<usize> {
+        let is_after = item >= self.cursor;
+        let new = if is_after { self.preview_steps } else { 0 };
+        self.run.steps_of(item + new)
+    }
+
+    /// Returns the last known result of the steps before the cursor, and whether it is the result of all these steps.
+    fn result(&self) -> (Option<&Snapshot>, bool) {
+        let n = self.cursor + self.preview_steps;
+        let (last, is_known) = self.run.result_after(n);
+        // The steps of a recipe with errors may be missing, because they could not be read.
+        let is_before_first = n == 0 && !self.outline.steps.is_empty();
+        let is_read = is_before_first
+            || !self.run.has_errors()
+            || self.run.steps.iter().any(|step| step.item + 1 == n);
+        (last, is_known && is_read)
+    }
+
+    /// Keeps the scene at the cursor as the scene that is shown. If the recipe has errors, the last scene stays.
     fn keep_shown(&mut self) {
-        let (last, is_known) = self.run.result_after(self.cursor + self.preview_steps);
+        let (last, is_known) = self.result();
         let shown = match last {
+            Some(_) if !is_known && self.run.has_errors() && !self.shown.objects().is_empty() => {
+                return;
+            }
             Some(snapshot) => snapshot.scene.clone(),
             // Without a step before the cursor, the scene is empty.
             None if is_known && self.is_checked => Arc::default(),

@@ -2,16 +2,108 @@
 
 use glam::DAffine3;
 use mesh::{DVec3, Mesh, VertexId};
-use op::Selected;
+use op::{Axis, Selected};
 use serde::Deserialize;
 
 use super::{Command, CommandError, Editor};
 use crate::panel::number;
 
-/// The parameter `by` of a step that dragging changes.
-#[derive(Clone, Copy, Deserialize)]
+/// How picked elements move. The axes are those of [`Editor::picked_axes`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Movement {
+    /// By an offset in scene units, along the axes of the scene.
+    Offset(DVec3),
+    /// Around an axis through their center: the index of the axis, and the angle in degrees, counter-clockwise when the axis
+    /// points towards the viewer.
+    Rotate(usize, f64),
+    /// By factors along the axes, about their center.
+    Scale(DVec3),
+}
+
+/// The parameter `by` of a step `MoveVertices` that a drag changes.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
 enum By {
     Offset([f64; 3]),
+    Rotate { axis: Axis, angle: f64 },
+    Scale([f64; 3]),
+}
+
+impl By {
+    /// Returns the movement in the space of the object.
+    fn of(movement: Movement, to_scene: DAffine3) -> Self {
+        let map = to_scene.matrix3;
+        match movement {
+            Movement::Offset(offset) if map == DAffine3::IDENTITY.matrix3 => {
+                Self::Offset(offset.to_array())
+            }
+            Movement::Offset(offset) => {
+                let inside = map.inverse() * offset;
+                let inside = if inside.is_finite() {
+                    inside
+                } else {
+                    DVec3::ZERO
+                };
+                Self::Offset(inside.to_array())
+            }
+            Movement::Rotate(axis, angle) => Self::Rotate {
+                axis: [Axis::X, Axis::Y, Axis::Z][axis.min(2)],
+                // A mirrored object turns the other way.
+                angle: if map.determinant() < 0.0 {
+                    -angle
+                } else {
+                    angle
+                },
+            },
+            Movement::Scale(factors) => Self::Scale(factors.to_array()),
+        }
+    }
+
+    /// Returns one movement that does what both do, if there is one.
+    fn then(self, next: Self) -> Option<Self> {
+        Some(match (self, next) {
+            (Self::Offset(a), Self::Offset(b)) => {
+                Self::Offset((DVec3::from(a) + DVec3::from(b)).to_array())
+            }
+            (Self::Scale(a), Self::Scale(b)) => {
+                Self::Scale((DVec3::from(a) * DVec3::from(b)).to_array())
+            }
+            (
+                Self::Rotate { axis, angle },
+                Self::Rotate {
+                    axis: other,
+                    angle: more,
+                },
+            ) if axis == other => {
+                let angle = angle + more;
+                Self::Rotate { axis, angle }
+            }
+            _ => return None,
+        })
+    }
+
+    /// Whether nothing moves.
+    fn is_nothing(self) -> bool {
+        match self {
+            Self::Offset(offset) => offset == [0.0; 3],
+            Self::Rotate { angle, .. } => angle == 0.0,
+            Self::Scale(factors) => factors == [1.0; 3],
+        }
+    }
+
+    fn to_ron(self) -> String {
+        // Sums of short numbers are short again.
+        let vector = |v: [f64; 3]| {
+            let [x, y, z] = v.map(|x| number(rounded(x)));
+            format!("(({x}, {y}, {z}))")
+        };
+        match self {
+            Self::Offset(offset) => format!("Offset{}", vector(offset)),
+            Self::Scale(factors) => format!("Scale{}", vector(factors)),
+            Self::Rotate { axis, angle } => {
+                format!("Rotate(axis: {axis:?}, angle: {})", number(rounded(angle)))
+            }
+        }
+    }
 }
 
 impl Editor {
@@ -25,6 +117,15 @@ impl Editor {
         Some(self.placed(&picked.object).transform_point3(center))
     }
 
+    /// Returns the axes of the object with the picked elements, as unit vectors of the scene. If nothing is picked, the axes
+    /// of the scene.
+    pub fn picked_axes(&self) -> [DVec3; 3] {
+        let object = self.picked().map(|picked| self.placed(&picked.object));
+        let map = object.unwrap_or_default().matrix3;
+        let axes = [DVec3::X, DVec3::Y, DVec3::Z];
+        axes.map(|axis| (map * axis).try_normalize().unwrap_or(axis))
+    }
+
     /// Returns the map from the space of an object to the scene. If the object is there several times, that of the first.
     fn placed(&self, object: &str) -> DAffine3 {
         let instances = self.shown.instances();
@@ -33,33 +134,33 @@ impl Editor {
         found.map_or(DAffine3::IDENTITY, |instance| instance.to_scene)
     }
 
-    /// Moves the picked elements by an offset in scene units, by a step `MoveVertices`. If the step before the cursor moves
-    /// the same elements, its offset is changed, so that dragging several times gives one step. With `is_preview`, the text
-    /// stays as it is.
+    /// Moves the picked elements by a step `MoveVertices`. If the step before the cursor moves the same elements in the same
+    /// way, its parameter is changed, so that dragging several times gives one step. With `is_preview`, the text stays as it
+    /// is.
     ///
     /// # Errors
     ///
     /// [`CommandError::NothingPicked`] if nothing is picked; other errors as [`Editor::apply`].
-    pub fn move_picked(&mut self, offset: DVec3, is_preview: bool) -> Result<(), CommandError> {
+    pub fn move_picked(
+        &mut self,
+        movement: Movement,
+        is_preview: bool,
+    ) -> Result<(), CommandError> {
         let selection = self.selection();
         let to_scene = selection
             .as_ref()
             .map(|selection| self.placed(&selection.object));
-        let to_scene = to_scene.unwrap_or_default();
-        let mut offset = offset;
-        if to_scene.matrix3 != DAffine3::IDENTITY.matrix3 {
-            offset = to_scene.matrix3.inverse() * offset;
-            if !offset.is_finite() {
-                offset = DVec3::ZERO;
-            }
-        }
+        let by = By::of(movement, to_scene.unwrap_or_default());
         let command = Command {
             selection,
-            ..Command::new("MoveVertices").with("by", &by(offset))
+            ..Command::new("MoveVertices").with("by", &by.to_ron())
         };
         let steps = self.steps_of(&command)?;
-        if let Some((step, before)) = self.moves_same(&steps) {
-            let value = by(before + offset);
+        let before = self.moves_same(&steps);
+        if let Some((step, whole)) =
+            before.and_then(|(step, before)| Some((step, before.then(by)?)))
+        {
+            let value = whole.to_ron();
             return if is_preview {
                 self.preview_parameter(step, &["by"], &value)
             } else {
@@ -68,7 +169,7 @@ impl Editor {
         }
         if is_preview {
             self.preview(&command)
-        } else if offset == DVec3::ZERO {
+        } else if by.is_nothing() {
             self.end_preview();
             Ok(())
         } else {
@@ -76,8 +177,8 @@ impl Editor {
         }
     }
 
-    /// Returns the step before the cursor and its offset, if it moves the elements that the new step moves.
-    fn moves_same(&self, new: &[String]) -> Option<(usize, DVec3)> {
+    /// Returns the step before the cursor and how it moves, if it moves the elements that the new step moves.
+    fn moves_same(&self, new: &[String]) -> Option<(usize, By)> {
         let [new] = new else { return None };
         let step = self.cursor().checked_sub(1)?;
         let written = self.outline().steps.get(step)?;
@@ -87,20 +188,14 @@ impl Editor {
         let new = crate::Outline::of(&format!("(steps: [{new}])"));
         let [text] = &new.steps[..] else { return None };
         let vertices = new.run_of(0)?.field("vertices")?.to_string();
-        let known = self.outline().run_of(step)?.field("vertices")?.to_string();
-        if written.on != text.on || vertices != known {
+        let run = self.outline().run_of(step)?;
+        let known = run.field("vertices")?.to_string();
+        if written.on != text.on || vertices != known || run.field("falloff").is_some() {
             return None;
         }
-        let By::Offset(before) = ron_tree::from_str(self.parameter(step, &["by"])?).ok()?;
-        Some((step, DVec3::from(before)))
+        let before = ron_tree::from_str(self.parameter(step, &["by"])?).ok()?;
+        Some((step, before))
     }
-}
-
-/// Writes an offset as the parameter `by`.
-fn by(offset: DVec3) -> String {
-    // Sums of short numbers are short again.
-    let [x, y, z] = offset.to_array().map(|x| number(rounded(x)));
-    format!("Offset(({x}, {y}, {z}))")
 }
 
 /// Rounds to 12 significant digits.

@@ -1,8 +1,29 @@
 //! The picked elements of an editor, and the selections that mean them.
 
+use std::thread::JoinHandle;
+
+use mesh::Element;
+use op::ElementKind;
+use scene::Object;
+
 use crate::select::{Picked, Proposal, propose, propose_one};
 
 use super::Editor;
+
+/// The most edges of a mesh whose selections are searched without a thread of its own.
+const MAX_AT_ONCE: usize = 50_000;
+
+/// The selections that mean the picked elements.
+#[derive(Default)]
+pub(super) enum Proposals {
+    /// Nobody has asked for them.
+    #[default]
+    Unknown,
+    /// A thread searches them.
+    Searching(JoinHandle<Vec<Proposal>>),
+    /// They are known.
+    Known(Vec<Proposal>),
+}
 
 impl Editor {
     /// Returns the picked elements, which exist in the scene that the view shows. `None` while a preview lacks some of them.
@@ -14,49 +35,127 @@ impl Editor {
     pub fn set_picked(&mut self, picked: Option<Picked>) {
         self.picked = picked.filter(|picked| !picked.is_empty());
         self.has_picked = true;
-        (self.proposals, self.first_proposal, self.proposal) = (None, None, 0);
+        (self.first_proposal, self.proposal) = (None, 0);
+        self.proposals = Proposals::default();
     }
 
     /// Returns the selections that mean the picked elements, the best first. The list is computed once for each pick.
     pub fn proposals(&mut self) -> &[Proposal] {
-        if self.proposals.is_none() {
-            let found = self
-                .picked
-                .as_ref()
-                .map(|picked| propose(&self.shown, picked, ""));
-            self.proposals = Some(found.unwrap_or_default());
+        self.search();
+        self.proposals = match std::mem::take(&mut self.proposals) {
+            // A search that panics finds nothing.
+            Proposals::Searching(thread) => Proposals::Known(thread.join().unwrap_or_default()),
+            known => known,
+        };
+        match &self.proposals {
+            Proposals::Known(list) => list,
+            _ => &[],
         }
-        self.proposals.as_deref().unwrap_or_default()
     }
 
     /// Returns the selection that commands use for the picked elements.
     pub fn proposal(&mut self) -> Option<&Proposal> {
         let at = self.proposal;
-        if self.proposals.is_none() && at == 0 {
-            if self.first_proposal.is_none() {
-                let picked = self.picked.as_ref()?;
-                self.first_proposal = propose_one(&self.shown, picked);
-            }
-            if self.first_proposal.is_some() {
-                return self.first_proposal.as_ref();
-            }
+        if self.first_proposal.is_none() && matches!(self.proposals, Proposals::Unknown) {
+            let picked = self.picked.as_ref()?;
+            self.first_proposal = propose_one(&self.shown, picked);
         }
-        self.proposals().get(at)
+        if self.first_proposal.is_none() {
+            return self.proposals().get(at);
+        }
+        self.first_proposal.as_ref()
+    }
+
+    /// Begins to search the selections that mean the picked elements, unless the search has begun before.
+    fn search(&mut self) {
+        let Some(picked) = &self.picked else {
+            self.proposals = Proposals::Known(Vec::new());
+            return;
+        };
+        if !matches!(self.proposals, Proposals::Unknown) {
+            return;
+        }
+        let mesh = self.shown.object(&picked.object).and_then(Object::as_mesh);
+        let is_small = mesh.is_none_or(|mesh| mesh.n_edges() <= MAX_AT_ONCE);
+        let (scene, picked) = (self.shown.clone(), picked.clone());
+        let search = move || propose(&scene, &picked, "");
+        self.proposals = if is_small {
+            Proposals::Known(search())
+        } else {
+            Proposals::Searching(std::thread::spawn(search))
+        };
+    }
+
+    /// Whether the selections that mean several picked elements are still being searched. In a large mesh, this takes long.
+    /// Commands wait for the search; a window asks this before it shows a selection.
+    pub fn is_searching(&mut self) -> bool {
+        let is_one = self.picked.as_ref().is_some_and(|picked| picked.len() == 1);
+        if !is_one && self.first_proposal.is_none() {
+            self.search();
+        }
+        matches!(&self.proposals, Proposals::Searching(thread) if !thread.is_finished())
     }
 
     /// Whether another selection may mean the picked elements. All selections are computed only when they are asked for,
     /// because this takes long for a large mesh.
     pub fn may_have_other_proposal(&self) -> bool {
         match &self.proposals {
-            Some(proposals) => proposals.len() > 1,
-            None => self.picked.is_some(),
+            Proposals::Known(proposals) => proposals.len() > 1,
+            _ => self.picked.is_some(),
         }
     }
 
     /// Chooses the next selection that means the picked elements, or the first after the last.
     pub fn next_proposal(&mut self) {
-        let n = self.proposals().len().max(1);
-        self.proposal = (self.proposal + 1) % n;
+        let first = self.first_proposal.take();
+        self.proposals();
+        let Proposals::Known(all) = &mut self.proposals else {
+            return;
+        };
+        if let Some(first) = first {
+            all.retain(|other| *other != first);
+            all.insert(0, first);
+        }
+        self.proposal = (self.proposal + 1) % all.len().max(1);
+    }
+
+    /// Picks the elements that a selection of a recipe means. Commands then use this text. The selection is of the given kind
+    /// or, if the text does not fit this kind, of another one. The object is that of the picked elements, or else the first
+    /// mesh.
+    ///
+    /// # Errors
+    ///
+    /// A message if the text is not a selection, is refused, or means no elements.
+    pub fn pick_by_text(&mut self, text: &str, kind: ElementKind) -> Result<(), String> {
+        let kind = self.picked.as_ref().map_or(kind, Picked::kind);
+        let object = if let Some(picked) = &self.picked {
+            picked.object.clone()
+        } else {
+            let mut objects = self.shown.objects().iter();
+            let first = objects.find(|object| object.as_mesh().is_some());
+            let first = first.ok_or("the scene has no mesh whose elements can be picked")?;
+            first.name.clone()
+        };
+        let read = |kind| Picked::by_text(&self.shown, &object, text, Some(kind));
+        let found = read(kind).or_else(|errors| {
+            let mut others = ElementKind::ALL.into_iter().filter(|other| *other != kind);
+            others.find_map(|kind| read(kind).ok()).ok_or(errors)
+        });
+        let mut picked = found.map_err(|errors| match errors.into_iter().next() {
+            Some(error) => error.message,
+            None => "this is not a selection".to_owned(),
+        })?;
+        if picked.is_empty() {
+            return Err("the selection means no elements".to_owned());
+        }
+        let half_edge = self.picked.as_ref().and_then(|picked| picked.half_edge);
+        picked.half_edge = half_edge.filter(|&h| picked.contains(Element::HalfEdge(h)));
+        self.set_picked(Some(picked));
+        self.first_proposal = Some(Proposal {
+            text: text.trim().to_owned(),
+            before: None,
+        });
+        Ok(())
     }
 
     /// Drops picked elements that the scene at the cursor does not have.

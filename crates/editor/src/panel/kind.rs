@@ -4,6 +4,9 @@ use op::ElementKind;
 use ron_tree::{Number, Value, ValueKind, parse, string_literal};
 use serde_json::Value as Json;
 
+use super::parts::{Variant, first_fields};
+use super::{PanelField, panel_fields};
+
 /// The kind of values of a field.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FieldKind {
@@ -19,6 +22,10 @@ pub enum FieldKind {
     Text,
     /// Two or three numbers `(x, y, z)`, with this length.
     Vector(usize),
+    /// One of several variants, of which some have content.
+    Variants(Vec<Variant>),
+    /// A struct with these fields.
+    Struct(Vec<PanelField>),
     /// A selection of elements. If `None`, a selection of elements of any kind.
     Selection(Option<ElementKind>),
     /// Any other type: a text field for RON that is checked.
@@ -51,15 +58,30 @@ impl Limits {
             .is_none_or(|max| value < max || (value == max && !self.below_max));
         low && high && value.is_finite()
     }
+
+    /// Returns a number in the range: 1 if it is in the range.
+    fn first(&self) -> f64 {
+        match (self.min, self.max) {
+            _ if self.allows(1.0) => 1.0,
+            (Some(min), Some(max)) => f64::midpoint(min, max),
+            (Some(min), None) => min + 1.0,
+            (None, Some(max)) => max - 1.0,
+            (None, None) => 0.0,
+        }
+    }
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "conversions from f64 saturate"
+)]
+fn integer(x: f64) -> i64 {
+    x.round() as i64
 }
 
 impl FieldKind {
     /// Returns the kind of a field with this schema. References are looked up in `root`.
-    pub(super) fn of(json: &Json, root: &Json) -> Self {
-        Self::at_depth(json, root, 0)
-    }
-
-    fn at_depth(json: &Json, root: &Json, depth: usize) -> Self {
+    pub(super) fn at_depth(json: &Json, root: &Json, depth: usize) -> Self {
         // Schemas can refer to themselves.
         if depth > 8 {
             return Self::Other;
@@ -98,6 +120,9 @@ impl FieldKind {
         if let Some(choice) = choice(json) {
             return Self::Choice(choice);
         }
+        if let Some(variants) = Variant::all(json, root, depth + 1) {
+            return Self::Variants(variants);
+        }
         let (name, is_optional) = match &json["type"] {
             Json::String(name) => (name.as_str(), false),
             Json::Array(names) => {
@@ -118,12 +143,37 @@ impl FieldKind {
             "boolean" => Self::Bool,
             "string" => Self::Text,
             "array" => vector(json).map_or(Self::Other, Self::Vector),
+            "object" if json["properties"].is_object() => {
+                Self::Struct(panel_fields(json, root, depth + 1))
+            }
             _ => Self::Other,
         };
         if is_optional {
             Self::Optional(Box::new(kind))
         } else {
             kind
+        }
+    }
+
+    /// Returns a first value of this kind, for a parameter that was not set before.
+    pub fn first(&self) -> FieldValue {
+        match self {
+            Self::Number(limits) => FieldValue::Number(limits.first()),
+            Self::Integer(limits) => FieldValue::Integer(integer(limits.first())),
+            Self::Bool => FieldValue::Bool(false),
+            Self::Choice(names) => FieldValue::Choice(
+                names
+                    .first()
+                    .map_or_else(String::new, |(name, _)| name.clone()),
+            ),
+            Self::Text => FieldValue::Text(String::new()),
+            Self::Vector(n) => FieldValue::Vector(vec![0.0; *n]),
+            Self::Variants(all) => {
+                FieldValue::Ron(all.first().map_or_else(String::new, Variant::first))
+            }
+            Self::Struct(fields) => FieldValue::Ron(first_fields(fields)),
+            Self::Selection(_) => FieldValue::Ron("All".to_owned()),
+            Self::Other | Self::Optional(_) => FieldValue::Ron(String::new()),
         }
     }
 
@@ -173,9 +223,15 @@ fn limits(json: &Json) -> Limits {
 
 /// Returns the length of an array of two or three numbers.
 fn vector(json: &Json) -> Option<usize> {
-    let items = json["prefixItems"].as_array()?;
-    let are_numbers = items.iter().all(|item| item["type"] == "number");
-    (are_numbers && (2..=3).contains(&items.len())).then_some(items.len())
+    let is_number = |item: &Json| item["type"] == "number";
+    let n = if let Some(items) = json["prefixItems"].as_array() {
+        items.iter().all(is_number).then_some(items.len())?
+    } else {
+        let n = json["minItems"].as_u64()?;
+        let is_fixed = json["maxItems"].as_u64() == Some(n) && is_number(&json["items"]);
+        is_fixed.then(|| usize::try_from(n).ok())??
+    };
+    (2..=3).contains(&n).then_some(n)
 }
 
 /// A value in the form of its widget.
@@ -251,7 +307,13 @@ impl FieldValue {
                 };
                 Self::Vector(items.iter().map(number).collect::<Option<_>>()?)
             }
-            (FieldKind::Selection(_) | FieldKind::Other, _) => Self::Ron(text.to_owned()),
+            (FieldKind::Variants(variants), _) => {
+                let name = value.name()?.0;
+                let is_known = variants.iter().any(|variant| variant.name == name);
+                is_known.then(|| Self::Ron(text.to_owned()))?
+            }
+            (FieldKind::Struct(_), ValueKind::Struct(_) | ValueKind::Unit)
+            | (FieldKind::Selection(_) | FieldKind::Other, _) => Self::Ron(text.to_owned()),
             _ => return None,
         })
     }

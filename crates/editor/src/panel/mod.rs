@@ -2,12 +2,14 @@
 //! step.
 
 mod kind;
+mod parts;
 
 use op::{Entry, Registry};
 use recipe::{Diagnostic, VariantDoc};
 use ron_tree::{Value, ValueKind, parse};
 
 pub use kind::{FieldKind, FieldValue, Limits};
+pub use parts::{Part, Variant};
 
 pub(crate) use kind::number;
 
@@ -30,7 +32,7 @@ pub struct Panel {
 }
 
 /// A field of a panel.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct PanelField {
     /// The name of the parameter.
     pub name: String,
@@ -72,20 +74,6 @@ impl Panel {
     /// Creates the panel of an operation without values.
     pub fn new(entry: &Entry) -> Self {
         let schema = entry.schema();
-        let docs = recipe::fields(&schema);
-        let fields = docs.into_iter().map(|field| {
-            let json = &schema["properties"][&field.name];
-            PanelField {
-                kind: FieldKind::of(json, &schema),
-                name: field.name,
-                doc: field.doc,
-                type_name: field.kind,
-                variants: field.variants,
-                default: field.default,
-                value: None,
-                argument: None,
-            }
-        });
         Self {
             operation: entry.name.to_owned(),
             summary: entry.summary.to_owned(),
@@ -94,7 +82,7 @@ impl Panel {
                 .unwrap_or_default()
                 .to_owned(),
             example: entry.example.to_owned(),
-            fields: fields.collect(),
+            fields: panel_fields(&schema, &schema, 0),
             order: Vec::new(),
             schema,
         }
@@ -187,6 +175,26 @@ impl Panel {
             .map_or(name, |field| &field.name)
             .to_owned()
     }
+}
+
+/// Returns the fields of a struct. References in its schema are looked up in `root`.
+fn panel_fields(
+    json: &serde_json::Value,
+    root: &serde_json::Value,
+    depth: usize,
+) -> Vec<PanelField> {
+    let field = |field: recipe::FieldDoc| PanelField {
+        kind: FieldKind::at_depth(&json["properties"][&field.name], root, depth),
+        name: field.name,
+        doc: field.doc,
+        type_name: field.kind,
+        variants: field.variants,
+        default: field.default,
+        value: None,
+        argument: None,
+    };
+    let docs = recipe::fields_in(root, json);
+    docs.into_iter().map(field).collect()
 }
 
 /// Returns the name in `arg("name")`.

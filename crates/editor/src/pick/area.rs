@@ -1,10 +1,11 @@
 //! Picking in an area of the view: a box or a lasso.
 
-use mesh::{DVec2, Mesh, VertexId};
+use mesh::{DVec2, DVec3, Element, Mesh, VertexId};
 use op::{ElementKind, Selected};
 use scene::Scene;
 
-use super::Projection;
+use super::point::{Target, first_hit};
+use super::{Indexes, Projection};
 use crate::select::Picked;
 
 /// An area of the view, in pixels.
@@ -59,6 +60,52 @@ pub fn pick_area(scene: &Scene, view: &Projection, area: &Area, kind: ElementKin
         }
     }
     all
+}
+
+/// Keeps the picked elements that nothing hides: vertices, middles of edges, and centers of faces.
+pub fn keep_visible(scene: &Scene, indexes: &Indexes, view: &Projection, picked: &mut Vec<Picked>) {
+    let targets = Target::all(scene, indexes, view);
+    for set in &mut *picked {
+        let of_object = |(_, target): &(usize, &Target)| target.object == set.object;
+        let instances: Vec<(usize, &Target)> =
+            targets.iter().enumerate().filter(of_object).collect();
+        let is_visible = |element: Element| {
+            let mut instances = instances.iter();
+            instances.any(|&(i, target)| sees(&targets, i, target, element))
+        };
+        match &mut set.elements {
+            Selected::Vertices(list) => list.retain(|&v| is_visible(v.into())),
+            Selected::Edges(list) => list.retain(|&e| is_visible(e.into())),
+            Selected::Faces(list) => list.retain(|&f| is_visible(f.into())),
+        }
+    }
+    picked.retain(|set| !set.is_empty());
+}
+
+/// Whether nothing is before an element of an instance.
+fn sees(targets: &[Target], at: usize, target: &Target, element: Element) -> bool {
+    let points = target.mesh.element_points(element);
+    let middle = points.iter().sum::<DVec3>() / points.len() as f64;
+    let Some((pixel, _)) = target.view.to_pixel(middle) else {
+        return false;
+    };
+    let Some((i, hit)) = first_hit(targets, pixel) else {
+        return true;
+    };
+    let triangle = target.index.triangle(hit.triangle);
+    let is_at = i == at
+        && match element {
+            Element::Vertex(v) => triangle.vertices.contains(&v),
+            Element::Face(f) => triangle.face == f,
+            Element::Edge(e) => {
+                let ends = target.mesh.edge_vertices(e);
+                ends.iter().all(|v| triangle.vertices.contains(v))
+            }
+            Element::HalfEdge(_) => false,
+        };
+    let (origin, direction) = target.view.ray(pixel);
+    let t = (middle - origin).dot(direction) / direction.length_squared();
+    is_at || hit.t >= t * (1.0 - 1e-7)
 }
 
 fn inside(mesh: &Mesh, view: &Projection, area: &Area, kind: ElementKind) -> Selected {

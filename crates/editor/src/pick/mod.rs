@@ -5,7 +5,7 @@ mod index;
 mod point;
 mod projection;
 
-pub use area::{Area, pick_area};
+pub use area::{Area, keep_visible, pick_area};
 pub use index::Indexes;
 pub use point::{Hit, PICK_RADIUS, PickMode, pick};
 pub use projection::Projection;

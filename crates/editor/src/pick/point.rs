@@ -12,6 +12,7 @@ use std::sync::Arc;
 use geometry::surface_index::{RayHit, SurfaceIndex};
 use glam::DAffine3;
 use mesh::{DVec2, DVec3, Element, FaceId, HalfEdgeId, Mesh};
+use op::ElementKind;
 use scene::Scene;
 
 use super::{Indexes, Projection};
@@ -36,6 +37,17 @@ pub enum PickMode {
     HalfEdge,
     /// A face.
     Face,
+}
+
+impl PickMode {
+    /// Returns the kind of elements that a box, a lasso or a written selection picks.
+    pub fn kind(self) -> ElementKind {
+        match self {
+            Self::Vertex => ElementKind::Vertices,
+            Self::Edge | Self::HalfEdge => ElementKind::Edges,
+            Self::Any | Self::Face => ElementKind::Faces,
+        }
+    }
 }
 
 /// An element under the cursor.

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use engine::{StepDone, StepKey, new_bytes};
+use engine::{SceneMemory, StepDone, StepKey};
 use scene::{Digest, Scene};
 
 use super::state::Verdict;
@@ -57,14 +57,12 @@ impl Snapshots {
             .collect();
         // The newest come first. The keys make the order total.
         by_age.sort_unstable_by(|a, b| b.cmp(a));
-        let mut seen = std::collections::HashSet::new();
-        let mut total = 0_u64;
+        let mut total = SceneMemory::default();
         for (used, key) in by_age {
             let Some((snapshot, _)) = self.of_steps.get(&key) else {
                 continue;
             };
-            total = total.saturating_add(new_bytes(&snapshot.scene, &mut seen));
-            if total > memory && used < self.clock {
+            if total.add(&snapshot.scene) > memory && used < self.clock {
                 self.of_steps.remove(&key);
             }
         }

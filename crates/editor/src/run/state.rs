@@ -114,7 +114,12 @@ pub struct FailureState {
 impl RunState {
     /// Whether the recipe has errors, a step failed, or an expectation does not hold.
     pub fn has_failed(&self) -> bool {
-        !self.failures.is_empty() || self.diagnostics.iter().any(Diagnostic::is_error)
+        !self.failures.is_empty() || self.has_errors()
+    }
+
+    /// Whether the recipe has errors that were found before it ran.
+    pub(crate) fn has_errors(&self) -> bool {
+        self.diagnostics.iter().any(Diagnostic::is_error)
     }
 
     /// Whether the run goes on.

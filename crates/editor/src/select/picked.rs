@@ -89,13 +89,22 @@ impl Picked {
     pub fn toggle(&mut self, other: &Self) {
         let before = self.clone();
         self.add(other);
-        if self.object != before.object || self.elements != before.elements {
+        if self.object == before.object && self.elements == before.elements {
+            self.remove(other);
+        }
+    }
+
+    /// Removes the elements of another set of the same object and kind.
+    pub fn remove(&mut self, other: &Self) {
+        if self.object != other.object {
             return;
         }
         match (&mut self.elements, &other.elements) {
-            (Selected::Vertices(a), Selected::Vertices(b)) => a.retain(|v| !b.contains(v)),
-            (Selected::Edges(a), Selected::Edges(b)) => a.retain(|e| !b.contains(e)),
-            (Selected::Faces(a), Selected::Faces(b)) => a.retain(|f| !b.contains(f)),
+            (Selected::Vertices(a), Selected::Vertices(b)) => {
+                a.retain(|v| b.binary_search(v).is_err());
+            }
+            (Selected::Edges(a), Selected::Edges(b)) => a.retain(|e| b.binary_search(e).is_err()),
+            (Selected::Faces(a), Selected::Faces(b)) => a.retain(|f| b.binary_search(f).is_err()),
             _ => {}
         }
         self.half_edge = self

@@ -5,7 +5,7 @@ use mesh::Element;
 use scene::Digest;
 
 use super::*;
-use crate::{Action, Command, CommandError, Picked, Walk, walk};
+use crate::{Action, Command, CommandError, Movement, Picked, Walk, walk};
 
 const CUBE: &str = "// A cube.
 (
@@ -102,7 +102,7 @@ fn dragging_the_same_elements_twice_gives_one_step() {
     let start = editor.picked_center().unwrap();
     for x in [0.1, 0.2, 0.3] {
         editor
-            .move_picked(mesh::DVec3::new(x, 0.0, 0.0), true)
+            .move_picked(Movement::Offset(mesh::DVec3::new(x, 0.0, 0.0)), true)
             .unwrap();
     }
     settled(&mut editor);
@@ -113,8 +113,8 @@ fn dragging_the_same_elements_twice_gives_one_step() {
         mesh::DVec3::Y * 0.7,
         mesh::DVec3::X * -0.1,
     ] {
-        editor.move_picked(offset, true).unwrap();
-        editor.move_picked(offset, false).unwrap();
+        editor.move_picked(Movement::Offset(offset), true).unwrap();
+        editor.move_picked(Movement::Offset(offset), false).unwrap();
         settled(&mut editor);
     }
     assert!(
@@ -127,13 +127,109 @@ fn dragging_the_same_elements_twice_gives_one_step() {
     assert!(moved.distance(mesh::DVec3::new(0.2, 0.7, 0.0)) < 1e-12);
     // A drag that ends where it began changes nothing.
     let text = editor.text().to_owned();
-    editor.move_picked(mesh::DVec3::X, true).unwrap();
-    editor.move_picked(mesh::DVec3::ZERO, false).unwrap();
+    editor
+        .move_picked(Movement::Offset(mesh::DVec3::X), true)
+        .unwrap();
+    editor
+        .move_picked(Movement::Offset(mesh::DVec3::ZERO), false)
+        .unwrap();
     settled(&mut editor);
     assert_eq!(editor.text(), text);
     while editor.undo() {}
     settled(&mut editor);
     assert_eq!(editor.run().digest, digest);
+}
+
+#[test]
+fn rotating_and_scaling_the_same_elements_change_one_step() {
+    let (mut editor, _) = opened(CUBE);
+    let face = mesh::FaceId::new(0);
+    editor.set_picked(Some(Picked::one("cube", Element::Face(face))));
+    let start = editor.picked_center().unwrap();
+    let drag = |editor: &mut Editor, movement| {
+        editor.move_picked(movement, true).unwrap();
+        editor.move_picked(movement, false).unwrap();
+        settled(editor);
+    };
+    drag(&mut editor, Movement::Rotate(1, 30.0));
+    drag(&mut editor, Movement::Rotate(1, 15.0));
+    assert!(
+        editor.text().contains("by: Rotate(axis: Y, angle: 45))"),
+        "{}",
+        editor.text()
+    );
+    drag(&mut editor, Movement::Rotate(0, 10.0));
+    drag(
+        &mut editor,
+        Movement::Scale(mesh::DVec3::new(2.0, 1.0, 1.0)),
+    );
+    drag(&mut editor, Movement::Scale(mesh::DVec3::splat(0.5)));
+    assert!(
+        editor.text().contains("by: Scale((1, 0.5, 0.5)))"),
+        "{}",
+        editor.text()
+    );
+    // The cube, two rotations around different axes, and a scaling.
+    assert_eq!(editor.outline().steps.len(), 4);
+    // The center of the picked elements stays where it is.
+    assert!(editor.picked_center().unwrap().distance(start) < 1e-12);
+    // A drag that ends where it began writes nothing.
+    let text = editor.text().to_owned();
+    drag(&mut editor, Movement::Rotate(2, 0.0));
+    assert_eq!(editor.text(), text);
+}
+
+#[test]
+fn patches_become_a_mesh_by_one_change() {
+    let (mut editor, store) = editor();
+    let teapot = include_bytes!("../../../../scenes/assets/teapot.bez");
+    store.write(Path::new("teapot.bez"), teapot).unwrap();
+    editor.open(Path::new("teapot.bez")).unwrap();
+    settled(&mut editor);
+    assert_eq!(editor.patches(), ["teapot"]);
+    let text = editor.text().to_owned();
+    editor.turn_into_mesh().unwrap();
+    settled(&mut editor);
+    assert!(counts(&editor)[0] > 1000);
+    assert!(editor.patches().is_empty());
+    assert!(
+        editor
+            .text()
+            .contains("Tessellate(),\n        Weld(distance: 0),"),
+        "{}",
+        editor.text()
+    );
+    assert!(editor.undo());
+    assert_eq!(editor.text(), text);
+    // Other objects are not welded.
+    editor
+        .apply(&Command::new("Cube").with("name", "\"a\""))
+        .unwrap();
+    settled(&mut editor);
+    editor.turn_into_mesh().unwrap();
+    settled(&mut editor);
+    assert!(
+        editor
+            .text()
+            .contains("(run: Weld(distance: 0), on: [\"teapot\"])"),
+        "{}",
+        editor.text()
+    );
+}
+
+#[test]
+fn the_steps_after_a_preview_keep_their_results() {
+    let text = "(recipe: 1, steps: [Cube(name: \"a\"), PokeFaces()])";
+    let (mut editor, _) = opened(text);
+    editor.set_cursor(1);
+    editor.preview(&Command::new("Reverse")).unwrap();
+    settled(&mut editor);
+    let name = |editor: &Editor, item| {
+        editor.run().steps[editor.steps_of_item(item)][0]
+            .name
+            .clone()
+    };
+    assert_eq!([name(&editor, 0), name(&editor, 1)], ["Cube", "PokeFaces"]);
 }
 
 #[test]

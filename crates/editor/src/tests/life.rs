@@ -104,6 +104,53 @@ fn a_changed_model_runs_only_the_steps_from_its_load_on() {
 }
 
 #[test]
+fn a_recipe_that_is_saved_in_another_folder_loads_the_same_files() {
+    let (mut editor, store) = editor();
+    write(
+        &store,
+        "models/m.obj",
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+    );
+    write(&store, "recipes/b.ron", "(recipe: 1, steps: [])");
+    editor.open(Path::new("models/m.obj")).unwrap();
+    settled(&mut editor);
+    let digest = editor.run().digest;
+    editor.save_as(Path::new("recipes/a.ron")).unwrap();
+    assert!(
+        editor.text().contains("Load(path: \"../models/m.obj\")"),
+        "{}",
+        editor.text()
+    );
+    assert!(!editor.document().is_dirty());
+    settled(&mut editor);
+    assert_eq!(editor.run().digest, digest);
+    // In the same folder, the text stays.
+    let text = editor.text().to_owned();
+    editor.save_as(Path::new("recipes/c.ron")).unwrap();
+    assert_eq!(editor.text(), text);
+}
+
+#[test]
+fn an_error_in_the_text_keeps_the_last_scene() {
+    let (mut editor, _) = opened(LINE);
+    let good = editor.view().scene;
+    for wrong in ["(recipe: 1, steps: [", &LINE.replace("Poke", "Pook"), ""] {
+        editor.set_text(wrong);
+        settle(&mut editor);
+        let view = editor.view();
+        assert!(
+            Arc::ptr_eq(&view.scene, &good) && !view.is_current,
+            "{wrong}"
+        );
+    }
+    // Before the first step, the scene is empty.
+    editor.set_text(&LINE.replace("Poke", "Pook"));
+    editor.set_cursor(0);
+    settle(&mut editor);
+    assert!(editor.view().scene.objects().is_empty());
+}
+
+#[test]
 fn unsaved_text_is_offered_after_a_crash() {
     let store = Arc::new(Memory::default());
     let settings = Settings {

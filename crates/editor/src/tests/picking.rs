@@ -4,7 +4,7 @@ use op::ElementKind;
 use scene::{Object, Scene};
 
 use crate::select::propose_one;
-use crate::{Area, Indexes, PickMode, Picked, Projection, pick, pick_area, propose};
+use crate::{Area, Indexes, PickMode, Picked, Projection, keep_visible, pick, pick_area, propose};
 
 /// Looks from z = 5 at the square from (-1, -1) to (1, 1), which is 800 pixels wide.
 fn front() -> Projection {
@@ -94,6 +94,22 @@ fn a_box_and_a_lasso_pick_what_lies_inside() {
     );
     let nothing = Area::Box(DVec2::ZERO, DVec2::splat(10.0));
     assert!(pick_area(&scene, &front(), &nothing, ElementKind::Edges).is_empty());
+}
+
+#[test]
+fn hidden_elements_are_removed_from_an_area() {
+    let scene = cube();
+    let indexes = Indexes::new();
+    let mesh = scene.objects()[0].as_mesh().unwrap();
+    assert!(indexes.wait_for(mesh).is_some());
+    let whole = Area::Box(DVec2::splat(700.0), DVec2::splat(100.0));
+    let mut picked = pick_area(&scene, &front(), &whole, ElementKind::Faces);
+    keep_visible(&scene, &indexes, &front(), &mut picked);
+    let facing = |z: f64| mesh.faces().find(|&f| mesh.face_normal(f).z == z).unwrap();
+    assert!(picked[0].contains(facing(1.0).into()));
+    assert!(!picked[0].contains(facing(-1.0).into()));
+    let back = pick_area(&scene, &front(), &whole, ElementKind::Vertices);
+    assert_eq!(back[0].len(), 8);
 }
 
 #[test]

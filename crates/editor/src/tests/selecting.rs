@@ -163,6 +163,53 @@ fn a_selection_of_another_kind_is_converted_and_names_its_object() {
 }
 
 #[test]
+fn a_written_selection_picks_its_elements_and_is_used_by_the_next_step() {
+    let (mut editor, _) = opened("(recipe: 1, steps: [Cube(name: \"a\")])");
+    // Without a pick, the first mesh and a kind that fits are used.
+    editor
+        .pick_by_text("Sharp(above: 30)", ElementKind::Faces)
+        .unwrap();
+    let picked = editor.picked().unwrap();
+    assert_eq!((picked.kind(), picked.len()), (ElementKind::Edges, 12));
+    assert_eq!(editor.selection().unwrap().text, "Sharp(above: 30)");
+    editor.next_proposal();
+    let other = editor.selection().unwrap().text;
+    assert_ne!(other, "Sharp(above: 30)");
+    let again = Picked::by_text(&editor.view().scene, "a", &other, Some(ElementKind::Edges));
+    assert_eq!(again.unwrap().len(), 12);
+    // A wrong text keeps the picked elements.
+    for wrong in [
+        "Sharp(",
+        "Sharp(over: 3)",
+        "Between(0, 99)",
+        "Longer(than: 1000)",
+    ] {
+        assert!(
+            editor.pick_by_text(wrong, ElementKind::Edges).is_err(),
+            "{wrong}"
+        );
+        assert_eq!(editor.picked().unwrap().len(), 12);
+    }
+}
+
+#[test]
+fn the_selections_of_a_large_pick_are_searched_beside_the_window() {
+    let text = "(recipe: 1, steps: [Grid(name: \"a\", columns: 180, rows: 180)])";
+    let (mut editor, _) = opened(text);
+    let scene = editor.view().scene;
+    let kind = ElementKind::Faces;
+    let set = Picked::by_text(&scene, "a", "Random(count: 500, seed: 3)", Some(kind)).unwrap();
+    editor.set_picked(Some(set.clone()));
+    while editor.is_searching() {
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    assert_eq!(editor.proposals(), propose(&scene, &set, ""));
+    // A command waits for the search.
+    editor.set_picked(Some(set));
+    assert!(editor.selection().is_some());
+}
+
+#[test]
 fn sets_are_joined_and_toggled() {
     let faces = |list: &[usize]| {
         Picked::new(

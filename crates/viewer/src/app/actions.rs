@@ -11,6 +11,8 @@ use crate::files;
 use crate::gpu::Wireframe;
 use crate::inspector::Draft;
 use crate::palette::Palette;
+use crate::paths::{self, Purpose};
+use crate::view_pane::Tool;
 
 impl Parts {
     /// Does what a key or a menu asks for.
@@ -36,7 +38,9 @@ impl Parts {
                     Shading::Flat
                 };
             }
-            Action::Move => self.view.shows_arrows = !self.view.shows_arrows,
+            Action::Move => self.toggle_tool(Tool::Move),
+            Action::Rotate => self.toggle_tool(Tool::Rotate),
+            Action::Scale => self.toggle_tool(Tool::Scale),
             Action::Information => self.shows_information = !self.shows_information,
             Action::Help => self.shows_help = !self.shows_help,
             Action::ResetView => self.view.reset(),
@@ -48,13 +52,9 @@ impl Parts {
             Action::Redo => {
                 self.editor.redo();
             }
-            Action::Save => files::save(self),
-            Action::SaveAs => files::save_as(self),
-            Action::Open => {
-                if let Some(path) = files::ask_open() {
-                    self.drop_document(Pending::Open(path), ctx);
-                }
-            }
+            Action::Save => files::save(self, ctx),
+            Action::SaveAs => paths::ask(self, Purpose::SaveRecipe, ctx),
+            Action::Open => paths::ask(self, Purpose::Open, ctx),
             Action::New => self.drop_document(Pending::New, ctx),
             Action::Quit => self.drop_document(Pending::Close, ctx),
             Action::Cancel => self.cancel(),
@@ -78,10 +78,12 @@ impl Parts {
             Action::PickEdges => self.view.mode = editor::PickMode::Edge,
             Action::PickFaces => self.view.mode = editor::PickMode::Face,
             Action::PickHalfEdges => self.view.mode = editor::PickMode::HalfEdge,
-            Action::Grow => self.around_picked("Grow"),
-            Action::Shrink => self.around_picked("Shrink"),
-            Action::EdgeLoop => self.around_picked("EdgeLoop"),
-            Action::EdgeRing => self.around_picked("EdgeRing"),
+            Action::Grow => self.change_picked(Picked::grown),
+            Action::Shrink => self.change_picked(Picked::shrunk),
+            Action::EdgeLoop => self.pick_through("EdgeLoop"),
+            Action::EdgeRing => self.pick_through("EdgeRing"),
+            Action::Path => self.pick_path(),
+            Action::ByAngle => self.pick_by_angle(),
             Action::SelectAll => self.pick_all(),
             _ => {
                 if let Some(command) = self.editor.command_of(action) {
@@ -125,6 +127,15 @@ impl Parts {
             self.apply(&command);
         } else {
             self.draft = Some(Draft::new(panel, entry.example));
+        }
+    }
+
+    /// Shows the handles of a tool, or hides them.
+    fn toggle_tool(&mut self, tool: Tool) {
+        let view = &mut self.view;
+        view.tool = (view.tool != Some(tool)).then_some(tool);
+        if view.tool.is_some() && self.editor.picked().is_none() {
+            self.inform("Pick elements: the handles appear at them.");
         }
     }
 
@@ -176,6 +187,7 @@ impl Parts {
         if self.palette.take().is_some()
             || std::mem::take(&mut self.shows_help)
             || self.pending.take().is_some()
+            || self.prompt.take().is_some()
         {
             return;
         }

@@ -8,24 +8,30 @@ mod remembered;
 
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use editor::{Action, Editor, FileChange, Keys, Settings};
 use eframe::egui::{self, Ui};
 use eframe::egui_wgpu;
 use egui_tiles::Tree;
 use mesh::Mesh;
+use op::Registry;
 use scene::ErrorLocation;
 
+use crate::export::Export;
 use crate::inspector::Draft;
 use crate::palette::Palette;
+use crate::paths::Prompt;
 use crate::player::Player;
 use crate::text_pane::TextPane;
 use crate::view_pane::{Loss, Shown, ViewPane};
-use crate::{controls, files, help, keyboard, overlay, theme, top_bar};
+use crate::{controls, files, help, keyboard, overlay, paths, theme, top_bar};
 pub(crate) use documents::Pending;
 use layout::Pane;
 pub(crate) use remembered::Remembered;
+
+/// The time after which the window shows the progress of a run.
+const LONG: Duration = Duration::from_millis(100);
 
 /// A message at the top of the view.
 #[derive(Clone, Debug)]
@@ -35,12 +41,27 @@ pub(crate) struct Notice {
 }
 
 /// What to open at the start.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Start {
+    /// The operations.
+    pub registry: Arc<Registry>,
     /// A model or a recipe.
     pub path: Option<PathBuf>,
     /// The folder for the list of recent files and the recovery of texts. If omitted, nothing is stored.
     pub state_folder: Option<PathBuf>,
+    /// Whether paths of files are asked for by dialogs of the system, and not by a line in the window.
+    pub has_dialogs: bool,
+}
+
+impl Default for Start {
+    fn default() -> Self {
+        Self {
+            registry: Arc::new(ops_all::registry()),
+            path: None,
+            state_folder: None,
+            has_dialogs: false,
+        }
+    }
 }
 
 /// The window of the editor.
@@ -52,6 +73,10 @@ pub struct App {
 }
 
 /// Everything except for the layout of the tiles.
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "the flags are independent of each other"
+)]
 pub(crate) struct Parts {
     pub(crate) editor: Editor,
     pub(crate) view: ViewPane,
@@ -68,8 +93,16 @@ pub(crate) struct Parts {
     pub(crate) shows_information: bool,
     pub(crate) notice: Option<Notice>,
     pub(crate) files: files::Files,
+    /// Whether paths are asked for by dialogs of the system.
+    pub(crate) has_dialogs: bool,
+    /// A path that is being written in the window.
+    pub(crate) prompt: Option<Prompt>,
+    /// An animation that is being written.
+    pub(crate) export: Option<Export>,
     /// What the user wants to do although the recipe has unsaved changes.
     pub(crate) pending: Option<Pending>,
+    /// When the run has begun, while it goes on.
+    running_since: Option<Instant>,
     /// The places of errors that are shown in the view.
     places: Vec<ErrorLocation>,
     description: String,
@@ -80,14 +113,13 @@ impl App {
     /// Creates the window's contents. Opens the file of `start`, if there is one.
     pub fn new(ctx: &egui::Context, gpu: Option<&egui_wgpu::RenderState>, start: &Start) -> Self {
         theme::apply(ctx);
-        let registry = Arc::new(ops_all::registry());
         // Before this editor has a journal of its own.
         let files = files::Files::new(start.state_folder.clone());
         let settings = Settings {
             journals: files::journals(start.state_folder.as_deref()),
             ..Settings::default()
         };
-        let editor = Editor::new(registry, Arc::new(engine::Disk), settings);
+        let editor = Editor::new(start.registry.clone(), Arc::new(engine::Disk), settings);
         let wake = ctx.clone();
         editor.on_wake(Arc::new(move || wake.request_repaint()));
         let mut parts = Parts {
@@ -103,7 +135,11 @@ impl App {
             shows_information: false,
             notice: None,
             files,
+            has_dialogs: start.has_dialogs,
+            prompt: None,
+            export: None,
             pending: None,
+            running_since: None,
             places: Vec::new(),
             description: String::new(),
             is_closing: false,
@@ -157,7 +193,12 @@ impl eframe::App for App {
     fn ui(&mut self, ui: &mut Ui, _: &mut eframe::Frame) {
         let ctx = ui.ctx().clone();
         self.parts.dropped_files(&ctx);
-        for action in keyboard::actions(&ctx, &self.parts.keys, self.parts.is_modal()) {
+        for action in keyboard::actions(
+            &ctx,
+            &self.parts.keys,
+            self.parts.is_modal(),
+            self.parts.view.id,
+        ) {
             self.parts.act(action, &ctx);
         }
         top_bar::top(ui, &mut self.parts);
@@ -204,9 +245,18 @@ impl Parts {
             ctx.request_repaint();
         }
         if self.editor.is_running() {
+            self.running_since.get_or_insert_with(Instant::now);
             // Progress has no event of its own.
-            ctx.request_repaint_after(Duration::from_millis(100));
+            ctx.request_repaint_after(LONG);
+        } else {
+            self.running_since = None;
         }
+    }
+
+    /// Whether the run takes so long that the window shows its progress.
+    pub(crate) fn runs_long(&self) -> bool {
+        self.running_since
+            .is_some_and(|since| since.elapsed() >= LONG)
     }
 
     /// Returns the places of failures in the scene at the cursor.
@@ -224,7 +274,7 @@ impl Parts {
 
     /// Whether a dialog has the keyboard.
     fn is_modal(&self) -> bool {
-        self.palette.is_some() || self.pending.is_some() || self.shows_help
+        self.palette.is_some() || self.pending.is_some() || self.prompt.is_some() || self.shows_help
     }
 
     pub(crate) fn inform(&mut self, text: impl Into<String>) {
@@ -261,6 +311,7 @@ impl Parts {
         help::ui(ctx, self);
         crate::palette::ui(ctx, self);
         files::question(ctx, self);
+        paths::ui(ctx, self);
     }
 
     /// Returns the mesh with the picked elements.
@@ -272,6 +323,7 @@ impl Parts {
 
     fn view_ui(&mut self, ui: &mut Ui) {
         self.advance_player(ui);
+        self.show_exported();
         let view = self.editor.view();
         let picked = self.editor.picked().cloned();
         self.description = match (&picked, self.picked_mesh()) {
@@ -279,23 +331,24 @@ impl Parts {
             _ => String::new(),
         };
         let rect = ui.max_rect();
-        let base = self.base();
+        let gizmo = self.gizmo();
         let player = self.player.as_ref();
         let shown = Shown {
             scene: Some(player.map_or(&view.scene, Player::scene)),
             picked: picked.as_ref().filter(|_| player.is_none()),
             edge: player.and_then(Player::edge),
-            base,
+            gizmo,
             can_pick: player.is_none(),
             places: &self.places,
             indexes: self.editor.indexes(),
             description: &self.description,
-            is_stale: !view.is_current && !self.editor.is_running(),
+            is_stale: !view.is_current && (self.runs_long() || !self.editor.is_running()),
         };
         let events = self.view.ui(ui, &shown);
         for event in events {
             self.view_event(event, &view.scene);
         }
+        self.take_exported(ui.ctx());
         controls::over_view(ui, rect, self);
     }
 

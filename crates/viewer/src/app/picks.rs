@@ -8,10 +8,20 @@ use op::Selected;
 use scene::Scene;
 
 use super::Parts;
-use crate::view_pane::ViewEvent;
+use crate::view_pane::{Gizmo, Tool, ViewEvent};
+
+/// The first angle at which picking by angle stops, in degrees. It can be changed in the text of the selection.
+const ANGLE: u32 = 30;
 
 impl Parts {
     pub(super) fn view_event(&mut self, event: ViewEvent, scene: &Scene) {
+        let picks = matches!(event, ViewEvent::Click { .. } | ViewEvent::Area { .. });
+        if picks && self.draft.is_some() && self.editor.is_preview() {
+            // The elements of the preview are not those that the new step acts on.
+            self.editor.end_preview();
+            self.inform("This is the scene before the new step: pick its elements.");
+            return;
+        }
         match event {
             ViewEvent::Click {
                 hit: None, extends, ..
@@ -43,18 +53,20 @@ impl Parts {
                 };
                 self.editor.set_picked(Some(picked));
             }
-            ViewEvent::Area { picked, extends } => {
-                let mut all = self.editor.picked().cloned().filter(|_| extends);
+            ViewEvent::Area { picked, removes } => {
+                let mut all = self.editor.picked().cloned();
                 for new in &picked {
                     match &mut all {
+                        Some(all) if removes => all.remove(new),
+                        None if removes => {}
                         Some(all) => all.add(new),
                         None => all = Some(new.clone()),
                     }
                 }
                 self.editor.set_picked(all);
             }
-            ViewEvent::Move { offset, is_done } => {
-                let result = self.editor.move_picked(offset, !is_done);
+            ViewEvent::Move { by, is_done } => {
+                let result = self.editor.move_picked(by, !is_done);
                 self.report(result);
             }
             ViewEvent::MoveControlPoint {
@@ -69,67 +81,106 @@ impl Parts {
         }
     }
 
-    /// Returns where the arrows that move the picked elements are shown: at the mean of their vertices, in scene units.
-    pub(super) fn base(&self) -> Option<DVec3> {
-        if !self.view.shows_arrows || self.player.is_some() {
+    /// Returns the handles at the picked elements.
+    pub(super) fn gizmo(&self) -> Option<Gizmo> {
+        let tool = self.view.tool?;
+        if self.player.is_some() || self.draft.is_some() {
             return None;
         }
-        self.editor.picked_center()
+        Some(Gizmo {
+            tool,
+            base: self.editor.picked_center()?,
+            axes: match tool {
+                Tool::Move => [DVec3::X, DVec3::Y, DVec3::Z],
+                Tool::Rotate | Tool::Scale => self.editor.picked_axes(),
+            },
+        })
     }
 
     fn pick_edge_loop(&mut self, mesh: &Mesh, object: &str, half_edge: Option<HalfEdgeId>) {
         let Some(h) = half_edge else { return };
+        self.editor
+            .set_picked(Some(Picked::one(object, Element::HalfEdge(h))));
         let [v, w] = [mesh.origin(h), mesh.target(h)].map(mesh::VertexId::index);
-        self.pick_text(
-            object,
-            mesh,
-            &format!("EdgeLoop(Between({v}, {w}))"),
-            op::ElementKind::Edges,
-        );
+        self.pick_checked(&format!("EdgeLoop(Between({v}, {w}))"));
     }
 
-    /// Picks the elements of a selection.
-    pub(crate) fn pick_text(
-        &mut self,
-        object: &str,
-        mesh: &Mesh,
-        text: &str,
-        kind: op::ElementKind,
-    ) {
-        let scene = self.editor.view().scene;
-        let found = scene.object(object).and_then(|of| {
-            let elements = recipe::read_selection(text, Some(kind)).ok()?;
-            recipe::resolve(&elements, &scene, of, mesh, "").ok()
-        });
-        if let Some(found) = found.filter(|found| !found.is_empty()) {
-            let half_edge = self.editor.picked().and_then(|picked| picked.half_edge);
-            let mut picked = Picked::new(object, found);
-            picked.half_edge = half_edge.filter(|&h| picked.contains(Element::HalfEdge(h)));
-            self.editor.set_picked(Some(picked));
+    /// Picks the elements that a selection means, and uses this selection for the next step.
+    pub(crate) fn pick_text(&mut self, text: &str) {
+        let kind = self.view.mode.kind();
+        let result = self.editor.pick_by_text(text, kind);
+        self.report(result);
+    }
+
+    /// As [`pick_text`](Self::pick_text), but the next step fails if the selection means another number of elements.
+    fn pick_checked(&mut self, text: &str) {
+        self.pick_text(text);
+        let n = self.editor.picked().map(Picked::len);
+        if let Some(n) = n.filter(|_| self.notice.is_none()) {
+            self.pick_text(&format!("Expect(count: {n}, of: {text})"));
         }
     }
 
-    pub(super) fn around_picked(&mut self, function: &str) {
-        let (Some(mesh), Some(picked)) = (self.picked_mesh(), self.editor.picked().cloned()) else {
+    /// Picks the shortest path between two picked vertices.
+    pub(super) fn pick_path(&mut self) {
+        let picked = self.editor.picked().map(|picked| &picked.elements);
+        let Some(Selected::Vertices(list)) = picked else {
+            self.inform("Pick the two vertices at the ends of the path first.");
             return;
         };
-        let inner = match &picked.elements {
-            Selected::Vertices(list) => list_of("Vertices", list.iter().map(|v| v.index())),
-            Selected::Faces(list) => list_of("Faces", list.iter().map(|f| f.index())),
-            Selected::Edges(list) => {
-                let between = list.iter().map(|&e| {
-                    let [v, w] = mesh.edge_vertices(e).map(mesh::VertexId::index);
-                    format!("Between({v}, {w})")
-                });
-                format!("Or([{}])", between.collect::<Vec<_>>().join(", "))
-            }
+        if let [from, to] = list[..] {
+            self.pick_checked(&format!("Path(from: {}, to: {})", from.index(), to.index()));
+        } else {
+            self.inform("A path has two ends: pick two vertices.");
+        }
+    }
+
+    /// Picks the faces around the picked faces, up to edges that are sharper than an angle.
+    pub(super) fn pick_by_angle(&mut self) {
+        let picked = self.editor.picked().map(|picked| &picked.elements);
+        let Some(Selected::Faces(list)) = picked else {
+            self.inform("Pick a face first: its neighbors are picked up to sharp edges.");
+            return;
         };
-        self.pick_text(
-            &picked.object,
-            &mesh,
-            &format!("{function}({inner})"),
-            picked.kind(),
-        );
+        let ids: Vec<String> = list.iter().map(|f| f.index().to_string()).collect();
+        let of = format!("Faces([{}])", ids.join(", "));
+        self.pick_checked(&format!("Expand(to_angle: {ANGLE}, of: {of})"));
+    }
+
+    /// Replaces the picked elements by those that follow from them, unless there are none.
+    pub(super) fn change_picked(&mut self, change: impl Fn(&Picked, &Mesh) -> Picked) {
+        if let (Some(mesh), Some(picked)) = (self.picked_mesh(), self.editor.picked()) {
+            let new = change(picked, &mesh);
+            if !new.is_empty() {
+                self.editor.set_picked(Some(new));
+            }
+        }
+    }
+
+    /// Picks the edge loops or the edge rings through the picked edges.
+    pub(super) fn pick_through(&mut self, function: &str) {
+        let scene = self.editor.view().scene;
+        self.change_picked(|picked, mesh| {
+            let mut all = picked.clone();
+            let Selected::Edges(list) = &picked.elements else {
+                return all;
+            };
+            // Most edges are in the loop of an edge before.
+            let mut rest = list.clone();
+            while let Some(e) = rest.first() {
+                let [v, w] = mesh.edge_vertices(*e).map(mesh::VertexId::index);
+                let text = format!("{function}(Between({v}, {w}))");
+                let kind = Some(op::ElementKind::Edges);
+                let Ok(new) = Picked::by_text(&scene, &picked.object, &text, kind) else {
+                    return all;
+                };
+                let is_new = |e: &mesh::EdgeId| !new.contains(Element::Edge(*e));
+                rest = rest.split_off(1);
+                rest.retain(is_new);
+                all.add(&new);
+            }
+            all
+        });
     }
 
     pub(super) fn pick_all(&mut self) {
@@ -141,20 +192,11 @@ impl Parts {
         else {
             return;
         };
-        let kind = match self.view.mode {
-            editor::PickMode::Vertex => op::ElementKind::Vertices,
-            editor::PickMode::Edge | editor::PickMode::HalfEdge => op::ElementKind::Edges,
-            _ => op::ElementKind::Faces,
-        };
-        self.pick_text(&name, &mesh, "All", kind);
+        let all = Picked::all(&name, &mesh, self.view.mode.kind());
+        self.editor.set_picked(Some(all));
     }
 }
 
 fn mesh_of(scene: &Scene, object: &str) -> Option<Arc<Mesh>> {
     scene.object(object)?.as_mesh().cloned()
-}
-
-fn list_of(name: &str, items: impl Iterator<Item = usize>) -> String {
-    let items: Vec<String> = items.map(|i| i.to_string()).collect();
-    format!("{name}([{}])", items.join(", "))
 }

@@ -67,6 +67,20 @@ impl Default for Look {
 }
 
 impl Look {
+    /// Shows numbers as colors, without the edges, which would cover the colors. If `None`, shows the colors of the materials
+    /// with the edges again.
+    pub(crate) fn set_color_by(&mut self, color_by: Option<ColorBy>) {
+        let (before, after) = if color_by.is_some() {
+            (Wireframe::Shaded, Wireframe::None)
+        } else {
+            (Wireframe::None, Wireframe::Shaded)
+        };
+        if self.color_by.is_some() != color_by.is_some() && self.wireframe == before {
+            self.wireframe = after;
+        }
+        self.color_by = color_by;
+    }
+
     /// Returns the colors at the bottom and at the top of the background, in sRGB.
     pub fn background(&self) -> [Color; 2] {
         if self.is_dark {

@@ -9,6 +9,7 @@ use render::{Color, ColorMap, Image, Shading};
 use scene::Scene;
 use wgpu::util::DeviceExt;
 
+use super::colors::narrow_range;
 use super::geometry::{LineInstance, SurfaceLook, narrow};
 use super::grid::grid;
 use super::objects::{self, Key, Uploaded};
@@ -162,7 +163,8 @@ impl Painter {
                     None
                 }
             });
-        let colorings = numbers.unwrap_or_default();
+        let mut colorings = numbers.unwrap_or_default();
+        narrow_range(&mut colorings, look);
         self.legend = colorings
             .first()
             .zip(look.color_by.as_ref())

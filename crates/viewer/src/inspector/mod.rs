@@ -1,55 +1,18 @@
 //! The panel at the right: the picked elements, the parameters of a step, and the parameters of the recipe.
 
+mod draft;
 mod picked;
 
-use editor::{Command, FieldKind, Panel, SelectionText};
-use eframe::egui::{self, Align, Button, Label, Layout, Margin, RichText, ScrollArea, Ui};
+use editor::{FieldKind, Panel, SelectionText};
+use eframe::egui::{self, Button, CollapsingHeader, Label, Margin, RichText, ScrollArea, Ui};
 use recipe::Param;
 
 use crate::app::Parts;
 use crate::field::{self, Change, Field};
 use crate::player;
-use crate::steps_pane::heading;
 use crate::theme::Colors;
 use crate::widgets::{counts, grouped};
-
-/// An operation whose parameters are being chosen.
-#[derive(Clone, Debug)]
-pub(crate) struct Draft {
-    panel: Panel,
-}
-
-impl Draft {
-    /// Creates a draft. Parameters that are required get the value of the example, except for selections.
-    pub(crate) fn new(mut panel: Panel, example: &str) -> Self {
-        let parsed = ron_tree::parse(example);
-        for field in parsed.value.fields() {
-            let value = field.value.span.of(example);
-            let is_needed = panel.field(&field.name.text).is_some_and(|field| {
-                field.is_missing() && !matches!(field.kind.inner(), FieldKind::Selection(_))
-            });
-            if is_needed {
-                panel.set(&field.name.text, Some(value));
-            }
-        }
-        Self { panel }
-    }
-
-    /// Returns the command of the draft.
-    fn command(&self, selection: Option<SelectionText>) -> Command {
-        let values = self
-            .panel
-            .fields
-            .iter()
-            .filter_map(|field| Some((field.name.clone(), field.value.clone()?)));
-        Command {
-            operation: self.panel.operation.clone(),
-            parameters: values.collect(),
-            selection,
-            ..Command::default()
-        }
-    }
-}
+pub(crate) use draft::Draft;
 
 pub(crate) fn ui(ui: &mut Ui, parts: &mut Parts) {
     egui::Frame::new()
@@ -59,19 +22,65 @@ pub(crate) fn ui(ui: &mut Ui, parts: &mut Parts) {
                 .auto_shrink([false, false])
                 .show(ui, |ui| {
                     if parts.draft.is_some() {
-                        draft(ui, parts);
+                        draft::ui(ui, parts);
                         ui.add_space(12.0);
                     }
                     player::ui(ui, parts);
-                    picked::picked(ui, parts);
-                    ui.add_space(12.0);
-                    recipe_parameters(ui, parts);
-                    step(ui, parts);
+                    section(ui, "picked", "Picked", |ui| picked::picked(ui, parts));
+                    let title = step_title(parts);
+                    section(ui, "step", &title, |ui| step(ui, parts));
+                    if !parts.editor.outline().parameters.is_empty() {
+                        section(ui, "parameters", "Parameters of the recipe", |ui| {
+                            recipe_parameters(ui, parts);
+                        });
+                    }
+                    picked::half_edge(ui, parts);
                     if parts.shows_information {
-                        ui.add_space(12.0);
-                        information(ui, parts);
+                        section(ui, "scene", "Scene", |ui| information(ui, parts));
                     }
                 });
+        });
+}
+
+/// A part of the panel that can be closed. `name` stays the same when the title changes.
+fn section(ui: &mut Ui, name: &str, title: &str, contents: impl FnOnce(&mut Ui)) {
+    let color = Colors::current(ui).text;
+    CollapsingHeader::new(RichText::new(title).strong().size(13.0).color(color))
+        .id_salt(name)
+        .default_open(true)
+        .show_unindented(ui, |ui| {
+            contents(ui);
+            ui.add_space(8.0);
+        });
+    ui.separator();
+}
+
+/// Returns the title of the step at the cursor.
+fn step_title(parts: &Parts) -> String {
+    let steps = &parts.editor.outline().steps;
+    let at = parts.editor.cursor().checked_sub(1);
+    match at.and_then(|at| Some((at, steps.get(at)?))) {
+        Some((at, step)) if !step.name.is_empty() => format!("{} (step {})", step.name, at + 1),
+        _ => "Step".to_owned(),
+    }
+}
+
+/// Returns the selection that means the picked elements. `None` while it is searched.
+fn known_selection(parts: &mut Parts) -> Option<SelectionText> {
+    let is_known = !parts.editor.is_searching();
+    is_known.then(|| parts.editor.selection()).flatten()
+}
+
+/// What an operation does: in one line, and in full after a click.
+fn about(ui: &mut Ui, panel: &Panel) {
+    weak(ui, &panel.summary);
+    let title = RichText::new("About this operation").size(12.0);
+    CollapsingHeader::new(title)
+        .id_salt(("about", &panel.operation))
+        .show(ui, |ui| {
+            weak(ui, &panel.doc);
+            let example = RichText::new(&panel.example).monospace().size(11.5);
+            ui.add(Label::new(example).wrap());
         });
 }
 
@@ -80,75 +89,9 @@ fn weak(ui: &mut Ui, text: &str) {
     ui.add(Label::new(RichText::new(text).size(12.0).color(color)).wrap());
 }
 
-/// The parameters of a new step.
-fn draft(ui: &mut Ui, parts: &mut Parts) {
-    let Some(mut draft) = parts.draft.take() else {
-        return;
-    };
-    let colors = Colors::current(ui);
-    let mut closes = false;
-    heading(ui, &format!("New step: {}", draft.panel.operation), |ui| {
-        closes = ui.small_button("Cancel").clicked();
-    });
-    weak(ui, &draft.panel.summary.clone());
-    let selection = parts.editor.selection();
-    for i in 0..draft.panel.fields.len() {
-        let of = draft.panel.fields[i].clone();
-        let change = field::ui(
-            ui,
-            &Field {
-                of: &of,
-                live: None,
-                selection: selection.as_ref(),
-                salt: "draft",
-            },
-        );
-        match change {
-            Some(Change::Set(value) | Change::Drag(value)) => {
-                draft.panel.set(&of.name, Some(&value));
-            }
-            Some(Change::Reset) => draft.panel.set(&of.name, None),
-            None => {}
-        }
-    }
-    let command = draft.command(selection);
-    let problem = parts.editor.steps_of(&command).err();
-    if let Some(problem) = &problem {
-        ui.add(
-            Label::new(
-                RichText::new(problem.to_string())
-                    .size(12.0)
-                    .color(colors.bad),
-            )
-            .wrap(),
-        );
-    }
-    ui.add_space(4.0);
-    let mut applies = false;
-    ui.horizontal(|ui| {
-        let apply = Button::new("Apply").fill(colors.accent_fill);
-        applies = ui.add_enabled(problem.is_none(), apply).clicked();
-        if ui
-            .add_enabled(problem.is_none(), Button::new("Preview"))
-            .clicked()
-            && let Err(error) = parts.editor.preview(&command)
-        {
-            parts.warn(error.to_string());
-        }
-    });
-    if applies {
-        parts.apply(&command);
-    } else if closes {
-        parts.editor.end_preview();
-    } else {
-        parts.draft = Some(draft);
-    }
-}
-
 /// The parameters of the step at the cursor.
 fn step(ui: &mut Ui, parts: &mut Parts) {
     let Some(step) = parts.editor.cursor().checked_sub(1) else {
-        heading(ui, "Step", |_| {});
         weak(
             ui,
             "The cursor is before the first step. Click a step at the left.",
@@ -156,7 +99,6 @@ fn step(ui: &mut Ui, parts: &mut Parts) {
         return;
     };
     let Some(panel) = parts.editor.panel(step) else {
-        heading(ui, "Step", |_| {});
         weak(
             ui,
             "The operation of this step is unknown. Correct its name in the recipe.",
@@ -164,14 +106,7 @@ fn step(ui: &mut Ui, parts: &mut Parts) {
         return;
     };
     let colors = Colors::current(ui);
-    heading(ui, &panel.operation, |ui| {
-        ui.label(
-            RichText::new(format!("step {}", step + 1))
-                .small()
-                .color(colors.weak),
-        );
-    });
-    weak(ui, &panel.summary);
+    about(ui, &panel);
     let play = Button::new("Play the edits").small();
     if parts.editor.has_edits(step)
         && parts.player.is_none()
@@ -185,7 +120,7 @@ fn step(ui: &mut Ui, parts: &mut Parts) {
         parts.play(step);
     }
     let problems = panel.problems();
-    let selection = parts.editor.selection();
+    let selection = known_selection(parts);
     for of in &panel.fields {
         let live = parts
             .dragged
@@ -228,10 +163,6 @@ fn step(ui: &mut Ui, parts: &mut Parts) {
 /// The parameters of the recipe as sliders.
 fn recipe_parameters(ui: &mut Ui, parts: &mut Parts) {
     let parameters = parts.editor.outline().parameters.clone();
-    if parameters.is_empty() {
-        return;
-    }
-    heading(ui, "Parameters of the recipe", |_| {});
     for parameter in &parameters {
         let Some((of, param)) = parameter.default.zip(parameter.param.as_ref()) else {
             continue;
@@ -268,7 +199,6 @@ fn recipe_parameters(ui: &mut Ui, parts: &mut Parts) {
         };
         parts.report(result);
     }
-    ui.add_space(12.0);
 }
 
 /// Returns a parameter of the recipe in the form of a parameter of an operation.
@@ -303,9 +233,6 @@ fn panel_field(name: &str, param: &Param, value: String) -> editor::PanelField {
 /// The objects of the scene.
 fn information(ui: &mut Ui, parts: &Parts) {
     let colors = Colors::current(ui);
-    heading(ui, "Scene", |ui| {
-        ui.with_layout(Layout::right_to_left(Align::Center), |_| {});
-    });
     let scene = parts.editor.view().scene;
     for object in scene.objects() {
         ui.label(RichText::new(&object.name).strong().size(12.5));

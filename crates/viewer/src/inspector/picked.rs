@@ -1,41 +1,24 @@
 //! The picked elements, and the half-edge with its neighbors.
 
-use editor::{Action, HalfEdgeInfo};
-use eframe::egui::{Button, Grid, Label, RichText, Ui};
+use std::time::Duration;
 
-use super::weak;
+use editor::{Action, HalfEdgeInfo};
+use eframe::egui::{Button, Grid, Id, RichText, Ui};
+
+use super::{section, weak};
 use crate::app::Parts;
-use crate::steps_pane::heading;
+use crate::field;
 use crate::theme::Colors;
 
 /// The picked elements.
 pub(super) fn picked(ui: &mut Ui, parts: &mut Parts) {
-    heading(ui, "Picked", |_| {});
-    let (Some(picked), Some(mesh)) = (parts.editor.picked().cloned(), parts.picked_mesh()) else {
-        weak(
-            ui,
-            "Click a vertex, an edge or a face in the view. Shift+drag picks a box, a double click an edge loop.",
-        );
+    let Some(picked) = parts.editor.picked().cloned() else {
+        nothing_picked(ui, parts);
         return;
     };
     let colors = Colors::current(ui);
     ui.label(RichText::new(parts.description()).color(colors.picked));
-    if let Some(proposal) = parts.editor.proposal().cloned() {
-        let has_other = parts.editor.may_have_other_proposal();
-        ui.horizontal_wrapped(|ui| {
-            let text = RichText::new(&proposal.text).monospace().size(11.5);
-            ui.add(Label::new(text).wrap())
-                .on_hover_text("The selection that the next step uses for the picked elements");
-            if has_other
-                && ui
-                    .small_button("Other")
-                    .on_hover_text("Another selection that means the same elements")
-                    .clicked()
-            {
-                parts.editor.next_proposal();
-            }
-        });
-    }
+    selection(ui, parts);
     let ctx = ui.ctx().clone();
     ui.horizontal_wrapped(|ui| {
         let actions: &[(&str, Action)] = match picked.elements {
@@ -45,17 +28,23 @@ pub(super) fn picked(ui: &mut Ui, parts: &mut Parts) {
                 ("Collapse", Action::Collapse),
                 ("Dissolve", Action::Dissolve),
                 ("Move", Action::Move),
+                ("Rotate", Action::Rotate),
+                ("Scale", Action::Scale),
                 ("Loop", Action::EdgeLoop),
                 ("Ring", Action::EdgeRing),
             ],
             op::Selected::Vertices(_) => &[
                 ("Dissolve", Action::Dissolve),
                 ("Move", Action::Move),
+                ("Rotate", Action::Rotate),
+                ("Scale", Action::Scale),
                 ("Grow", Action::Grow),
             ],
             op::Selected::Faces(_) => &[
                 ("Extrude", Action::Extrude),
                 ("Move", Action::Move),
+                ("Rotate", Action::Rotate),
+                ("Scale", Action::Scale),
                 ("Grow", Action::Grow),
                 ("Shrink", Action::Shrink),
             ],
@@ -71,21 +60,88 @@ pub(super) fn picked(ui: &mut Ui, parts: &mut Parts) {
             }
         }
     });
-    if let Some(info) = picked.half_edge.and_then(|h| HalfEdgeInfo::of(&mesh, h)) {
-        ui.add_space(4.0);
-        half_edge(ui, parts, &info);
+}
+
+/// How elements are picked, or how patches become a mesh with elements.
+fn nothing_picked(ui: &mut Ui, parts: &mut Parts) {
+    let scene = parts.editor.view().scene;
+    let has_mesh = scene
+        .objects()
+        .iter()
+        .any(|object| object.as_mesh().is_some());
+    if has_mesh || parts.editor.patches().is_empty() {
+        weak(
+            ui,
+            "Click a vertex, an edge or a face in the view. Shift+drag picks a box, a double click an edge loop. Or write a selection:",
+        );
+        if has_mesh {
+            selection(ui, parts);
+        }
+        return;
+    }
+    weak(
+        ui,
+        "Bezier patches have no vertices, edges or faces to pick. Drag their control points, or turn them into a mesh.",
+    );
+    if ui
+        .button("Turn into a mesh")
+        .on_hover_text("Adds the steps Tessellate and Weld")
+        .clicked()
+    {
+        let result = parts.editor.turn_into_mesh();
+        parts.report(result);
     }
 }
 
-/// The half-edge and its neighbors.
-fn half_edge(ui: &mut Ui, parts: &mut Parts, info: &HalfEdgeInfo) {
-    let colors = Colors::current(ui);
-    ui.label(
-        RichText::new("Half-edge")
-            .strong()
-            .size(12.0)
-            .color(colors.weak),
+/// The selection that the next step uses, which can be edited.
+fn selection(ui: &mut Ui, parts: &mut Parts) {
+    if parts.editor.is_searching() {
+        weak(ui, "Searching a short selection of these elements..");
+        ui.ctx().request_repaint_after(Duration::from_millis(50));
+        return;
+    }
+    let text = parts
+        .editor
+        .proposal()
+        .map(|proposal| proposal.text.clone());
+    let text = text.unwrap_or_default();
+    let new = field::line(
+        ui,
+        "Selection",
+        &text,
+        "Sharp(above: 30)",
+        Id::unique("selection"),
     );
+    if let Some(new) = new.filter(|new| !new.trim().is_empty()) {
+        parts.pick_text(&new);
+    }
+    if !text.is_empty() && parts.editor.may_have_other_proposal() {
+        let key = parts.editor_key(Action::NextProposal);
+        let other = ui.small_button("Other selection");
+        if other
+            .on_hover_text(format!(
+                "Another selection that means the same elements ({key})"
+            ))
+            .clicked()
+        {
+            parts.editor.next_proposal();
+        }
+    }
+}
+
+/// The half-edge of the picked edge and its neighbors, if an edge is picked.
+pub(super) fn half_edge(ui: &mut Ui, parts: &mut Parts) {
+    let picked = parts.editor.picked().and_then(|picked| picked.half_edge);
+    let info = picked.zip(parts.picked_mesh());
+    if let Some(info) = info.and_then(|(h, mesh)| HalfEdgeInfo::of(&mesh, h)) {
+        section(ui, "half-edge", "Half-edge", |ui| {
+            half_edge_table(ui, parts, &info);
+        });
+    }
+}
+
+fn half_edge_table(ui: &mut Ui, parts: &mut Parts, info: &HalfEdgeInfo) {
+    let colors = Colors::current(ui);
     let ctx = ui.ctx().clone();
     Grid::new("half-edge")
         .num_columns(3)

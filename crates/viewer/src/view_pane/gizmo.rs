@@ -1,7 +1,8 @@
-//! Arrows along the axes at the picked elements. Dragging an arrow moves the elements.
+//! Handles at the picked elements: arrows that move them, rings that rotate them, and handles that scale them.
 
+use editor::Movement;
 use eframe::egui::{
-    Align2, Color32, FontId, PointerButton, Pos2, Rect, Response, Stroke, Ui, Vec2,
+    Align2, Color32, FontId, PointerButton, Pos2, Rect, Response, Shape, Stroke, Ui, Vec2,
 };
 use glam::DVec2;
 use mesh::DVec3;
@@ -9,49 +10,149 @@ use mesh::DVec3;
 use super::input::place;
 use super::{ViewEvent, ViewPane};
 use crate::gpu::axis_color;
+use crate::theme::Colors;
 
-/// The length of the arrows, in points of the screen.
+/// The length of the handles, in points of the screen.
 const LENGTH: f64 = 84.0;
-/// The largest distance between the cursor and an arrow that is dragged, in points of the screen.
+/// The largest distance between the cursor and a handle that is dragged, in points of the screen.
 const REACH: f64 = 8.0;
 /// Arrows that are shorter than this in the picture point towards the viewer, and cannot be dragged.
 const SHORTEST: f64 = 12.0;
-const AXES: [DVec3; 3] = [DVec3::X, DVec3::Y, DVec3::Z];
+/// The number of parts of a ring.
+const RING: u8 = 64;
+/// The index of the handle that scales along all axes.
+const ALL: usize = 3;
 
-/// A drag of an arrow.
+/// What the handles do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Tool {
+    Move,
+    Rotate,
+    Scale,
+}
+
+/// Where the handles are and what they do.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Gizmo {
+    pub(crate) tool: Tool,
+    /// The base of the handles, in scene units.
+    pub(crate) base: DVec3,
+    /// The directions of the handles, as unit vectors of the scene.
+    pub(crate) axes: [DVec3; 3],
+}
+
+/// A drag of a handle.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Drag {
+    /// The handles at the start.
+    gizmo: Gizmo,
+    /// The index of the axis, or `ALL`.
     axis: usize,
-    /// The base of the arrows at the start, in scene units.
-    base: DVec3,
-    /// The base and the tip of the arrow at the start, in points of the screen.
+    /// The base and the tip of the axis at the start, in points of the screen.
     line: [DVec2; 2],
-    /// The length of the arrow in scene units.
+    /// The length of the axis in scene units.
     length: f64,
     start: DVec2,
-    offset: f64,
+    /// The last place of the cursor.
+    last: DVec2,
+    /// The turn of the cursor around the base so far, in degrees.
+    turned: f64,
+    /// The offset in scene units, the angle in degrees, or the factor.
+    value: f64,
+}
+
+impl Drag {
+    /// Follows the cursor. `towards` says whether the axis points towards the viewer.
+    fn follow(&mut self, at: DVec2, towards: bool) {
+        let along = self.line[1] - self.line[0];
+        let part = (at - self.start).dot(along) / along.length_squared();
+        match self.gizmo.tool {
+            Tool::Move => {
+                self.value = round(part * self.length, self.length / along.length());
+            }
+            Tool::Rotate => {
+                let [before, now] = [self.last, at].map(|p| p - self.line[0]);
+                // The y axis of the screen points downwards.
+                let turn = libm::atan2(-before.perp_dot(now), before.dot(now)).to_degrees();
+                self.turned += if towards { turn } else { -turn };
+                self.value = libm::round(self.turned);
+            }
+            Tool::Scale => {
+                let part = if self.axis == ALL {
+                    (at.x - self.start.x) / LENGTH
+                } else {
+                    part
+                };
+                self.value = (libm::round((1.0 + part) * 100.0) / 100.0).max(0.01);
+            }
+        }
+        self.last = at;
+    }
+
+    fn movement(&self) -> Movement {
+        match self.gizmo.tool {
+            Tool::Move => Movement::Offset(self.gizmo.axes[self.axis] * self.value),
+            Tool::Rotate => Movement::Rotate(self.axis, self.value),
+            Tool::Scale if self.axis == ALL => Movement::Scale(DVec3::splat(self.value)),
+            Tool::Scale => {
+                let mut factors = [1.0; 3];
+                factors[self.axis] = self.value;
+                Movement::Scale(factors.into())
+            }
+        }
+    }
+
+    fn text(&self) -> String {
+        match self.gizmo.tool {
+            Tool::Move => format!("{}", self.value),
+            Tool::Rotate => format!("{}°", self.value),
+            Tool::Scale => format!("× {}", self.value),
+        }
+    }
+}
+
+/// A handle in the picture: the index of its axis, and the line that can be dragged.
+struct Handle {
+    axis: usize,
+    line: Vec<DVec2>,
+}
+
+impl Handle {
+    fn distance(&self, at: DVec2) -> f64 {
+        let to_part = |pair: &[DVec2]| {
+            let along = pair[1] - pair[0];
+            let t = (at - pair[0]).dot(along) / along.length_squared().max(1e-12);
+            at.distance(pair[0] + along * t.clamp(0.0, 1.0))
+        };
+        let single = self.line.first().map(|p| p.distance(at));
+        let parts = self.line.windows(2).map(to_part);
+        parts.chain(single).fold(f64::INFINITY, f64::min)
+    }
 }
 
 impl ViewPane {
-    /// Handles drags of the arrows at `base`. Returns whether an arrow is dragged.
+    /// Handles drags of the handles. Returns whether a handle is dragged.
     pub(super) fn gizmo(
         &mut self,
         ui: &Ui,
         rect: Rect,
         response: &Response,
-        base: Option<DVec3>,
+        gizmo: Option<Gizmo>,
         events: &mut Vec<ViewEvent>,
     ) -> bool {
         let pointer = ui.input(|input| input.pointer.hover_pos());
+        let back = self.camera.axes()[2];
         if let (Some(drag), Some(at)) = (&mut self.drag, pointer) {
-            let along = drag.line[1] - drag.line[0];
-            let moved = (place(rect, at) - drag.start).dot(along) / along.length_squared();
-            let offset = round(moved * drag.length, drag.length / along.length());
+            let before = drag.value;
+            let axis = drag.gizmo.axes.get(drag.axis);
+            drag.follow(
+                place(rect, at),
+                axis.is_none_or(|axis| axis.dot(back) >= 0.0),
+            );
             let is_done = !response.dragged_by(PointerButton::Primary);
-            if offset != drag.offset || is_done {
-                drag.offset = offset;
-                let offset = AXES[drag.axis] * offset;
-                events.push(ViewEvent::Move { offset, is_done });
+            if drag.value != before || is_done {
+                let by = drag.movement();
+                events.push(ViewEvent::Move { by, is_done });
             }
             if is_done {
                 self.drag = None;
@@ -60,44 +161,40 @@ impl ViewPane {
         }
         self.drag = None;
         let pressed = ui.input(|input| (input.pointer.press_origin(), input.modifiers.any()));
-        if let (Some(base), (Some(at), false), true) = (
-            base,
+        if let (Some(gizmo), (Some(at), false), true) = (
+            gizmo,
             pressed,
             response.drag_started_by(PointerButton::Primary),
         ) {
-            self.drag = self.arrow_at(base, place(rect, at));
+            self.drag = self.handle_at(gizmo, place(rect, at));
         }
         self.drag.is_some()
     }
 
-    /// Returns the arrow at a pixel.
-    fn arrow_at(&self, base: DVec3, at: DVec2) -> Option<Drag> {
-        let arrows = self.arrows(base)?;
-        let near = |axis: usize| {
-            let [p, q] = arrows.1[axis];
-            let along = q - p;
-            // The base belongs to no arrow.
-            let t = ((at - p).dot(along) / along.length_squared()).clamp(0.2, 1.1);
-            (at.distance(p + along * t), axis)
-        };
-        let axes = (0..3).filter(|&axis| {
-            let [p, q] = arrows.1[axis];
-            p.distance(q) >= SHORTEST
-        });
-        let (distance, axis) = axes.map(near).min_by(|a, b| a.0.total_cmp(&b.0))?;
+    /// Returns a drag of the handle at a pixel.
+    fn handle_at(&self, gizmo: Gizmo, at: DVec2) -> Option<Drag> {
+        let (length, lines) = self.axis_lines(gizmo)?;
+        let handles = self.handles(gizmo, length, &lines);
+        let near = handles
+            .iter()
+            .map(|handle| (handle.distance(at), handle.axis));
+        let (distance, axis) = near.min_by(|a, b| a.0.total_cmp(&b.0))?;
         (distance <= REACH).then_some(Drag {
+            gizmo,
             axis,
-            base,
-            line: arrows.1[axis],
-            length: arrows.0,
+            line: lines[axis.min(2)],
+            length,
             start: at,
-            offset: 0.0,
+            last: at,
+            turned: 0.0,
+            value: if gizmo.tool == Tool::Scale { 1.0 } else { 0.0 },
         })
     }
 
-    /// Returns the length of the arrows in scene units, and the base and the tip of each arrow in the picture. `None` if the
-    /// base is behind the camera.
-    fn arrows(&self, base: DVec3) -> Option<(f64, [[DVec2; 2]; 3])> {
+    /// Returns the length of the axes in scene units, and the base and the tip of each axis in the picture. `None` if the base
+    /// is behind the camera.
+    fn axis_lines(&self, gizmo: Gizmo) -> Option<(f64, [[DVec2; 2]; 3])> {
+        let base = gizmo.base;
         let depth = if self.camera.is_perspective {
             self.camera.distance - (base - self.camera.target).dot(self.camera.axes()[2])
         } else {
@@ -107,52 +204,138 @@ impl ViewPane {
         let length = LENGTH * pixel;
         let from = self.camera.project(base, self.size)?;
         let mut lines = [[from; 2]; 3];
-        for (line, axis) in lines.iter_mut().zip(AXES) {
+        for (line, axis) in lines.iter_mut().zip(gizmo.axes) {
             line[1] = self.camera.project(base + axis * length, self.size)?;
         }
         Some((length, lines))
     }
 
-    /// Draws the arrows.
-    pub(super) fn paint_gizmo(&self, ui: &Ui, rect: Rect, base: Option<DVec3>) {
-        let base = match self.drag {
-            Some(drag) => Some(drag.base + AXES[drag.axis] * drag.offset),
-            None => base,
+    /// Returns the handles in the picture.
+    fn handles(&self, gizmo: Gizmo, length: f64, lines: &[[DVec2; 2]; 3]) -> Vec<Handle> {
+        let straight = |axis: usize| {
+            let [p, q] = lines[axis];
+            // The base belongs to no axis.
+            let line = vec![p.lerp(q, 0.2), p.lerp(q, 1.1)];
+            (p.distance(q) >= SHORTEST).then_some(Handle { axis, line })
         };
-        let Some((_, lines)) = base.and_then(|base| self.arrows(base)) else {
+        match gizmo.tool {
+            Tool::Move => (0..3).filter_map(straight).collect(),
+            Tool::Scale => {
+                let center = Handle {
+                    axis: ALL,
+                    line: vec![lines[0][0]],
+                };
+                (0..3).filter_map(straight).chain([center]).collect()
+            }
+            Tool::Rotate => (0..3).map(|axis| self.ring(gizmo, length, axis)).collect(),
+        }
+    }
+
+    /// Returns the half of a ring around an axis that is towards the viewer.
+    fn ring(&self, gizmo: Gizmo, length: f64, axis: usize) -> Handle {
+        let normal = gizmo.axes[axis];
+        let back = self.camera.axes()[2];
+        // From the end of the visible half around to its other end.
+        let first = normal
+            .cross(back)
+            .try_normalize()
+            .unwrap_or(gizmo.axes[(axis + 1) % 3]);
+        let second = normal.cross(first).normalize_or_zero();
+        let second = if second.dot(back) < 0.0 {
+            -second
+        } else {
+            second
+        };
+        // A ring that faces the viewer is visible as a whole.
+        let whole = if normal.dot(back).abs() > 0.98 {
+            2.0
+        } else {
+            1.0
+        };
+        let point = |i: u8| {
+            let angle = whole * std::f64::consts::PI * f64::from(i) / f64::from(RING);
+            let at = first * libm::cos(angle) + second * libm::sin(angle);
+            self.camera.project(gizmo.base + at * length, self.size)
+        };
+        let line = (0..=RING).filter_map(point).collect();
+        Handle { axis, line }
+    }
+
+    /// Draws the handles.
+    pub(super) fn paint_gizmo(&self, ui: &Ui, rect: Rect, gizmo: Option<Gizmo>) {
+        let gizmo = match (self.drag, gizmo) {
+            (Some(drag), _) => {
+                let mut gizmo = drag.gizmo;
+                if let Movement::Offset(offset) = drag.movement() {
+                    gizmo.base += offset;
+                }
+                gizmo
+            }
+            (None, Some(gizmo)) => gizmo,
+            (None, None) => return,
+        };
+        let Some((length, lines)) = self.axis_lines(gizmo) else {
             return;
         };
         let pointer = ui.input(|input| input.pointer.hover_pos());
-        let hovered = match (self.drag, base, pointer) {
-            (Some(drag), ..) => Some(drag.axis),
-            (None, Some(base), Some(at)) => {
-                self.arrow_at(base, place(rect, at)).map(|drag| drag.axis)
-            }
+        let hovered = match (self.drag, pointer) {
+            (Some(drag), _) => Some(drag.axis),
+            (None, Some(at)) => self.handle_at(gizmo, place(rect, at)).map(|drag| drag.axis),
             _ => None,
         };
-        for (axis, line) in lines.iter().enumerate() {
-            let [r, g, b] = axis_color(AXES[axis]);
-            let (color, width) = if hovered == Some(axis) {
-                (Color32::WHITE, 4.5)
-            } else {
-                (Color32::from_rgb(r, g, b), 3.2)
+        for handle in self.handles(gizmo, length, &lines) {
+            let axis = handle.axis;
+            let color = match [DVec3::X, DVec3::Y, DVec3::Z].get(axis) {
+                _ if hovered == Some(axis) => Color32::WHITE,
+                Some(&axis) => {
+                    let [r, g, b] = axis_color(axis);
+                    Color32::from_rgb(r, g, b)
+                }
+                None => Colors::current(ui).picked,
             };
-            let [p, q] = line.map(|p| rect.min + Vec2::new(narrow(p.x), narrow(p.y)));
-            if (q - p).length() < narrow(SHORTEST) {
-                continue;
+            let stroke = Stroke::new(if hovered == Some(axis) { 4.5 } else { 3.2 }, color);
+            let on_screen = |p: DVec2| rect.min + Vec2::new(narrow(p.x), narrow(p.y));
+            let line = lines.get(axis).map(|line| line.map(on_screen));
+            match (gizmo.tool, line) {
+                (Tool::Rotate, _) => {
+                    let points = handle.line.iter().map(|&p| on_screen(p)).collect();
+                    ui.painter().add(Shape::line(points, stroke));
+                }
+                (tool, Some(line)) => arrow(ui, line, stroke, ["x", "y", "z"][axis.min(2)], tool),
+                (_, None) => square(ui, on_screen(lines[0][0]), 6.5, color),
             }
-            arrow(ui, [p, q], Stroke::new(width, color), ["x", "y", "z"][axis]);
+        }
+        if let (Some(drag), Some(at)) = (self.drag, pointer) {
+            let font = FontId::proportional(14.0);
+            let place = at + Vec2::new(16.0, -16.0);
+            ui.painter().text(
+                place,
+                Align2::LEFT_BOTTOM,
+                drag.text(),
+                font,
+                Colors::current(ui).text,
+            );
         }
     }
 }
 
-fn arrow(ui: &Ui, [p, q]: [Pos2; 2], stroke: Stroke, name: &str) {
+/// Draws an axis with its name: with a round end for moving, with a square end for scaling.
+fn arrow(ui: &Ui, [p, q]: [Pos2; 2], stroke: Stroke, name: &str, tool: Tool) {
     let painter = ui.painter();
     painter.line_segment([p, q], stroke);
-    painter.circle_filled(q, 5.5, stroke.color);
+    if tool == Tool::Scale {
+        square(ui, q, 5.0, stroke.color);
+    } else {
+        painter.circle_filled(q, 5.5, stroke.color);
+    }
     let beyond = q + (q - p).normalized() * 15.0;
     let font = FontId::proportional(13.0);
     painter.text(beyond, Align2::CENTER_CENTER, name, font, stroke.color);
+}
+
+fn square(ui: &Ui, center: Pos2, half: f32, color: Color32) {
+    let square = Rect::from_center_size(center, Vec2::splat(2.0 * half));
+    ui.painter().rect_filled(square, 1.5, color);
 }
 
 /// Rounds a length to a multiple of a power of ten that is at most half of a pixel.

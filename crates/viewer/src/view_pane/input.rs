@@ -1,11 +1,11 @@
 //! Turns the camera, and finds what is under the cursor.
 
-use editor::{Area, PickMode, Projection, pick, pick_area};
+use editor::{Area, Projection, keep_visible, pick, pick_area};
 use eframe::egui::{self, PointerButton, Pos2, Rect, Ui};
 use glam::DVec2;
-use op::ElementKind;
 
 use super::{Shown, ViewEvent, ViewPane};
+use crate::gpu::Wireframe;
 
 /// An area that is drawn with the mouse, in points of the screen.
 #[derive(Clone, Debug)]
@@ -94,14 +94,15 @@ impl ViewPane {
         if response.drag_stopped_by(PointerButton::Primary)
             && let Some(area) = self.area.take()
         {
-            let kind = match self.mode {
-                PickMode::Vertex => ElementKind::Vertices,
-                PickMode::Edge | PickMode::HalfEdge => ElementKind::Edges,
-                PickMode::Any | PickMode::Face => ElementKind::Faces,
-            };
+            let (kind, view) = (self.mode.kind(), self.projection());
+            let mut picked = pick_area(scene, &view, &area.area(rect), kind);
+            // A wireframe without a surface shows everything.
+            if self.look.wireframe != Wireframe::Lines {
+                keep_visible(scene, shown.indexes, &view, &mut picked);
+            }
             events.push(ViewEvent::Area {
-                picked: pick_area(scene, &self.projection(), &area.area(rect), kind),
-                extends: true,
+                picked,
+                removes: modifiers.alt,
             });
         }
         // While a button is down, nothing is picked, so that turning a large scene stays fast.
@@ -134,7 +135,6 @@ impl ViewPane {
                 place(rect, at),
                 self.mode,
             );
-            response.request_focus();
             events.push(ViewEvent::Click {
                 hit,
                 extends: modifiers.shift,

@@ -8,12 +8,12 @@ mod loss;
 
 use std::sync::Arc;
 
-use editor::{ControlPoint, Hit, Indexes, PickMode, Picked};
+use editor::{ControlPoint, Hit, Indexes, Movement, PickMode, Picked};
 use eframe::egui::{self, Align2, Color32, FontId, Pos2, Rect, Role, Sense, Ui, WidgetInfo};
 use eframe::{egui_wgpu, wgpu};
 use glam::DVec2;
 use mesh::{DVec3, EdgeId, Element};
-use render::ColorMap;
+use render::{ColorMap, Image};
 use scene::{ErrorLocation, Scene};
 
 use crate::camera::{Camera, Side};
@@ -22,6 +22,7 @@ use crate::overlay;
 use crate::theme::Colors;
 use control_points::PointDrag;
 use gizmo::Drag;
+pub(crate) use gizmo::{Gizmo, Tool};
 use input::Outline;
 pub(crate) use loss::Loss;
 
@@ -41,13 +42,13 @@ pub(crate) enum ViewEvent {
     Area {
         /// The elements of each object.
         picked: Vec<Picked>,
-        /// Whether the elements are added to those that are picked.
-        extends: bool,
+        /// Whether the elements are removed from those that are picked, and not added to them.
+        removes: bool,
     },
-    /// A drag of an arrow at the picked elements.
+    /// A drag of a handle at the picked elements.
     Move {
-        /// How far the elements have moved since the start of the drag, in scene units.
-        offset: DVec3,
+        /// How the elements have moved since the start of the drag.
+        by: Movement,
         /// Whether the drag has ended.
         is_done: bool,
     },
@@ -70,8 +71,8 @@ pub(crate) struct Shown<'a> {
     pub(crate) picked: Option<&'a Picked>,
     /// An edge that is drawn like a picked edge, with its object.
     pub(crate) edge: Option<(&'a str, EdgeId)>,
-    /// Where arrows that move the picked elements are shown.
-    pub(crate) base: Option<DVec3>,
+    /// The handles at the picked elements.
+    pub(crate) gizmo: Option<Gizmo>,
     /// Whether clicks pick elements.
     pub(crate) can_pick: bool,
     pub(crate) places: &'a [ErrorLocation],
@@ -102,8 +103,8 @@ pub(crate) struct ViewPane {
     pub(crate) look: Look,
     /// What a click picks.
     pub(crate) mode: PickMode,
-    /// Whether arrows that move the picked elements are shown.
-    pub(crate) shows_arrows: bool,
+    /// What the handles at the picked elements do. If `None`, no handles are shown.
+    pub(crate) tool: Option<Tool>,
     /// The element under the cursor.
     pub(crate) hovered: Option<Hit>,
     /// The control point under the cursor.
@@ -123,11 +124,13 @@ pub(crate) struct ViewPane {
     fit_requested: bool,
     /// The area that is being drawn with the mouse.
     area: Option<Outline>,
-    /// The arrow that is being dragged.
+    /// The handle that is being dragged.
     drag: Option<Drag>,
     /// The control point that is being dragged.
     point_drag: Option<PointDrag>,
     size: DVec2,
+    /// The widget of the view in the last frame.
+    pub(crate) id: Option<egui::Id>,
     legend: Option<(String, ColorMap, [f64; 2])>,
     /// The places of the shown overlay.
     overlay_key: Option<OverlayKey>,
@@ -155,7 +158,7 @@ impl ViewPane {
             camera: Camera::default(),
             look: Look::default(),
             mode: PickMode::Any,
-            shows_arrows: false,
+            tool: None,
             hovered: None,
             hovered_point: None,
             gpu: state.filter(|state| can_draw(state)).map(|state| Gpu {
@@ -173,6 +176,7 @@ impl ViewPane {
             drag: None,
             point_drag: None,
             size: DVec2::new(640.0, 480.0),
+            id: None,
             legend: None,
             overlay_key: None,
             overlay: Overlay::default(),
@@ -211,6 +215,11 @@ impl ViewPane {
         self.camera.project(point, self.size)
     }
 
+    /// Returns the last picture. `None` without a graphics adapter.
+    pub(crate) fn picture(&self) -> Option<Image> {
+        self.gpu.as_ref()?.painter.read()
+    }
+
     /// Forgets the fit, so that the next scene is fitted.
     pub(crate) fn forget_fit(&mut self) {
         self.is_fitted = false;
@@ -218,6 +227,7 @@ impl ViewPane {
 
     pub(crate) fn ui(&mut self, ui: &mut Ui, shown: &Shown) -> Vec<ViewEvent> {
         let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
+        self.id = Some(response.id);
         let label = match shown.description {
             "" => "3D view, nothing picked".to_owned(),
             text => format!("3D view, picked: {text}"),
@@ -232,7 +242,7 @@ impl ViewPane {
         }
         self.upload(shown);
         let mut events = Vec::new();
-        let is_moving = self.gizmo(ui, rect, &response, shown.base, &mut events)
+        let is_moving = self.gizmo(ui, rect, &response, shown.gizmo, &mut events)
             || self.drag_control_point(ui, rect, &response, shown, &mut events);
         if !is_moving {
             self.pick(ui, rect, &response, shown, &mut events);
@@ -328,7 +338,7 @@ impl ViewPane {
         if let Some(area) = &self.area {
             decorations::outline(ui, area, &colors);
         }
-        self.paint_gizmo(ui, rect, shown.base);
+        self.paint_gizmo(ui, rect, shown.gizmo);
         self.paint_control_point(ui, rect);
         decorations::axes(ui, rect, &self.camera);
         if let Some((title, map, range)) = &self.legend {

@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
+use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
@@ -209,6 +210,7 @@ fn an_unsaved_text_is_offered_after_a_crash() {
     let start = Start {
         path: None,
         state_folder: Some(folder.path().join("state")),
+        ..Start::default()
     };
     let Some(setup) = setup() else { return };
     let harness = Harness::builder()
@@ -265,8 +267,13 @@ fn the_teapot_is_colored_by_curvature_in_a_light_window() {
     window.harness.state_mut().editor_mut().set_text(&text);
     window.harness.state_mut().editor_mut().set_cursor(3);
     window.settle();
-    window.harness.state_mut().look_mut().color_by =
-        Some(view::ColorBy::new(view::Quantity::MeanCurvature));
+    window
+        .harness
+        .get_by_role_and_label(Role::ComboBox, "Color by")
+        .click();
+    window.settle();
+    window.harness.get_by_label("mean curvature").click();
+    window.settle();
     window.harness.ctx.set_theme(eframe::egui::Theme::Light);
     window.press(Key::Space);
     window.check_picture("curvature");

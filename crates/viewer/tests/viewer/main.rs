@@ -3,6 +3,7 @@
 mod adapter;
 mod drawing;
 mod editing;
+mod modelling;
 mod textures;
 mod times;
 mod tools;

@@ -56,13 +56,15 @@ fn a_lasso_picks_the_vertices_inside() {
     window.press_with(Modifiers::ALT, Key::Num1);
     let scene = window.harness.state().editor().view().scene;
     let mesh = scene.objects()[0].as_mesh().unwrap().clone();
-    let v = mesh.vertices().next().unwrap();
+    let v = mesh::VertexId::new(window.visible_edge()[0]);
     let at = window.at(mesh.position(v));
     let corners = [(-12.0, -12.0), (14.0, -10.0), (12.0, 12.0), (-12.0, 10.0)];
     let points = corners.map(|(x, y)| at + Vec2::new(x, y));
     window.drag(&points, Modifiers::COMMAND);
     let picked = window.harness.state().editor().picked().cloned().unwrap();
     assert_eq!(picked.elements, op::Selected::Vertices(vec![v]));
+    window.drag(&points, Modifiers::COMMAND | Modifiers::ALT);
+    assert_eq!(window.harness.state().editor().picked(), None);
 }
 
 #[test]
@@ -152,6 +154,7 @@ fn edit_and_save(state: Option<&RenderState>) {
     let start = Start {
         path: Some(path.clone()),
         state_folder: Some(folder.path().join("state")),
+        ..Start::default()
     };
     let harness = Harness::builder()
         .with_size(Vec2::new(1280.0, 800.0))
@@ -196,6 +199,7 @@ fn a_lost_graphics_device_closes_the_window_and_the_next_start_offers_the_text()
     let start = Start {
         path: Some(path),
         state_folder: Some(folder.path().join("state")),
+        ..Start::default()
     };
     let device = Arc::new(std::sync::OnceLock::new());
     let to_device = device.clone();
@@ -234,6 +238,7 @@ fn a_lost_graphics_device_closes_the_window_and_the_next_start_offers_the_text()
     let start = Start {
         path: None,
         state_folder,
+        ..Start::default()
     };
     let harness = Harness::builder()
         .with_size(Vec2::new(1280.0, 800.0))
@@ -254,6 +259,7 @@ fn the_layout_of_the_window_is_remembered() {
     let start = Start {
         path: None,
         state_folder: Some(folder.path().to_owned()),
+        ..Start::default()
     };
     let open = |setup| {
         let start = start.clone();

@@ -35,6 +35,7 @@ impl Window {
         let start = Start {
             path: Some(path),
             state_folder: Some(folder.path().join("state")),
+            ..Start::default()
         };
         let harness = Harness::builder()
             .with_size(Vec2::new(1280.0, 800.0))

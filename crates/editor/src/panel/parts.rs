@@ -1,0 +1,197 @@
+//! Values with parts: structs, and variants of enumerations with content. Each part has a field of its own in the panel.
+
+use ron_tree::{Value, ValueKind, parse};
+use serde_json::Value as Json;
+
+use super::{FieldKind, PanelField, argument, panel_fields};
+use crate::text;
+
+/// A variant of an enumeration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Variant {
+    /// The name.
+    pub name: String,
+    /// The description.
+    pub doc: String,
+    /// What the parentheses contain.
+    content: Content,
+}
+
+/// What the parentheses of a variant contain.
+#[derive(Clone, Debug, PartialEq)]
+enum Content {
+    /// `Name`
+    Nothing,
+    /// `Name(value)`
+    Value(FieldKind),
+    /// `Name(x, y, z)`
+    Numbers(usize),
+    /// `Name(field: value, ..)`
+    Fields(Vec<PanelField>),
+}
+
+/// A part of a value: the field of a struct, or the content of a variant.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part {
+    /// The part as a field with its value.
+    pub field: PanelField,
+    /// Where the part is in the whole value. Empty for the numbers of `Name(x, y, z)`.
+    path: Vec<String>,
+}
+
+impl Variant {
+    /// Returns the variants of an enumeration. `None` if the schema is not an enumeration.
+    pub(super) fn all(json: &Json, root: &Json, depth: usize) -> Option<Vec<Self>> {
+        let options = json["oneOf"].as_array()?;
+        let all = options.iter().map(|option| {
+            let doc = option["description"]
+                .as_str()
+                .unwrap_or_default()
+                .to_owned();
+            if let Some(name) = option["const"].as_str() {
+                return Some(vec![Self::new(name, doc, Content::Nothing)]);
+            }
+            if let Some(names) = option["enum"].as_array() {
+                let unit =
+                    |name: &Json| Some(Self::new(name.as_str()?, doc.clone(), Content::Nothing));
+                return names.iter().map(unit).collect();
+            }
+            let (name, content) = option["properties"].as_object()?.iter().next()?;
+            Some(vec![Self::new(
+                name,
+                doc,
+                Content::of(content, root, depth),
+            )])
+        });
+        Some(all.collect::<Option<Vec<_>>>()?.concat())
+    }
+
+    fn new(name: &str, doc: String, content: Content) -> Self {
+        Self {
+            name: name.to_owned(),
+            doc,
+            content,
+        }
+    }
+
+    /// Returns a first value of this variant as RON: parts without a default get a value.
+    pub fn first(&self) -> String {
+        let name = &self.name;
+        match &self.content {
+            Content::Nothing => name.clone(),
+            Content::Value(kind) => format!("{name}({})", kind.first().to_ron()),
+            Content::Numbers(n) => format!("{name}{}", FieldKind::Vector(*n).first().to_ron()),
+            Content::Fields(fields) => format!("{name}{}", first_fields(fields)),
+        }
+    }
+}
+
+impl Content {
+    fn of(json: &Json, root: &Json, depth: usize) -> Self {
+        if json["properties"].is_object() {
+            return Self::Fields(panel_fields(json, root, depth));
+        }
+        // A tuple without a name of its own consists of several values in the parentheses of the variant.
+        match FieldKind::at_depth(json, root, depth) {
+            FieldKind::Vector(n) if json["$ref"].is_null() => Self::Numbers(n),
+            kind => Self::Value(kind),
+        }
+    }
+}
+
+/// Returns the first value of a struct with these fields.
+pub(super) fn first_fields(fields: &[PanelField]) -> String {
+    let required = fields.iter().filter(|field| field.default.is_none());
+    let written = required.map(|field| format!("{}: {}", field.name, field.kind.first().to_ron()));
+    format!("({})", written.collect::<Vec<_>>().join(", "))
+}
+
+impl FieldKind {
+    /// Returns the name of the variant, if the kind is an enumeration, and the parts of a value of this kind. Empty for a
+    /// value without parts, or of another form.
+    pub fn parts(&self, whole: &str) -> (Option<String>, Vec<Part>) {
+        let parsed = parse(whole);
+        let value = parsed.value.some().unwrap_or(&parsed.value);
+        match self.inner() {
+            Self::Struct(fields) => (None, parts_of(fields, &[], value, whole)),
+            Self::Variants(variants) => {
+                let name = value.name().map(|(name, _)| name);
+                let Some(variant) = variants.iter().find(|v| Some(v.name.as_str()) == name) else {
+                    return (None, Vec::new());
+                };
+                (Some(variant.name.clone()), variant.parts(value, whole))
+            }
+            _ => (None, Vec::new()),
+        }
+    }
+}
+
+impl Variant {
+    fn parts(&self, value: &Value, whole: &str) -> Vec<Part> {
+        let name = self.name.clone();
+        let single = |kind: FieldKind, path: Vec<String>, value: Option<&str>| {
+            vec![Part {
+                field: PanelField {
+                    name: self.name.clone(),
+                    doc: self.doc.clone(),
+                    kind,
+                    type_name: String::new(),
+                    variants: Vec::new(),
+                    default: None,
+                    argument: value.and_then(argument),
+                    value: value.map(str::to_owned),
+                },
+                path,
+            }]
+        };
+        match &self.content {
+            Content::Nothing => Vec::new(),
+            Content::Value(kind) => {
+                let path = vec![name, "0".to_owned()];
+                let inside = text::field_value(value, &path);
+                single(
+                    kind.clone(),
+                    path,
+                    inside.map(|inside| inside.span.of(whole)),
+                )
+            }
+            Content::Numbers(n) => {
+                let body = match &value.kind {
+                    ValueKind::Call(call) => Some(call.body.span.of(whole)),
+                    _ => None,
+                };
+                single(FieldKind::Vector(*n), Vec::new(), body)
+            }
+            Content::Fields(fields) => parts_of(fields, &[name], value, whole),
+        }
+    }
+}
+
+fn parts_of(fields: &[PanelField], outer: &[String], value: &Value, whole: &str) -> Vec<Part> {
+    let part = |field: &PanelField| {
+        let path: Vec<String> = outer.iter().chain([&field.name]).cloned().collect();
+        let inside = text::field_value(value, &path).map(|inside| inside.span.of(whole));
+        Part {
+            field: PanelField {
+                value: inside.map(str::to_owned),
+                argument: inside.and_then(argument),
+                ..field.clone()
+            },
+            path,
+        }
+    };
+    fields.iter().map(part).collect()
+}
+
+impl Part {
+    /// Returns the whole value with another value of this part as RON. `None` as the new value removes the part, so that it
+    /// gets its default. Returns `None` if the part cannot be written there.
+    pub fn in_whole(&self, whole: &str, new: Option<&str>) -> Option<String> {
+        if self.path.is_empty() {
+            return Some(format!("{}{}", self.field.name, new?));
+        }
+        let parsed = parse(whole);
+        let edits = text::set_field(whole, &parsed.value, &self.path, new).ok()?;
+        text::apply(whole, edits).ok()
+    }
+}

@@ -1,0 +1,142 @@
+//! A new step whose parameters are being chosen. The view shows its result.
+
+use editor::{Command, FieldKind, Panel, SelectionText};
+use eframe::egui::{Button, Label, RichText, Ui};
+
+use super::{about, known_selection};
+use crate::app::Parts;
+use crate::field::{self, Change, Field};
+use crate::steps_pane::heading;
+use crate::theme::Colors;
+
+/// An operation whose parameters are being chosen.
+#[derive(Clone, Debug)]
+pub(crate) struct Draft {
+    panel: Panel,
+    previewed: Option<Previewed>,
+}
+
+/// Everything that a preview depends on.
+#[derive(Clone, Debug, PartialEq)]
+struct Previewed {
+    /// The version of the text.
+    version: u64,
+    /// The step cursor.
+    cursor: usize,
+    /// The new steps.
+    steps: Vec<String>,
+}
+
+impl Draft {
+    /// Creates a draft. Parameters that are required get the value of the example, except for selections.
+    pub(crate) fn new(mut panel: Panel, example: &str) -> Self {
+        let parsed = ron_tree::parse(example);
+        for field in parsed.value.fields() {
+            let value = field.value.span.of(example);
+            let is_needed = panel.field(&field.name.text).is_some_and(|field| {
+                field.is_missing() && !matches!(field.kind.inner(), FieldKind::Selection(_))
+            });
+            if is_needed {
+                panel.set(&field.name.text, Some(value));
+            }
+        }
+        Self {
+            panel,
+            previewed: None,
+        }
+    }
+
+    /// Returns the command of the draft.
+    fn command(&self, selection: Option<SelectionText>) -> Command {
+        let values = self
+            .panel
+            .fields
+            .iter()
+            .filter_map(|field| Some((field.name.clone(), field.value.clone()?)));
+        Command {
+            operation: self.panel.operation.clone(),
+            parameters: values.collect(),
+            selection,
+            ..Command::default()
+        }
+    }
+
+    /// Draws the parameters, and takes their changes.
+    fn fields(&mut self, ui: &mut Ui, selection: Option<&SelectionText>) {
+        for i in 0..self.panel.fields.len() {
+            let of = self.panel.fields[i].clone();
+            let field = Field {
+                of: &of,
+                live: None,
+                selection,
+                salt: "draft",
+            };
+            match field::ui(ui, &field) {
+                Some(Change::Set(value) | Change::Drag(value)) => {
+                    self.panel.set(&of.name, Some(&value));
+                }
+                Some(Change::Reset) => self.panel.set(&of.name, None),
+                None => {}
+            }
+        }
+    }
+}
+
+/// The parameters of a new step.
+pub(super) fn ui(ui: &mut Ui, parts: &mut Parts) {
+    let Some(mut draft) = parts.draft.take() else {
+        return;
+    };
+    let colors = Colors::current(ui);
+    let mut closes = false;
+    heading(ui, &format!("New step: {}", draft.panel.operation), |ui| {
+        closes = ui.small_button("Cancel").clicked();
+    });
+    about(ui, &draft.panel);
+    let selection = known_selection(parts);
+    draft.fields(ui, selection.as_ref());
+    let command = draft.command(selection);
+    let problem = if parts.editor.is_searching() {
+        Some("Searching a short selection of the picked elements..".to_owned())
+    } else {
+        preview(parts, &mut draft, &command)
+    };
+    if let Some(problem) = &problem {
+        let text = RichText::new(problem).size(12.0).color(colors.bad);
+        ui.add(Label::new(text).wrap());
+    }
+    ui.add_space(4.0);
+    let apply = Button::new("Apply").fill(colors.accent_fill);
+    let applies = ui.add_enabled(problem.is_none(), apply).clicked();
+    if applies {
+        parts.apply(&command);
+    } else if closes {
+        parts.editor.end_preview();
+    } else {
+        parts.draft = Some(draft);
+    }
+}
+
+/// Shows the scene after the new step, if something has changed since the last preview. Cancels the run before. Returns the
+/// problem of a step that cannot run.
+fn preview(parts: &mut Parts, draft: &mut Draft, command: &Command) -> Option<String> {
+    let editor = &mut parts.editor;
+    let steps = match editor.steps_of(command) {
+        Ok(steps) => steps,
+        Err(problem) => {
+            draft.previewed = None;
+            editor.end_preview();
+            return Some(problem.to_string());
+        }
+    };
+    let now = Some(Previewed {
+        version: editor.document().version(),
+        cursor: editor.cursor(),
+        steps,
+    });
+    if draft.previewed == now {
+        return None;
+    }
+    draft.previewed = now;
+    editor.preview(command).err().map(|error| error.to_string())
+}

@@ -94,10 +94,11 @@ export class Stage {
         try {
             found = chosen && this.#meshes.length ? await this.#engine.colors(JSON.parse(chosen)) : null;
         } catch (error) {
-            byId("color-by").value = "";
-            if (!(error instanceof Ended)) {
-                notify(error.message);
+            if (error instanceof Ended) {
+                return;
             }
+            byId("color-by").value = "";
+            notify(error.message);
         }
         // The visitor may have chosen again.
         if (chosen === byId("color-by").value || !found) {
@@ -106,16 +107,14 @@ export class Stage {
         }
     }
 
-    /// Keeps the meshes and the picture after the engine has lost the scene. Colors and other pictures need the scene.
+    /// Keeps what is shown after the engine has lost the scene. Other colors and other pictures need the scene.
     detach() {
-        this.#offer([]);
-        this.view?.color([]);
-        showLegend();
         this.#enable(false);
     }
 
     #enable(is) {
         byId("color-by").disabled = !is;
+        byId("color-part").title = is ? "" : "Run the recipe to choose other colors";
         for (const id of ["edges", "up", "save-picture"]) {
             byId(id).disabled = !is && !byId("picture").hidden;
         }

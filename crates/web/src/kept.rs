@@ -4,7 +4,7 @@ use std::collections::HashSet;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use engine::{Loaded, Outcome, StepDone, StepKey, StepKeys, new_bytes};
+use engine::{Loaded, Outcome, SceneMemory, StepDone, StepKey, StepKeys};
 use scene::Scene;
 
 /// The maximum memory of the kept scenes, in bytes.
@@ -25,9 +25,7 @@ pub(crate) struct Kept {
 struct Scenes {
     /// `None` for a scene that is not kept.
     after: Vec<Option<Scene>>,
-    bytes: u64,
-    /// The addresses of the meshes that `bytes` counts.
-    seen: HashSet<usize>,
+    memory: SceneMemory,
 }
 
 impl Kept {
@@ -70,10 +68,8 @@ impl Kept {
     /// Keeps the scene after the next step. While a scene is kept, a step copies its meshes before it changes them.
     pub(crate) fn add_scene(&self, scene: &Scene) {
         let mut scenes = self.scenes();
-        let Scenes { after, bytes, seen } = &mut *scenes;
-        *bytes += new_bytes(scene, seen);
-        after.push(Some(scene.clone()));
-        if *bytes > MAX_BYTES {
+        scenes.after.push(Some(scene.clone()));
+        if scenes.memory.add(scene) > MAX_BYTES {
             scenes.keep_last(MAX_BYTES / 2);
         }
     }
@@ -100,18 +96,14 @@ impl Kept {
 impl Scenes {
     /// Keeps only the last scenes that fit into this number of bytes.
     fn keep_last(&mut self, limit: u64) {
-        self.seen.clear();
-        self.bytes = 0;
-        let mut is_full = false;
-        for place in self.after.iter_mut().rev() {
-            let Some(scene) = place else { continue };
-            let bytes = self.bytes + new_bytes(scene, &mut self.seen);
-            is_full |= bytes > limit;
-            if is_full {
-                *place = None;
-            } else {
-                self.bytes = bytes;
-            }
+        let mut memory = SceneMemory::default();
+        let fits = |scene: &&Option<Scene>| scene.as_ref().is_none_or(|s| memory.add(s) <= limit);
+        let n = self.after.iter().rev().take_while(fits).count();
+        let first = self.after.len() - n;
+        self.after[..first].fill(None);
+        self.memory = SceneMemory::default();
+        for scene in self.after.iter().flatten() {
+            self.memory.add(scene);
         }
     }
 }
@@ -125,22 +117,22 @@ mod tests {
 
     #[test]
     fn only_the_last_scenes_stay_if_memory_is_short() {
+        let scene = |mesh| {
+            let mut scene = Scene::new();
+            scene.insert(Object::mesh("a", mesh)).unwrap();
+            scene
+        };
+        let (a, b) = (scene(shapes::cube()), scene(shapes::cube()));
+        let one = SceneMemory::default().add(&a);
         let kept = Kept::default();
-        let mut scene = Scene::new();
-        scene.insert(Object::mesh("a", shapes::cube())).unwrap();
-        kept.add_scene(&scene);
-        let one = kept.scenes().bytes;
-        // An unchanged mesh needs no memory.
-        kept.add_scene(&scene);
-        let shared = kept.scenes().bytes - one;
-        assert!(shared < one);
-        let mut scene = Scene::new();
-        scene.insert(Object::mesh("a", shapes::cube())).unwrap();
-        kept.add_scene(&scene);
+        for scene in [&a, &a, &b] {
+            kept.add_scene(scene);
+        }
         let is_kept = || -> Vec<bool> { kept.scenes().after.iter().map(Option::is_some).collect() };
+        // An unchanged mesh needs no memory.
+        kept.scenes().keep_last(3 * one - 1);
         assert_eq!(is_kept(), [true; 3]);
-        kept.scenes().keep_last(one + shared);
+        kept.scenes().keep_last(2 * one - 1);
         assert_eq!(is_kept(), [false, false, true]);
-        assert_eq!(kept.scenes().bytes, one);
     }
 }

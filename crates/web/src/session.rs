@@ -286,6 +286,7 @@ impl Session {
             },
             out: Path::new(OUT),
             budget: BUDGET,
+            strict: false,
         };
         self.engine
             .load(&Source::new(PathBuf::from(path), text), &options)

@@ -208,8 +208,8 @@ fn run_as_new(session: &mut Session, text: &str) -> Json {
 #[test]
 fn a_changed_parameter_of_the_last_step_runs_one_step() {
     let text = r#"(recipe: 1, steps: [
-        Cube(name: "a"), Triangulate(), LoopSubdivide(levels: 2), Twist(axis: Y, angle: 10),
-    ], expect: [(after: "Triangulate", that: Faces(eq: 12)), Closed])"#;
+        Cube(name: "a"), (id: "cut", run: Triangulate()), LoopSubdivide(levels: 2), Twist(axis: Y, angle: 10),
+    ], expect: [(after: "cut", that: Faces(eq: 12)), Closed])"#;
     let mut session = Session::new();
     assert_eq!(cached(&run_as_new(&mut session, text)), [false; 4]);
     let other = text.replace("10", "20");

@@ -1,13 +1,23 @@
 //! Tests the cancellation of operations and runs.
 
+#[cfg(unix)]
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
+#[cfg(unix)]
+use std::time::Duration;
 
 use engine::FileReader;
+#[cfg(unix)]
+use geometry::shapes;
 use op::{OpError, Progress};
 use recipe::{Listener, Outcome, Settings, StepDone};
+#[cfg(unix)]
+use scene::{Object, Scene};
 
 use crate::assert_none;
 use crate::every_op::{Case, files};
+#[cfg(unix)]
+use crate::growth::processor_time;
 use crate::samples::samples;
 
 /// A progress listener that cancels after a number of calls.
@@ -56,6 +66,98 @@ fn an_operation_cancelled_at_its_first_call_changes_nothing() {
             failures.push(format!("{}: wrote a file", case.name));
         }
     }
+    assert_none(&failures);
+}
+
+/// A progress listener that measures the longest processor time between two calls.
+#[cfg(unix)]
+struct Gaps(Mutex<Gap>);
+
+#[cfg(unix)]
+#[derive(Default)]
+struct Gap {
+    last: Duration,
+    last_task: String,
+    longest: Duration,
+    between: [String; 2],
+}
+
+#[cfg(unix)]
+impl Gaps {
+    fn new() -> Self {
+        Self(Mutex::new(Gap {
+            last: processor_time(),
+            ..Gap::default()
+        }))
+    }
+
+    fn call(&self, task: &str) {
+        let now = processor_time();
+        let mut gap = self.0.lock().expect("not poisoned");
+        let length = now.saturating_sub(gap.last);
+        if length > gap.longest {
+            gap.longest = length;
+            gap.between = [gap.last_task.clone(), task.to_owned()];
+        }
+        gap.last = now;
+        task.clone_into(&mut gap.last_task);
+    }
+}
+
+#[cfg(unix)]
+impl Progress for Gaps {
+    fn advance(&self, task: &str, _: u64, _: u64) -> bool {
+        self.call(task);
+        true
+    }
+}
+
+/// Steps that take long on large meshes.
+#[cfg(unix)]
+const LONG_STEPS: &[&str] = &[
+    "Unwrap()",
+    "Remesh(length: 0.02)",
+    "Simplify(ratio: 0.1)",
+    "Smooth(by: Implicit(time: 0.01))",
+    "Measure(of: Thickness)",
+    "FlipEdges(edges: All, until: Delaunay)",
+    "LoopSubdivide(levels: 2)",
+    "Save(path: \"a.obj.gz\")",
+    "Picture(path: \"a.png\", size: (2000, 2000))",
+];
+
+/// The bound is loose, so that the test does not fail on a slow machine.
+#[test]
+#[cfg(unix)]
+fn long_steps_report_progress_at_least_once_a_second() {
+    let registry = ops_all::registry();
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+    let failures = pool.expect("a thread can be started").install(|| {
+        let mut failures = Vec::new();
+        let mut scene = Scene::new();
+        let torus = shapes::fans(&shapes::torus(200, 100, 2.0, 1.0));
+        scene.insert(Object::mesh("mesh", torus)).expect("a name");
+        for step in LONG_STEPS {
+            let (name, _) = step.split_once('(').expect("a step has parameters");
+            let entry = registry.get(name).expect(step);
+            let case = Case::new(entry, &step[name.len()..], "a torus", &scene);
+            let folder = tempfile::tempdir().expect("a temporary folder");
+            let gaps = Gaps::new();
+            let (_, result) = case.run(folder.path(), &gaps);
+            gaps.call("the end");
+            let gap = gaps.0.into_inner().expect("not poisoned");
+            println!("{:?} {step}: between {:?}", gap.longest, gap.between);
+            if let Err(error) = result {
+                failures.push(format!("{step}: {error}"));
+            } else if gap.longest > Duration::from_secs(1) {
+                let (longest, between) = (gap.longest, gap.between);
+                failures.push(format!(
+                    "{step}: {longest:?} without progress between {between:?}"
+                ));
+            }
+        }
+        failures
+    });
     assert_none(&failures);
 }
 

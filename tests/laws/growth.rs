@@ -212,8 +212,85 @@ fn growth(scene: impl Fn(usize) -> Scene, work: impl Fn(Scene) -> bool) -> Growt
     Growth::By(first.min(growth(&large, &scene(16 * n))))
 }
 
+/// The text of a recipe with the given number of parts.
+type RecipeText = fn(usize) -> String;
+
+/// Recipes that are read and checked.
+const RECIPES: [(&str, RecipeText); 8] = [
+    ("unnamed shapes", |n| steps(&"Cube(),".repeat(n))),
+    ("named shapes", |n| {
+        steps(&parts(n, |i| format!("Cube(name: \"{i}\"),")))
+    }),
+    ("outputs", |n| {
+        steps(&("Cube(),".to_owned() + &parts(n, |i| format!("Save(path: \"{i}.obj\"),"))))
+    }),
+    ("ids", |n| {
+        steps(&("Cube(),".to_owned() + &parts(n, |i| format!("(id: \"{i}\", run: Triangulate),"))))
+    }),
+    ("unused parameters", |n| {
+        let params = parts(n, |i| format!("\"p{i}\": Int(default: 1),"));
+        format!("(recipe: 1, params: {{{params}}}, steps: [Cube()])")
+    }),
+    ("parameters", |n| {
+        let params = parts(n, |i| format!("\"p{i}\": Float(default: 1),"));
+        let steps = parts(n, |i| format!("Cube(size: arg(\"p{i}\")),"));
+        format!("(recipe: 1, params: {{{params}}}, steps: [{steps}])")
+    }),
+    ("wrong steps", |n| steps(&"Cub(),".repeat(n))),
+    ("expectations", |n| {
+        let expectations = "Faces(eq: 6),".repeat(n);
+        format!("(recipe: 1, steps: [Cube()], expect: [{expectations}])")
+    }),
+];
+
+fn parts(n: usize, part: impl Fn(usize) -> String) -> String {
+    (0..n).map(part).collect()
+}
+
+fn steps(steps: &str) -> String {
+    format!("(recipe: 1, steps: [{steps}])")
+}
+
+/// Returns the shortest of three times that it takes to read and check a recipe.
+fn time_to_check(text: &str) -> Duration {
+    let registry = ops_all::registry();
+    let engine = Engine::new(&registry);
+    let times = (0..3).map(|_| {
+        let start = processor_time();
+        engine.load(&Source::new("a.ron", text), &Options::default());
+        processor_time().saturating_sub(start)
+    });
+    times.min().expect("three times")
+}
+
+/// A quadratic search among 8000 parts is noticed, because it would take most of the time. Only a growth by a factor of 8
+/// for four times the parts is refused, so that the test does not fail on a busy machine.
+#[test]
+fn reading_and_checking_a_recipe_is_not_quadratic() {
+    let failures = on_one_thread(|| {
+        let growth = |text: fn(usize) -> String, n| {
+            let [small, large] = [n, 4 * n].map(|n| time_to_check(&text(n)));
+            large.as_secs_f64() / small.as_secs_f64()
+        };
+        RECIPES
+            .iter()
+            .filter_map(|(what, text)| {
+                // A growth that is too large is measured again.
+                let least = growth(*text, 2000);
+                let least = if least > 8.0 {
+                    least.min(growth(*text, 4000))
+                } else {
+                    least
+                };
+                (least > 8.0).then(|| format!("{what}: {least:.2} for four times the parts"))
+            })
+            .collect()
+    });
+    assert_none(&failures);
+}
+
 /// Returns the processor time of this thread.
-fn processor_time() -> Duration {
+pub(crate) fn processor_time() -> Duration {
     let time = clock_gettime(ClockId::ThreadCPUTime);
     let seconds = time.tv_sec.unsigned_abs();
     Duration::from_secs(seconds) + Duration::from_nanos(time.tv_nsec.unsigned_abs())

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use mesh_io::Format;
 use ron_tree::ValueKind;
+use store::{Disk, Store as _};
 
 use crate::args::WrongUsage;
 use crate::output::shell_quoted;
@@ -40,8 +41,32 @@ pub(crate) fn expect_kind(path: &Path, expected: FileKind) -> anyhow::Result<()>
             let message = format!("{shown} is {kind}, expected {expected}: {help}");
             Err(WrongUsage(message).into())
         }
+        None if expected != FileKind::Mesh && !can_be_ron(path) => {
+            let expected = expected.describe();
+            let message =
+                format!("{shown} is not {expected}: expected a .ron file, which begins with `(`");
+            Err(WrongUsage(message).into())
+        }
         _ => Ok(()),
     }
+}
+
+/// Whether a file can be a recipe or a sweep: whether its name ends in `.ron`, or it begins with a parenthesis, a comment
+/// or an attribute. Files that cannot be read are accepted here.
+fn can_be_ron(path: &Path) -> bool {
+    const MAX_START: u64 = 4096;
+    if path.extension().is_some_and(|ending| ending == "ron") {
+        return true;
+    }
+    let Ok(start) = Disk.read_up_to(path, MAX_START) else {
+        return true;
+    };
+    let start = start.trim_ascii_start();
+    let openings = ["(", "//", "/*", "#!"];
+    start.is_empty()
+        || openings
+            .iter()
+            .any(|opening| start.starts_with(opening.as_bytes()))
 }
 
 impl FileKind {

@@ -35,6 +35,8 @@ pub(crate) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 /// Shows the progress of the current step if standard error is a terminal, otherwise nothing.
 pub(crate) struct Terminal<'a> {
     bar: ProgressBar,
+    /// The number and the label of the step, if a recipe is run.
+    step: Mutex<String>,
     go_on: &'a (dyn Fn() -> bool + Sync),
 }
 
@@ -51,16 +53,20 @@ impl<'a> Terminal<'a> {
         if std::env::var_os("TERM").is_some_and(|term| term == "dumb") {
             bar.set_draw_target(ProgressDrawTarget::hidden());
         }
-        if let Ok(style) = ProgressStyle::with_template(
-            "{spinner} {prefix}: {msg} {wide_bar} {percent}%, {eta} left",
-        ) {
+        if let Ok(style) =
+            ProgressStyle::with_template("{spinner} {msg} {wide_bar} {percent}%, {eta} left")
+        {
             bar.set_style(style);
         }
         // Periodic redrawing starts a thread. Starting it can fail when memory is low.
         if !bar.is_hidden() {
             bar.enable_steady_tick(Duration::from_millis(120));
         }
-        Self { bar, go_on }
+        Self {
+            bar,
+            step: Mutex::default(),
+            go_on,
+        }
     }
 
     /// Removes the progress bar from the screen.
@@ -72,9 +78,15 @@ impl<'a> Terminal<'a> {
 impl Progress for Terminal<'_> {
     fn advance(&self, what: &str, done: u64, total: u64) -> bool {
         if !self.bar.is_hidden() {
+            let step = lock(&self.step);
+            // The step and its task are one message, so that they always belong together.
+            let message = match step.as_str() {
+                "" => what.to_owned(),
+                step => format!("{step}: {what}"),
+            };
             // Each phase has its own estimate of the remaining time.
-            if self.bar.message() != what {
-                self.bar.set_message(what.to_owned());
+            if self.bar.message() != message {
+                self.bar.set_message(message);
                 self.bar.reset();
             }
             self.bar.set_length(total.max(1));
@@ -86,10 +98,87 @@ impl Progress for Terminal<'_> {
 
 impl Listener for Terminal<'_> {
     fn step_begins(&self, number: usize, label: &str) {
-        self.bar.set_prefix(format!("{} {label}", number + 1));
-        self.bar.set_message(String::new());
+        let mut step = lock(&self.step);
+        *step = format!("{} {label}", number + 1);
+        self.bar.set_message(step.clone());
         self.bar.set_position(0);
     }
 
     fn step_done(&self, _: usize, _: &StepDone) {}
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io;
+
+    use indicatif::TermLike;
+
+    use super::*;
+
+    /// A terminal that keeps all the lines that are drawn.
+    #[derive(Debug, Default)]
+    struct Lines(std::sync::Arc<Mutex<Vec<String>>>);
+
+    impl TermLike for Lines {
+        fn width(&self) -> u16 {
+            80
+        }
+        fn move_cursor_up(&self, _: usize) -> io::Result<()> {
+            Ok(())
+        }
+        fn move_cursor_down(&self, _: usize) -> io::Result<()> {
+            Ok(())
+        }
+        fn move_cursor_right(&self, _: usize) -> io::Result<()> {
+            Ok(())
+        }
+        fn move_cursor_left(&self, _: usize) -> io::Result<()> {
+            Ok(())
+        }
+        fn write_line(&self, line: &str) -> io::Result<()> {
+            self.write_str(line)
+        }
+        fn write_str(&self, line: &str) -> io::Result<()> {
+            lock(&self.0).push(line.to_owned());
+            Ok(())
+        }
+        fn clear_line(&self) -> io::Result<()> {
+            Ok(())
+        }
+        fn flush(&self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn a_step_is_never_shown_with_the_task_of_another_step() {
+        let lines = Lines::default();
+        let drawn = lines.0.clone();
+        let terminal = Terminal::new();
+        let target = ProgressDrawTarget::term_like_with_hz(Box::new(lines), 255);
+        terminal.bar.set_draw_target(target);
+        for (number, label) in ["Loop", "Save"].into_iter().enumerate() {
+            terminal.step_begins(number, label);
+            assert_eq!(terminal.bar.message(), format!("{} {label}", number + 1));
+            for done in 0..3 {
+                assert!(terminal.advance(&label.to_lowercase(), done, 3));
+                terminal.bar.tick();
+            }
+        }
+        let drawn = lock(&drawn);
+        assert!(
+            drawn.iter().any(|line| line.contains("2 Save: save")),
+            "{drawn:?}"
+        );
+        for line in drawn.iter() {
+            assert!(
+                !(line.contains("1 Loop") && line.contains("save")),
+                "{line}"
+            );
+            assert!(
+                !(line.contains("2 Save") && line.contains("loop")),
+                "{line}"
+            );
+        }
+    }
 }

@@ -151,10 +151,12 @@ fn terminal_width() -> Option<usize> {
 }
 
 /// Aligns rows in columns. If the table is wider than `limit`, the titles are shortened first, then the last column
-/// if it contains text, and then the first column. Numbers are never shortened.
+/// if it contains text, and then the first column. Numbers are never shortened: if they do not fit, each row continues
+/// on further lines, which are indented.
 fn table_within(rows: &[Vec<String>], limit: Option<usize>, last_is_text: bool) -> String {
     /// Names are not shortened below this number of characters.
     const MIN: usize = 8;
+    const INDENT: usize = 4;
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
     let width = |rows: &[Vec<String>], c: usize| {
         let cells = rows.iter().filter_map(|row| row.get(c));
@@ -181,17 +183,29 @@ fn table_within(rows: &[Vec<String>], limit: Option<usize>, last_is_text: bool) 
     let mut text = String::new();
     for row in rows {
         let mut line = String::new();
+        let mut length = 0;
         for (c, cell) in row.iter().enumerate() {
             let cell = shortened(cell, widths[c]);
-            let gap = if c == 0 { "" } else { "  " };
+            if c > 0 && limit.is_some_and(|limit| length + 2 + widths[c] > limit) {
+                text += line.trim_end();
+                text.push('\n');
+                line = " ".repeat(INDENT);
+                length = INDENT;
+            } else if c > 0 {
+                line += "  ";
+                length += 2;
+            }
             line += &if is_text(c) {
-                format!("{gap}{cell:<0$}", widths[c])
+                format!("{cell:<0$}", widths[c])
             } else {
-                format!("{gap}{cell:>0$}", widths[c])
+                format!("{cell:>0$}", widths[c])
             };
+            length += widths[c];
         }
-        text += line.trim_end();
-        text.push('\n');
+        if !line.trim().is_empty() || row.is_empty() {
+            text += line.trim_end();
+            text.push('\n');
+        }
     }
     text
 }
@@ -337,7 +351,8 @@ mod tests {
             (1.0e-5, "0.00001"),
             (1.234_567_89e-12, "1.23457e-12"),
             (1.0e300, "1e300"),
-            (f64::INFINITY, "inf"),
+            (f64::INFINITY, "too large"),
+            (f64::NAN, "too large"),
         ] {
             assert_eq!(number(x), text);
         }
@@ -376,7 +391,10 @@ mod tests {
             short.contains("123456789012") && short.contains('…'),
             "{short}"
         );
-        // If the numbers do not fit, they are printed nevertheless.
-        assert!(table_within(&rows, Some(10), true).contains("123456789012"));
+        // Numbers that do not fit are printed on further lines.
+        let wrapped = table_within(&rows, Some(16), true);
+        assert!(wrapped.contains("123456789012"), "{wrapped}");
+        let is_short = |line: &str| line.chars().count() <= 16;
+        assert!(wrapped.lines().all(is_short), "{wrapped}");
     }
 }

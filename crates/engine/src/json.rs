@@ -46,7 +46,9 @@ pub fn problems(diagnostics: &[Diagnostic], sources: &[Source]) -> Vec<Problem> 
 pub fn losses(losses: &[Loss]) -> Vec<Json> {
     let json = |l: &Loss| {
         let object = (!l.object.is_empty()).then_some(&l.object);
-        json!({ "object": object, "name": l.name, "message": l.to_string() })
+        json!({
+            "code": l.code, "count": l.count, "object": object, "name": l.name, "message": l.to_string(),
+        })
     };
     losses.iter().map(json).collect()
 }

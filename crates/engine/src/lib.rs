@@ -57,7 +57,7 @@ use recipe::{Schemas, Stamp};
 pub use cancel::Cancel;
 pub use keys::{StepKey, StepKeys, stamp_line};
 pub use loaded::{Loaded, Run};
-pub use memory::new_bytes;
+pub use memory::SceneMemory;
 pub use read::FileReader;
 pub use recipe::{
     Diagnostic, Failure, Listener, Outcome, Settings, Silent, Source, StepDone, Values,
@@ -86,6 +86,8 @@ pub struct Options<'a> {
     pub out: &'a Path,
     /// The memory budget for meshes, in bytes. Defaults to [`BUDGET`].
     pub budget: u64,
+    /// Whether losses are errors, except those that the recipe allows with `Allow`. Defaults to false.
+    pub strict: bool,
 }
 
 impl Default for Options<'_> {
@@ -94,6 +96,7 @@ impl Default for Options<'_> {
             values: Values::default(),
             out: Path::new("out"),
             budget: BUDGET,
+            strict: false,
         }
     }
 }
@@ -130,7 +133,10 @@ impl<'r> Engine<'r> {
 
     /// Reads and checks a recipe. Errors and warnings are in its [`diagnostics`](Loaded::diagnostics).
     pub fn load(&self, source: &Source, options: &Options) -> Loaded {
-        let reading = recipe::read_by(&self.schemas, &*self.store, source, options.values);
+        let mut reading = recipe::read_by(&self.schemas, &*self.store, source, options.values);
+        if options.strict {
+            reading.recipe.forbid_losses();
+        }
         let is_read = !reading.has_errors();
         let mut files = Files {
             store: self.store.clone(),

@@ -22,7 +22,7 @@ pub struct Scaled<'a> {
 }
 
 impl<'a> Scaled<'a> {
-    /// Scales a mesh if necessary. The scaled mesh has no attributes.
+    /// Scales a mesh if necessary. A mesh that is scaled loses its attributes.
     pub fn new(mesh: &'a Mesh) -> Self {
         Self::by(mesh, ordinary(exponent(mesh.positions())))
     }

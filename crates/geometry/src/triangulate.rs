@@ -144,6 +144,30 @@ impl Cutter {
         Cut::Polygon { triangles, is_fan }
     }
 
+    /// Whether the corners of `f` lie in a plane and form a convex polygon without straight corners.
+    pub(crate) fn is_flat_and_convex(&mut self, mesh: &Mesh, f: FaceId) -> bool {
+        self.points.clear();
+        let corners = mesh.face_vertices(f).map(|v| mesh.position(v));
+        self.points.extend(corners);
+        normalize(&mut self.points);
+        let Some(normal) = doubled_area(&self.points).try_normalize() else {
+            return false;
+        };
+        // The first point is the origin.
+        if self.points.iter().any(|p| normal.dot(*p).abs() > TOLERANCE) {
+            return false;
+        }
+        let n = self.points.len();
+        let side = |i: usize| self.points[(i + 1) % n] - self.points[i % n];
+        let turns_left = (0..n).all(|i| normal.dot(side(i).cross(side(i + 1))) > 0.0);
+        // The sides of a polygon that goes around once change their direction along an axis twice.
+        let (axis, _) = normal.any_orthonormal_pair();
+        let signs = (0..n).map(|i| axis.dot(side(i))).filter(|s| *s != 0.0);
+        let signs: Vec<bool> = signs.map(|s| s > 0.0).collect();
+        let changes = (0..signs.len()).filter(|&i| signs[i] != signs[(i + 1) % signs.len()]);
+        turns_left && changes.count() == 2
+    }
+
     /// Triangulates the points by ear clipping, and improves the triangles by flips. Returns `None` if the result is
     /// not a triangulation.
     fn ears(&mut self) -> Option<Vec<Triangle>> {

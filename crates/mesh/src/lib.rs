@@ -141,4 +141,4 @@ pub use measure::angle_between;
 pub use readable::{readable, readable_bytes};
 pub use traverse::Orbit;
 pub use validate::Defect;
-pub use zeroed::{OutOfMemory, zeroed};
+pub use zeroed::{OutOfMemory, require_memory, zeroed};

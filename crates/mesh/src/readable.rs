@@ -1,9 +1,13 @@
 //! Formats numbers and sizes in messages for people.
 
 /// Formats a number for people, with six significant digits. Numbers whose magnitude is below 1e-5 or at least 1e15 are
-/// in scientific notation. All other numbers keep all digits before the decimal point.
+/// in scientific notation. All other numbers keep all digits before the decimal point. Coordinates are always finite, so
+/// a result that is not finite has overflowed: it is too large for a number.
 pub fn readable(x: f64) -> String {
-    if x == 0.0 || !x.is_finite() {
+    if !x.is_finite() {
+        return "too large".to_owned();
+    }
+    if x == 0.0 {
         return x.to_string();
     }
     let scientific = format!("{x:.5e}");

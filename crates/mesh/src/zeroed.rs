@@ -8,7 +8,7 @@ use bytemuck::Zeroable;
 /// Arrays of at least this many bytes request large pages. Smaller arrays would waste memory.
 const LARGE: usize = 8 << 20;
 
-/// The system has no memory for a large array. [`zeroed`] unwinds with this value. Running out of memory is not
+/// The system has no memory for a large array. [`zeroed`] and [`require_memory`] unwind with this value. Running out of memory is not
 /// a bug in the program: callers catch the value and report it as an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the system has no memory for another {bytes} bytes")]
@@ -25,7 +25,7 @@ pub struct OutOfMemory {
 /// Unwinds with [`OutOfMemory`] if the system has no memory for the array.
 pub fn zeroed<T: Zeroable>(n: usize) -> Vec<T> {
     let Ok(new) = bytemuck::try_zeroed_vec(n) else {
-        out_of_memory::<T>(n);
+        unwind(n.saturating_mul(size_of::<T>()));
     };
     ask_for_large_pages(&new);
     new
@@ -39,24 +39,38 @@ pub fn zeroed<T: Zeroable>(n: usize) -> Vec<T> {
 pub(crate) fn reserved<T>(n: usize) -> Vec<T> {
     let mut new = Vec::new();
     if new.try_reserve_exact(n).is_err() {
-        out_of_memory::<T>(n);
+        unwind(n.saturating_mul(size_of::<T>()));
     }
     ask_for_large_pages(new.spare_capacity_mut());
     new
 }
 
-fn out_of_memory<T>(n: usize) -> ! {
-    let bytes = n.saturating_mul(size_of::<T>());
+/// Checks that the system has memory for `bytes` more bytes. Computations that allocate several large arrays call this
+/// function first, because a failed allocation of a standard collection aborts the program.
+///
+/// # Panics
+///
+/// Unwinds with [`OutOfMemory`] if the system does not have this memory.
+pub fn require_memory(bytes: usize) {
+    let mut probe: Vec<u8> = Vec::new();
+    if probe.try_reserve_exact(bytes).is_err() {
+        unwind(bytes);
+    }
+    // Without this line, the compiler can remove the allocation.
+    std::hint::black_box(&probe);
+}
+
+fn unwind(bytes: usize) -> ! {
     // The panic hook is not called: it would print a backtrace, for which there may be no memory either.
-    std::panic::resume_unwind(Box::new(OutOfMemory { bytes }));
+    std::panic::resume_unwind(Box::new(OutOfMemory { bytes }))
 }
 
 #[cfg(target_os = "linux")]
 fn ask_for_large_pages<T>(array: &[T]) {
+    const PAGE: usize = 4096;
     if size_of_val(array) < LARGE {
         return;
     }
-    const PAGE: usize = 4096;
     let start = array.as_ptr().addr().next_multiple_of(PAGE);
     let end = (array.as_ptr().addr() + size_of_val(array)) / PAGE * PAGE;
     if start >= end {
@@ -90,6 +104,15 @@ mod tests {
         let caught = std::panic::catch_unwind(|| zeroed::<u64>(n).len());
         let caught = *caught.unwrap_err().downcast::<OutOfMemory>().unwrap();
         assert_eq!(caught, OutOfMemory { bytes: 8 * n });
+    }
+
+    #[test]
+    fn required_memory_that_is_missing_unwinds_with_its_size() {
+        require_memory(1 << 20);
+        let bytes = isize::MAX as usize;
+        let caught = std::panic::catch_unwind(|| require_memory(bytes));
+        let caught = *caught.unwrap_err().downcast::<OutOfMemory>().unwrap();
+        assert_eq!(caught, OutOfMemory { bytes });
     }
 
     #[test]

@@ -6,7 +6,7 @@ use mesh::Mesh;
 use progress::Progress;
 use scene::Scene;
 
-use crate::{Files, OpError};
+use crate::{CancellableStore, Files, OpError};
 
 /// The context that an operation runs in.
 pub struct Context<'a> {
@@ -126,6 +126,12 @@ impl<'a> Context<'a> {
     /// Returns the receiver of progress reports, for long computations in other crates.
     pub fn progress(&self) -> &'a dyn Progress {
         self.progress
+    }
+
+    /// Returns the store of the run, for writing long files: writing reports progress, and fails if the run is cancelled.
+    /// After such a failure, [`advance`](Self::advance) returns the error.
+    pub fn cancellable_store(&self) -> CancellableStore<'_> {
+        CancellableStore::new(&*self.files.store, self.progress)
     }
 
     /// Returns the files of the run, which determine where files are read and written.

@@ -1,9 +1,12 @@
 //! Helpers for operations that work on a whole scene: sources, which create an object, and checks of object names.
 
+use std::collections::HashSet;
+
 use glam::DVec3;
 use mesh::{Mesh, readable_bytes};
 use scene::{Object, Scene};
 
+use crate::plan::numbered;
 use crate::{Context, MeshPlan, OpError, Plan, PlannedGeometry, Problem, Report, Vector};
 
 /// The largest number of edges of a mesh that is built from polygons. Each edge adds at most two corners to the faces,
@@ -85,7 +88,10 @@ impl<'a> Source<'a> {
 
     /// Adds the object to a plan and returns all problems.
     pub fn plan(self, plan: &mut Plan) -> Vec<Problem> {
-        let name = self.free_name(|name| plan.object(name).is_none());
+        let name = match self.name {
+            Some(name) => name.to_owned(),
+            None => plan.free_name(&self.default_name()),
+        };
         let mut problems = self.problems;
         problems.extend(plan.insert(&name, PlannedGeometry::Mesh(self.counts)));
         problems
@@ -106,7 +112,10 @@ impl<'a> Source<'a> {
         make: impl FnOnce() -> Mesh,
     ) -> Result<Report, OpError> {
         let edges = self.counts.edges.min;
-        let name = self.free_name(|name| scene.object(name).is_none());
+        let name = match self.name {
+            Some(name) => name.to_owned(),
+            None => free_name(scene, &self.default_name()),
+        };
         if let Some(problem) = self.problems.into_iter().find(|p| !p.is_warning) {
             let path = problem.path.join(".");
             return Err(match path.as_str() {
@@ -142,16 +151,17 @@ impl<'a> Source<'a> {
         Ok(report)
     }
 
-    /// Returns the given name, or the first default name that is free.
-    fn free_name(&self, is_free: impl Fn(&str) -> bool) -> String {
-        if let Some(name) = self.name {
-            return name.to_owned();
-        }
-        let name = self.operation.to_lowercase();
-        let numbered = (2..).map(|n| format!("{name}.{n}"));
-        let mut names = std::iter::once(name.clone()).chain(numbered);
-        names.find(|name| is_free(name)).unwrap_or(name)
+    fn default_name(&self) -> String {
+        self.operation.to_lowercase()
     }
+}
+
+/// Returns the first name that no object of the scene has among `name`, `name.2`, `name.3` and so on.
+fn free_name(scene: &Scene, name: &str) -> String {
+    let taken: HashSet<&str> = scene.objects().iter().map(|o| o.name.as_str()).collect();
+    let mut names = numbered(name, 1).map(|(_, name)| name);
+    let free = names.find(|name| !taken.contains(name.as_str()));
+    free.expect("fewer than 2^64 objects")
 }
 
 /// Checks that no object of a scene has this name.

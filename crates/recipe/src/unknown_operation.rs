@@ -5,17 +5,48 @@ use op::Registry;
 use crate::recipe::Kind;
 use crate::shape::{listed, nearest};
 
+/// Words for operations on solids that do not exist yet.
+const BOOLEANS: &[&str] = &[
+    "boolean",
+    "csg",
+    "difference",
+    "intersect",
+    "intersection",
+    "subtract",
+    "union",
+];
+
 /// Returns the help text of an error about an unknown operation. The text suggests at most three operations: first
 /// operations with a similar name, then operations whose list of words contains a word of the name. If there are
 /// operations of the second kind, only one operation with a similar name is suggested. If there are operations of
 /// neither kind, the text suggests operations whose names share a word with the name. If there are no such operations
-/// either, the text names the command that lists all operations.
+/// either, the text names the command that lists all operations. If the name is that of a boolean operation, the text
+/// says that there are none.
 pub fn suggest_operations(name: &str, registry: &Registry) -> String {
     let entries = registry.entries();
     let known = entries.iter().map(|entry| entry.name);
     let known = known.chain(Kind::ALL.map(Kind::name));
     let mut suggestions = nearest(name, known.clone());
     let words = words(name);
+    let is_known = |name: &&str| known.clone().any(|known| known == *name);
+    if words.iter().any(|word| BOOLEANS.contains(&word.as_str())) {
+        let mut nearest = [
+            (
+                "Join",
+                "combines objects without intersecting their surfaces",
+            ),
+            ("Bisect", "cuts a mesh at a plane"),
+        ]
+        .iter()
+        .filter(|(name, _)| is_known(name))
+        .map(|(name, what)| format!("`{name}` {what}"));
+        let mut text = "Meshwright has no boolean operations yet".to_owned();
+        for (i, what) in nearest.by_ref().enumerate() {
+            text += if i == 0 { ": " } else { ", and " };
+            text += &what;
+        }
+        return text;
+    }
     let is_also_called = |entry_words: &[&str]| {
         words
             .iter()
@@ -59,6 +90,15 @@ fn words(name: &str) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_hint_for_a_boolean_operation_says_that_there_are_none() {
+        let registry = Registry::new();
+        for name in ["Boolean", "union", "SubtractMesh", "mesh_difference"] {
+            let help = suggest_operations(name, &registry);
+            assert_eq!(help, "Meshwright has no boolean operations yet", "{name}");
+        }
+    }
 
     #[test]
     fn names_are_split_into_words() {

@@ -92,6 +92,10 @@ impl Store for Disk {
             .map_err(|error| StoreError::new("write", folder, error))
     }
 
+    fn remove_empty_folder(&self, folder: &Path) -> Result<(), StoreError> {
+        fs::remove_dir(folder).map_err(|error| StoreError::new("remove the folder", folder, error))
+    }
+
     fn create(&self, path: &Path) -> Result<Box<dyn NewFile + '_>, StoreError> {
         check_target(self, path)?;
         let file = beside(path).map_err(|error| StoreError::new("write", path, error))?;

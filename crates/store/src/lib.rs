@@ -97,6 +97,19 @@ pub trait Store: Debug + Send + Sync {
     /// [`StoreError`] if the folder or a part of its content could not be removed.
     fn remove_folder(&self, folder: &Path) -> Result<(), StoreError>;
 
+    /// Removes a folder if it is empty.
+    ///
+    /// # Errors
+    ///
+    /// [`StoreError`] if the folder is not empty or cannot be removed.
+    fn remove_empty_folder(&self, folder: &Path) -> Result<(), StoreError> {
+        if self.list(folder)?.is_empty() {
+            return self.remove_folder(folder);
+        }
+        let error = io::ErrorKind::DirectoryNotEmpty.into();
+        Err(StoreError::new("remove the folder", folder, error))
+    }
+
     /// Begins to write a file in an existing folder. An existing file with this name stays unchanged until
     /// [`NewFile::commit`]. An existing link with this name is replaced, not followed.
     ///

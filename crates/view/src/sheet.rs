@@ -61,6 +61,20 @@ impl Default for SheetStyle {
     }
 }
 
+impl SheetStyle {
+    /// Returns the style with larger captions and gaps if the images are larger than 560 pixels, so that captions are as
+    /// readable as the images when a sheet is scaled down.
+    #[must_use]
+    pub fn scaled_to(self, [width, height]: [u32; 2]) -> Self {
+        let side = width.min(height);
+        Self {
+            gap: self.gap.max(side * 3 / 140),
+            font_size: self.font_size.max(side / 40),
+            ..self
+        }
+    }
+}
+
 /// The positions and sizes of the parts of a sheet, in pixels.
 struct Layout {
     /// The number of columns.
@@ -293,6 +307,14 @@ mod tests {
         }
         let golden = Image::from_png(&std::fs::read(path).unwrap()).unwrap();
         assert!(sheet == golden);
+    }
+
+    #[test]
+    fn captions_grow_with_large_images() {
+        let style = SheetStyle::default();
+        assert_eq!(style.scaled_to([400, 560]), style);
+        let large = style.scaled_to([3000, 2000]);
+        assert_eq!((large.font_size, large.gap), (50, 42));
     }
 
     const RED: Color = [200, 0, 0, 255];

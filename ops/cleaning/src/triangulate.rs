@@ -67,7 +67,7 @@ impl MeshOperation for Triangulate {
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
         let chosen = self.faces.mask(mesh, cx)?;
         cx.advance("triangulate", 0, 3)?;
-        let mut cuts = vec![Cut::Keep; mesh.n_faces()];
+        let mut cuts = parallel::collect(mesh.n_faces(), |_| Cut::Keep);
         parallel::fill(&mut cuts, |first, cuts| {
             let mut cutter = Cutter::default();
             for (f, cut) in (first..).zip(cuts).filter(|(f, _)| chosen[*f]) {

@@ -58,7 +58,7 @@ impl MeshOperation for FillHoles {
     const NAME: &'static str = "FillHoles";
     const SUMMARY: &'static str = "Fill holes with a face or with triangles";
     const EXAMPLE: &'static str = "FillHoles()";
-    const WORDS: &'static [&'static str] = &["close", "cap", "repair"];
+    const WORDS: &'static [&'static str] = &["hole", "close", "cap", "repair"];
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         // A filled hole has at least three edges, and no edge is on two holes.

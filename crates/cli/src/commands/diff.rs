@@ -140,7 +140,7 @@ fn mesh_text(mesh: &MeshDifference, files: &[String; 2]) -> String {
 
 type Show = fn(&Counts) -> String;
 
-const FACTS: [(&str, Show); 8] = [
+const FACTS: [(&str, Show); 10] = [
     ("vertices", |c| group_digits(c.vertices as u64)),
     ("edges", |c| group_digits(c.edges as u64)),
     ("faces", |c| group_digits(c.faces as u64)),
@@ -151,11 +151,18 @@ const FACTS: [(&str, Show); 8] = [
         0 => number(c.volume),
         _ => "open".to_owned(),
     }),
-    ("bounds", |c| match c.bounds {
-        Some([min, max]) => format!("{} to {}", point(min), point(max)),
-        None => "none".to_owned(),
-    }),
+    ("bounds x", |c| extent(c, 0)),
+    ("bounds y", |c| extent(c, 1)),
+    ("bounds z", |c| extent(c, 2)),
 ];
+
+/// Formats the bounds of a mesh along one axis.
+fn extent(counts: &Counts, axis: usize) -> String {
+    match counts.bounds {
+        Some([min, max]) => format!("{} to {}", number(min[axis]), number(max[axis])),
+        None => "none".to_owned(),
+    }
+}
 
 /// Formats the largest distance. If `at_most` exceeds the distance, the distance is only a lower bound.
 fn largest(distance: &Distance) -> String {

@@ -12,6 +12,7 @@ const SWEEP: &str = r#"(sweep: 1, recipe: "recipe.ron", over: { "n": [1, 2] }, k
 fn the_error_for_a_file_of_the_wrong_kind_names_the_commands_for_it() {
     let folder = Folder::with_recipe(RECIPE)
         .with("levels.ron", SWEEP)
+        .with("README.md", "# Models\n\nThis folder contains models.\n")
         .with("a b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     let is_mesh = "a b.obj is a mesh file, expected a recipe: use `meshwright info 'a b.obj'`";
     let is_sweep = "levels.ron is a sweep, expected a recipe: use `meshwright sweep levels.ron`";
@@ -43,6 +44,14 @@ fn the_error_for_a_file_of_the_wrong_kind_names_the_commands_for_it() {
             &["sweep", "a b.obj"],
             "a b.obj is a mesh file, expected a sweep",
         ),
+        (
+            &["run", "README.md"],
+            "README.md is not a recipe: expected a .ron file, which begins with `(`",
+        ),
+        (
+            &["sweep", "README.md"],
+            "README.md is not a sweep: expected a .ron file, which begins with `(`",
+        ),
         (&["info", "."], ". is a folder, expected a mesh file"),
         (&["run", "."], ". is a folder, expected a recipe"),
     ] {
@@ -53,7 +62,10 @@ fn the_error_for_a_file_of_the_wrong_kind_names_the_commands_for_it() {
         .run("run missing.obj")
         .with_code(1)
         .complains(&["cannot read missing.obj: No such file"]);
-    assert_eq!(folder.entries("."), ["a b.obj", "levels.ron", "recipe.ron"]);
+    assert_eq!(
+        folder.entries("."),
+        ["README.md", "a b.obj", "levels.ron", "recipe.ron"]
+    );
 }
 
 #[test]

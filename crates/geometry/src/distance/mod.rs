@@ -99,8 +99,11 @@ impl Distance {
         progress.report(WHAT, 0, 2)?;
         let [scaled_a, scaled_b] = Scaled::pair(a, b);
         let (a, b) = (scaled_a.mesh(), scaled_b.mesh());
-        let (from_a, from_b) = rayon::join(|| SurfaceIndex::new(a), || SurfaceIndex::new(b));
-        let (Some(surface_a), Some(surface_b)) = (from_a, from_b) else {
+        let (from_a, from_b) = rayon::join(
+            || SurfaceIndex::with_progress(a, progress),
+            || SurfaceIndex::with_progress(b, progress),
+        );
+        let (Some(surface_a), Some(surface_b)) = (from_a?, from_b?) else {
             return Ok(None);
         };
         let tolerance = tolerance.map(|tolerance| scaled_a.scaled(tolerance));

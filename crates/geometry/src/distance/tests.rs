@@ -56,6 +56,28 @@ fn sampled_distance(a: &Mesh, b: &Mesh, rows: u32) -> f64 {
 }
 
 #[test]
+fn a_search_near_a_face_with_many_corners_visits_few_nodes() {
+    let n = 5000_u32;
+    let at = |i: u32| {
+        let angle = std::f64::consts::TAU * f64::from(i) / f64::from(n);
+        // Turned, so that no side of a bounding box is parallel to the face.
+        let [x, y] = [libm::cos(angle), libm::sin(angle)];
+        DVec3::new(x, 0.8 * y, 0.6 * y)
+    };
+    let corners: Vec<u32> = (0..n).collect();
+    let disk = of(&(0..n).map(at).collect::<Vec<_>>(), &[&corners]);
+    let index = SurfaceIndex::new(&disk).unwrap();
+    let points = (0..n).flat_map(|i| [1.0, 0.9, 0.3].map(|r| r * at(i) + 0.1 * DVec3::Z));
+    let visits = points.map(|p| index.nearest(p, 0).visits).max().unwrap();
+    // In a triangulation by ear clipping, most searches visit more than a thousand nodes.
+    assert!(visits < 200, "{visits}");
+    let lifted = moved(disk.clone(), |p| p + 0.1 * DVec3::new(0.0, -0.6, 0.8));
+    let found = between(&disk, &lifted, 1e-9);
+    assert!((found.largest() - 0.1).abs() < 1e-9, "{found:?}");
+    assert!((found.mean() - 0.1).abs() < 1e-9, "{found:?}");
+}
+
+#[test]
 fn a_mesh_has_distance_zero_to_itself() {
     for mesh in [
         shapes::icosahedron(),

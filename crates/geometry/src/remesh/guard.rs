@@ -80,7 +80,10 @@ pub(super) fn refine(
     let [result, source] = Scaled::pair(result, original.source);
     let limit = source.scaled(limit);
     let (result, source) = (result.mesh(), source.mesh());
-    let (Some(new), Some(old)) = (SurfaceIndex::new(result), SurfaceIndex::new(source)) else {
+    let (Some(new), Some(old)) = (
+        SurfaceIndex::with_progress(result, progress)?,
+        SurfaceIndex::with_progress(source, progress)?,
+    ) else {
         return Ok(());
     };
     let mut is_marked = vec![false; original.mesh.n_vertices()];

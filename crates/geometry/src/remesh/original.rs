@@ -259,7 +259,7 @@ impl<'a> Original<'a> {
                 }
             }
             faces.sort_unstable();
-            let index = SurfaceIndex::of_faces(mesh, faces.iter().copied());
+            let index = SurfaceIndex::of_faces(mesh, faces.iter().copied(), progress)?;
             let index = index.expect("a chart has a face");
             for i in 0..u32::try_from(index.n_triangles()).expect("fewer than 2^32") {
                 self.triangles[index.triangle(i).face.index()] = i;

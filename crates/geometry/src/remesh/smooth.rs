@@ -19,6 +19,25 @@ struct Step {
     size: f64,
 }
 
+/// The number of values that one parallel job computes.
+const BLOCK: usize = 256;
+
+/// Sets each value to the result of `value` for its index. Calls `ask` for each block of values.
+fn fill<T: Send>(
+    values: &mut [T],
+    ask: &(dyn Fn() -> Result<(), Cancelled> + Sync),
+    value: impl Fn(usize) -> T + Sync,
+) -> Result<(), Cancelled> {
+    let blocks = parallel::consume(values.chunks_mut(BLOCK), |block, values| {
+        ask()?;
+        for (i, slot) in (block * BLOCK..).zip(values) {
+            *slot = value(i);
+        }
+        Ok(())
+    });
+    blocks.into_iter().collect()
+}
+
 impl Work<'_> {
     /// Moves all vertices once. A vertex inside a chart moves in the tangent plane to the weighted mean of the centers
     /// of the triangles around it, and then to the nearest point of the original surface. A vertex on a line moves
@@ -27,15 +46,17 @@ impl Work<'_> {
     pub(super) fn smooth(&mut self, progress: &dyn Progress) -> Result<f64, Cancelled> {
         progress.report(WHAT, self.counts.passes, self.counts.max_passes)?;
         let n = self.places.len();
-        let mut steps: Vec<Option<Step>> = parallel::collect(n, |v| self.step(VertexId::new(v)));
+        let ask = || progress.report(WHAT, self.counts.passes, self.counts.max_passes);
+        let mut steps: Vec<Option<Step>> = vec![None; n];
+        fill(&mut steps, &ask, |v| self.step(VertexId::new(v)))?;
         // Undoing the movement of a vertex can turn another triangle. Each round undoes at least one movement.
         let mut is_changed = vec![true; n];
         loop {
-            progress.report(WHAT, self.counts.passes, self.counts.max_passes)?;
             let position = |v: VertexId| {
                 steps[v.index()].map_or(self.mesh.position(v), |step: Step| step.point)
             };
-            let turned: Vec<bool> = parallel::collect(self.charts.len(), |f| {
+            let mut turned = vec![false; self.charts.len()];
+            fill(&mut turned, &ask, |f| {
                 let f = mesh::FaceId::new(f);
                 if !self.mesh.has_face(f) {
                     return false;
@@ -63,7 +84,7 @@ impl Work<'_> {
                 before != after
                     && (is_turned(cross(before), own)
                         || ((self.limit.is_some() || is_bent()) && self.is_far(&[(f, after)], &[])))
-            });
+            })?;
             if !turned.contains(&true) {
                 break;
             }

@@ -10,7 +10,7 @@
 //!    stage for another edge.
 
 use mesh::{DVec3, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId, parallel};
-use progress::{Cancelled, Progress};
+use progress::{Cancelled, Meter, Progress};
 
 use crate::lines::{Kind, inverse_power_of_two, kinds, lines};
 
@@ -24,6 +24,9 @@ use super::{Blocked, Options};
 /// The number of edges in a batch. With smaller batches, threads wait for each other more often: with 1024 edges, a
 /// torus of 1,000,000 triangles takes 1.3 times as long on two processors.
 const BATCH: usize = 16_384;
+
+/// The number of edges between two progress reports of the preparation.
+const REPORT: usize = 4096;
 
 /// The state of an edge in the queue.
 #[derive(Clone, Copy, PartialEq)]
@@ -101,7 +104,21 @@ enum Cost {
 
 impl<'a> Collapser<'a> {
     /// Prepares the simplification of a dense mesh of triangles.
-    pub(super) fn new(mut mesh: Mesh, options: &'a Options<'a>) -> Self {
+    ///
+    /// # Errors
+    ///
+    /// Returns [`Cancelled`] if `progress` asks to stop.
+    pub(super) fn new(
+        mut mesh: Mesh,
+        options: &'a Options<'a>,
+        progress: &dyn Progress,
+    ) -> Result<Self, Cancelled> {
+        let meter = Meter::new(progress, "prepare", mesh.n_edges() as u64);
+        meter.add(0)?;
+        let per_vertex = size_of::<Node>() + size_of::<Mark>();
+        let per_edge =
+            size_of::<State>() + size_of::<Result<f64, Blocked>>() + 2 * size_of::<Entry>();
+        mesh::require_memory(per_vertex * mesh.n_vertices() + per_edge * mesh.n_edges());
         let [min, max] = crate::bounds(&mesh).unwrap_or_default();
         let center = 0.5 * min + 0.5 * max;
         let scale = inverse_power_of_two((max - min).max_element());
@@ -120,19 +137,27 @@ impl<'a> Collapser<'a> {
             lines,
             states: vec![State::Queued; mesh.n_edges()],
             queue: Queue::new(),
-            contacts: (options.refuse_intersections)
-                .then(|| Contacts::new(&mesh))
-                .flatten(),
+            contacts: if options.refuse_intersections {
+                Contacts::new(&mesh, progress)?
+            } else {
+                None
+            },
             options,
             mesh,
         };
-        let costs = parallel::collect(this.mesh.n_edges(), |e| {
-            this.target(EdgeId::new(e)).map(|target| target.cost)
+        meter.add(0)?;
+        let mut costs = vec![Ok(0.0); this.mesh.n_edges()];
+        let done = parallel::consume(costs.chunks_mut(REPORT), |i, costs| {
+            for (e, cost) in (i * REPORT..).zip(&mut *costs) {
+                *cost = this.target(EdgeId::new(e)).map(|target| target.cost);
+            }
+            meter.add(costs.len())
         });
+        done.into_iter().collect::<Result<(), Cancelled>>()?;
         for (e, cost) in costs.into_iter().enumerate() {
             this.enqueue(EdgeId::new(e), cost);
         }
-        this
+        Ok(this)
     }
 
     /// Collapses edges until the mesh has at most the requested number of faces, or no remaining edge may be

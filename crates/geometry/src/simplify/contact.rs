@@ -2,6 +2,7 @@
 //! changes.
 
 use mesh::{DVec3, Domain, FaceId, Mesh, VertexId};
+use progress::{Cancelled, Progress};
 
 use crate::surface_index::{SurfaceIndex, triangles_intersect};
 
@@ -23,8 +24,14 @@ pub(super) struct Contacts {
 
 impl Contacts {
     /// Builds the tree of a dense mesh of triangles; `None` if it has no faces.
-    pub(super) fn new(mesh: &Mesh) -> Option<Self> {
-        let index = SurfaceIndex::new(mesh)?;
+    ///
+    /// # Errors
+    ///
+    /// Returns [`Cancelled`] if `progress` asks to stop.
+    pub(super) fn new(mesh: &Mesh, progress: &dyn Progress) -> Result<Option<Self>, Cancelled> {
+        let Some(index) = SurfaceIndex::with_progress(mesh, progress)? else {
+            return Ok(None);
+        };
         let faces: Vec<FaceId> = (0..).map_while(|i| index.face(i)).collect();
         let first_leaf = faces.len().next_power_of_two();
         let mut leaf_of_face = vec![0; mesh.domain_len(Domain::Face)];
@@ -36,11 +43,11 @@ impl Contacts {
         for i in (1..first_leaf).rev() {
             boxes[i] = union(boxes[2 * i], boxes[2 * i + 1]);
         }
-        Some(Self {
+        Ok(Some(Self {
             boxes,
             faces,
             leaf_of_face,
-        })
+        }))
     }
 
     /// Updates the box of a face that has changed or was removed.

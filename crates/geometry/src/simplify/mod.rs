@@ -167,7 +167,7 @@ pub fn simplify(
     // The whole simplification runs in a thread of the pool. From there, a parallel loop starts without waiting for
     // another thread.
     let collapser = rayon::scope(|_| {
-        let mut collapser = Collapser::new(mesh.clone(), options);
+        let mut collapser = Collapser::new(mesh.clone(), options, progress)?;
         collapser.run(progress).map(|()| collapser)
     })?;
     let mut blocked = Vec::new();

@@ -256,7 +256,7 @@ mod tests {
             features: &features,
             ..Options::default()
         };
-        let collapser = Collapser::new(mesh, &options);
+        let collapser = Collapser::new(mesh, &options, &progress::NoProgress).unwrap();
         for &e in &features {
             // The other two vertices of the line are on the boundary, and keep their positions.
             let target = collapser.target(e).unwrap();

@@ -18,9 +18,17 @@ const WHAT: &str = "build the spatial index";
 /// The center of a triangle, and the index of the triangle in the order of the faces.
 type Key = (DVec3, u32);
 
+/// A flat convex face with at least this number of corners is halved recursively.
+const MANY_CORNERS: usize = 64;
+
+/// The number of triangles between two progress reports.
+const REPORT: usize = 16_384;
+
 /// Appends the triangles of a face. A face with at most four corners is triangulated as a fan. A larger face is
 /// triangulated by `cutter`: the triangles of a fan could lie on top of each other, and a point near the face would
-/// be near all of them.
+/// be near all of them. For the same reason, a flat convex face with many corners is halved recursively: if its corners
+/// lie on a circle, the triangles of `cutter` are long and thin, and a point is inside the bounding boxes of many of
+/// them.
 pub(crate) fn triangulate(
     mesh: &Mesh,
     face: FaceId,
@@ -39,6 +47,9 @@ pub(crate) fn triangulate(
     let mut corners = mesh.face_half_edges(face);
     if corners.clone().nth(4).is_some() {
         let corners: Vec<HalfEdgeId> = corners.collect();
+        if corners.len() >= MANY_CORNERS && cutter.is_flat_and_convex(mesh, face) {
+            return halve(&corners, &mut |corners| triangles.push(triangle(corners)));
+        }
         let cut = cutter.cut(mesh, face);
         triangles.extend(
             cut.triangles()
@@ -50,6 +61,18 @@ pub(crate) fn triangulate(
     }
 }
 
+/// Calls `triangle` with the corners of the triangles of a polygon. The first triangle halves the polygon, and both
+/// halves are halved recursively.
+fn halve(corners: &[HalfEdgeId], triangle: &mut impl FnMut([HalfEdgeId; 3])) {
+    let [first, .., last] = *corners else { return };
+    let middle = corners.len() / 2;
+    if corners.len() > 2 {
+        triangle([first, corners[middle], last]);
+        halve(&corners[..=middle], triangle);
+        halve(&corners[middle..], triangle);
+    }
+}
+
 impl SurfaceIndex {
     pub(super) fn build(
         mesh: &Mesh,
@@ -58,9 +81,11 @@ impl SurfaceIndex {
     ) -> Result<Option<Self>, Cancelled> {
         progress.report(WHAT, 0, 2)?;
         let (mut cutter, mut triangles) = (Cutter::default(), Vec::new());
-        for (i, f) in faces.enumerate() {
-            if i % 65_536 == 0 {
+        let mut next_report = 0;
+        for f in faces {
+            if triangles.len() >= next_report {
                 progress.report(WHAT, 0, 2)?;
+                next_report = triangles.len() + REPORT;
             }
             triangulate(mesh, f, &mut cutter, &mut triangles);
         }

@@ -97,8 +97,16 @@ impl SurfaceIndex {
     }
 
     /// Builds the index of some faces of a mesh. Returns `None` if there are no faces.
-    pub fn of_faces(mesh: &Mesh, faces: impl IntoIterator<Item = FaceId>) -> Option<Self> {
-        Self::build(mesh, faces.into_iter(), &NoProgress).expect("never canceled")
+    ///
+    /// # Errors
+    ///
+    /// Returns [`Cancelled`] if `progress` asks to stop.
+    pub fn of_faces(
+        mesh: &Mesh,
+        faces: impl IntoIterator<Item = FaceId>,
+        progress: &dyn Progress,
+    ) -> Result<Option<Self>, Cancelled> {
+        Self::build(mesh, faces.into_iter(), progress)
     }
 
     /// Returns the number of triangles. Triangle indices start at 0 and follow the order of the tree, not the order of

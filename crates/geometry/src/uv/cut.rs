@@ -87,7 +87,7 @@ pub(super) fn charts(
 ) -> Result<Vec<Chart>, Cancelled> {
     progress.report("grow charts", 0, 1)?;
     let smooth = smooth_normals(surface);
-    let (chart_of, n) = grow(surface, &smooth, limits.min_cosine);
+    let (chart_of, n) = grow(surface, &smooth, limits.min_cosine, progress)?;
     progress.report("grow charts", 1, 1)?;
     let mut open = vec![Vec::new(); n];
     for (f, &chart) in chart_of.iter().enumerate() {
@@ -104,7 +104,10 @@ pub(super) fn charts(
             if result.is_ok() {
                 meter.add(n)?;
             }
-            Ok(result.map_err(|(part, failure)| split(surface, &part.faces, &failure)))
+            Ok(match result {
+                Ok(chart) => Ok(chart),
+                Err((part, failure)) => Err(split(surface, &part.faces, &failure, &Quiet(&meter))?),
+            })
         })
         .into_iter()
         .collect();
@@ -222,25 +225,29 @@ fn check(
 
 /// Divides a connected set of faces into two connected sets: those that are nearer to one of two faces, along the
 /// surface. The faces are two that overlap, or two that are far from each other.
-fn split(surface: &Surface, faces: &[u32], failure: &Failure) -> [Vec<u32>; 2] {
+fn split(
+    surface: &Surface,
+    faces: &[u32],
+    failure: &Failure,
+    progress: &dyn Progress,
+) -> Result<[Vec<u32>; 2], Cancelled> {
     let index = |f: u32| faces.binary_search(&f).ok();
     let seeds = match failure {
         Failure::Overlap([f, g]) if f != g => [f, g].map(|f| index(number(f.index()))),
         _ => [None, None],
     };
     let farthest = |from: usize| {
-        let (distance, _) = nearest(surface, faces, &[from]);
-        (0..faces.len())
-            .max_by(|&a, &b| distance[a].total_cmp(&distance[b]).then(b.cmp(&a)))
-            .unwrap_or(0)
+        let (distance, _) = nearest(surface, faces, &[from], progress)?;
+        let order = |&a: &usize, &b: &usize| distance[a].total_cmp(&distance[b]).then(b.cmp(&a));
+        Ok((0..faces.len()).max_by(order).unwrap_or(0))
     };
     let seeds = if let [Some(a), Some(b)] = seeds {
         [a, b]
     } else {
-        let a = farthest(0);
-        [a, farthest(a)]
+        let a = farthest(0)?;
+        [a, farthest(a)?]
     };
-    let (_, side) = nearest(surface, faces, &seeds);
+    let (_, side) = nearest(surface, faces, &seeds, progress)?;
     let of_side = |s: u32| {
         let pairs = faces.iter().zip(&side);
         pairs
@@ -248,12 +255,17 @@ fn split(surface: &Surface, faces: &[u32], failure: &Failure) -> [Vec<u32>; 2] {
             .map(|(f, _)| *f)
             .collect()
     };
-    [of_side(0), of_side(1)]
+    Ok([of_side(0), of_side(1)])
 }
 
 /// Returns, for each face of a connected set, the distance to the nearest of some faces of the set, and the number of
 /// that face (Dijkstra, 1959). Distances are sums of distances between the centers of neighbors.
-fn nearest(surface: &Surface, faces: &[u32], seeds: &[usize]) -> (Vec<f64>, Vec<u32>) {
+fn nearest(
+    surface: &Surface,
+    faces: &[u32],
+    seeds: &[usize],
+    progress: &dyn Progress,
+) -> Result<(Vec<f64>, Vec<u32>), Cancelled> {
     let center = |f: u32| {
         let corners = surface
             .half_edges(f)
@@ -270,7 +282,12 @@ fn nearest(surface: &Surface, faces: &[u32], seeds: &[usize]) -> (Vec<f64>, Vec<
         side[seed] = s;
         queue.insert((0_u64, seed));
     }
+    let mut n_visited = 0_u64;
     while let Some((_, i)) = queue.pop_first() {
+        if n_visited.is_multiple_of(1024) {
+            progress.report("split charts", n_visited, faces.len() as u64)?;
+        }
+        n_visited += 1;
         for (_, g) in surface.neighbors(faces[i]) {
             let Ok(j) = faces.binary_search(&g) else {
                 continue;
@@ -284,7 +301,7 @@ fn nearest(surface: &Surface, faces: &[u32], seeds: &[usize]) -> (Vec<f64>, Vec<
             }
         }
     }
-    (distance, side)
+    Ok((distance, side))
 }
 
 /// Joins charts that meet as long as the result is a chart, those that share most of their border first.

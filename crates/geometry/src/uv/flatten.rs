@@ -179,7 +179,8 @@ fn rigid(
     is_pinned[0] = true;
     let factor = Factor::with_pins(&matrix, &is_pinned, progress)?;
     let gradients: Vec<[DVec2; 3]> = frames.iter().map(Frame::gradients).collect();
-    for _ in 0..MAX_ITERATIONS {
+    for iteration in 0..MAX_ITERATIONS {
+        progress.report("flatten", iteration as u64, MAX_ITERATIONS as u64)?;
         let mut forces = vec![DVec2::ZERO; n];
         for ((t, frame), g) in part.triangles.iter().zip(frames).zip(&gradients) {
             let [a, b, c] = t.map(|v| uvs[v as usize]);

@@ -9,6 +9,7 @@ use std::cmp::{Ordering, Reverse};
 use std::collections::{BTreeMap, BinaryHeap};
 
 use mesh::DVec3;
+use progress::{Cancelled, Progress};
 
 use super::number;
 use super::surface::Surface;
@@ -204,12 +205,18 @@ impl Growth {
         (cost <= MAX_COST).then_some(cost)
     }
 
-    /// Grows the chart with a number from a region.
-    fn grow(&mut self, seed: u32, chart: u32) {
+    /// Grows the chart with a number from a region. Calls `ask` for each region that is added.
+    fn grow(
+        &mut self,
+        seed: u32,
+        chart: u32,
+        mut ask: impl FnMut() -> Result<(), Cancelled>,
+    ) -> Result<(), Cancelled> {
         let mut totals = self.totals[seed as usize];
         let mut heap = BinaryHeap::new();
         let mut added = seed;
         loop {
+            ask()?;
             self.chart_of[added as usize] = chart;
             for &region in self.links[added as usize].keys() {
                 if self.chart_of[region as usize] == NONE
@@ -221,7 +228,7 @@ impl Growth {
             // The chart may have changed since a cost was computed. If the cost is now higher, the region waits.
             added = loop {
                 let Some(Reverse(candidate)) = heap.pop() else {
-                    return;
+                    return Ok(());
                 };
                 let region = candidate.region;
                 if self.chart_of[region as usize] != NONE {
@@ -244,7 +251,12 @@ impl Growth {
 /// Divides the solid faces into connected charts, and returns the chart of each face, or [`u32::MAX`], and the number of
 /// charts. The angles between the normals of the regions and the mean normal of the chart at the time at which they are
 /// added are at most those with the cosine `min_cosine`.
-pub(super) fn grow(surface: &Surface, smooth: &[DVec3], min_cosine: f64) -> (Vec<u32>, usize) {
+pub(super) fn grow(
+    surface: &Surface,
+    smooth: &[DVec3],
+    min_cosine: f64,
+    progress: &dyn Progress,
+) -> Result<(Vec<u32>, usize), Cancelled> {
     let (region_of, n) = regions(surface);
     let (totals, links) = meetings(surface, smooth, &region_of, n);
     let mut order: Vec<u32> = (0..number(n)).collect();
@@ -256,10 +268,17 @@ pub(super) fn grow(surface: &Surface, smooth: &[DVec3], min_cosine: f64) -> (Vec
         chart_of: vec![NONE; n],
         min_cosine,
     };
-    let mut n_charts = 0;
+    let (mut n_charts, mut n_added) = (0, 0_u64);
+    let mut ask = || {
+        n_added += 1;
+        if n_added % 1024 == 1 {
+            progress.report("grow charts", n_added, n as u64)?;
+        }
+        Ok(())
+    };
     for seed in order {
         if growth.chart_of[seed as usize] == NONE {
-            growth.grow(seed, n_charts);
+            growth.grow(seed, n_charts, &mut ask)?;
             n_charts += 1;
         }
     }
@@ -270,5 +289,5 @@ pub(super) fn grow(surface: &Surface, smooth: &[DVec3], min_cosine: f64) -> (Vec
             growth.chart_of[r as usize]
         }
     };
-    (region_of.iter().map(chart).collect(), n_charts as usize)
+    Ok((region_of.iter().map(chart).collect(), n_charts as usize))
 }

@@ -176,6 +176,9 @@ pub(super) fn first_overlap(
     Ok(first)
 }
 
+/// The number of comparisons of triangles between two progress reports.
+const REPORT: usize = 1 << 16;
+
 /// Calls `visit` with the faces of triangles that overlap. Pairs of triangles that are both known to overlap others are
 /// left out.
 fn sweep(
@@ -186,14 +189,19 @@ fn sweep(
     // The loop sweeps along u: only triangles whose ranges of u overlap are compared.
     flat.sort_by(|a, b| a.low.x.total_cmp(&b.low.x).then(a.face.cmp(&b.face)));
     let mut overlaps = vec![false; flat.len()];
+    // The number of comparisons since the last progress report.
+    let mut n_compared = REPORT;
     for (i, a) in flat.iter().enumerate() {
-        if i.is_multiple_of(1024) {
+        if n_compared >= REPORT {
+            n_compared = 0;
             progress.report("overlaps", i as u64, flat.len() as u64)?;
         }
+        n_compared += 1;
         for (j, b) in flat.iter().enumerate().skip(i + 1) {
             if b.low.x >= a.high.x {
                 break;
             }
+            n_compared += 1;
             let is_new = !overlaps[i] || !overlaps[j];
             if is_new && b.low.y < a.high.y && a.low.y < b.high.y && overlap(a, b) {
                 overlaps[i] = true;

@@ -139,10 +139,10 @@ impl Reader<'_, '_> {
         let param = run.field("param")?;
         let name = param.as_str()?;
         self.used.insert(name.to_owned());
-        if self.broken.iter().any(|b| b == name) {
+        if self.broken.contains(name) {
             return None;
         }
-        let Some(parameter) = self.parameters.iter().find(|p| p.name == name) else {
+        let Some(parameter) = self.parameters.get(name) else {
             let unknown = self.unknown(name, param.span);
             self.diagnostics.push(unknown);
             return None;

@@ -15,7 +15,7 @@ mod steps;
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
-use indexmap::IndexSet;
+use indexmap::{IndexMap, IndexSet};
 use op::Registry;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
@@ -180,10 +180,11 @@ struct Reader<'s, 'a> {
     on_loss: OnLoss,
     diagnostics: Vec<Diagnostic>,
     about: Option<String>,
-    parameters: Vec<Parameter>,
+    /// The parameters by their names.
+    parameters: IndexMap<String, Parameter>,
     presets: Vec<parameters::Preset>,
     /// The names of parameters whose declarations have errors.
-    broken: Vec<String>,
+    broken: HashSet<String>,
     /// The names of parameters that an `arg(..)` or an `If` uses.
     used: HashSet<String>,
     /// The ids of steps.
@@ -203,9 +204,9 @@ impl<'s, 'a> Reader<'s, 'a> {
             on_loss: OnLoss::default(),
             diagnostics: Vec::new(),
             about: None,
-            parameters: Vec::new(),
+            parameters: IndexMap::new(),
             presets: Vec::new(),
-            broken: Vec::new(),
+            broken: HashSet::new(),
             used: HashSet::new(),
             ids: IndexSet::new(),
             has_too_many_steps: false,
@@ -244,9 +245,7 @@ impl<'s, 'a> Reader<'s, 'a> {
         self.declare(root.field("params"));
         self.declare_presets(root.field("presets"));
         values(self);
-        self.shared.scopes[self.scope]
-            .parameters
-            .clone_from(&self.parameters);
+        self.shared.scopes[self.scope].parameters = self.parameters.values().cloned().collect();
         let mut drafts = self.steps(take_items(root.field_mut("steps")));
         // For each id, the index of its last step in each repetition. An id in a branch that is not taken has no index.
         let mut ends: HashMap<String, Vec<usize>> = HashMap::new();

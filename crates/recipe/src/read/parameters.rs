@@ -1,5 +1,7 @@
 //! The parameters of a recipe: reads their declarations, sets their values, and substitutes them in steps.
 
+use std::collections::HashSet;
+
 use super::{Reader, Values};
 use crate::params::{Param, Rebase};
 use crate::recipe::{Origin, Parameter};
@@ -21,20 +23,23 @@ impl Reader<'_, '_> {
         for (key, value) in entries(params) {
             let Some(name) = key.as_str() else { continue };
             let Some(param): Option<Param> = self.typed(value, schema::param()) else {
-                self.broken.push(name.to_owned());
+                self.broken.insert(name.to_owned());
                 continue;
             };
             match param.default_value() {
-                Ok(value) => self.parameters.push(Parameter {
-                    name: name.to_owned(),
-                    param,
-                    value,
-                    origin: Origin::Default,
-                }),
+                Ok(value) => {
+                    let parameter = Parameter {
+                        name: name.to_owned(),
+                        param,
+                        value,
+                        origin: Origin::Default,
+                    };
+                    self.parameters.insert(name.to_owned(), parameter);
+                }
                 Err(problem) => {
                     let message = format!("the default of `{name}` is not allowed: {problem}");
                     self.error(value.span, message, "");
-                    self.broken.push(name.to_owned());
+                    self.broken.insert(name.to_owned());
                 }
             }
         }
@@ -62,10 +67,10 @@ impl Reader<'_, '_> {
         let (mut found, mut wrong) = (Vec::new(), Vec::new());
         for (key, value) in entries(Some(values)) {
             let Some(name) = key.as_str() else { continue };
-            if self.broken.iter().any(|b| b == name) || value.has_errors() {
+            if self.broken.contains(name) || value.has_errors() {
                 continue;
             }
-            match self.parameters.iter().find(|p| p.name == name) {
+            match self.parameters.get(name) {
                 None => wrong.push(self.unknown(name, key.span)),
                 Some(parameter) => match parameter.param.value_from(value, folders) {
                     Ok(value) => found.push((name.to_owned(), value)),
@@ -82,7 +87,7 @@ impl Reader<'_, '_> {
     /// Sets the values of parameters.
     pub(super) fn assign(&mut self, values: &[(String, Value)], origin: &Origin) {
         for (name, value) in values {
-            if let Some(parameter) = self.parameters.iter_mut().find(|p| p.name == *name) {
+            if let Some(parameter) = self.parameters.get_mut(name) {
                 (parameter.value, parameter.origin) = (value.clone(), origin.clone());
             }
         }
@@ -113,7 +118,7 @@ impl Reader<'_, '_> {
             if self.broken.contains(name) {
                 continue;
             }
-            let Some(parameter) = self.parameters.iter_mut().find(|p| p.name == *name) else {
+            let Some(parameter) = self.parameters.get_mut(name) else {
                 let unknown = self.unknown(name, Span::default());
                 self.diagnostics.push(Diagnostic {
                     span: None,
@@ -138,7 +143,7 @@ impl Reader<'_, '_> {
     }
 
     pub(super) fn unknown(&self, name: &str, span: Span) -> Diagnostic {
-        let known = self.parameters.iter().map(|p| p.name.as_str());
+        let known = self.parameters.keys().map(String::as_str);
         Diagnostic::error(span, format!("the recipe has no parameter `{name}`"))
             .with_help(did_you_mean(name, known))
     }
@@ -152,10 +157,10 @@ impl Reader<'_, '_> {
             if !self.used.contains(name) {
                 used.push(name.to_owned());
             }
-            if self.broken.iter().any(|b| b == name) {
+            if self.broken.contains(name) {
                 reported.push(span);
             }
-            let found = self.parameters.iter().find(|p| p.name == name);
+            let found = self.parameters.get(name);
             found
                 .map(|p| p.value.clone())
                 .ok_or_else(|| Box::new(self.unknown(name, span)))
@@ -174,10 +179,13 @@ impl Reader<'_, '_> {
         if self.diagnostics.iter().any(Diagnostic::is_error) {
             return;
         }
+        let after_braces = self.source.text.split('{').skip(1);
+        let placeholders = after_braces.filter_map(|after| after.split_once('.'));
+        let placeholders: HashSet<&str> = placeholders.map(|(name, _)| name).collect();
         for (key, _) in entries(params) {
             if let Some(name) = key.as_str()
                 && !self.used.contains(name)
-                && !self.source.text.contains(&format!("{{{name}."))
+                && !placeholders.contains(name)
             {
                 let message = format!("the parameter `{name}` is never used");
                 let help = format!("use its value in a step with arg(\"{name}\")");

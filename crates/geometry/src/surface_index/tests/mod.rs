@@ -140,9 +140,14 @@ fn each_triangle_of_each_face_is_in_the_index_once() {
         leaves.iter().map(|(first, last)| last - first).sum::<u32>(),
         24
     );
-    let one = SurfaceIndex::of_faces(&mesh, mesh.faces().take(1)).unwrap();
+    let one = SurfaceIndex::of_faces(&mesh, mesh.faces().take(1), &NoProgress);
+    let one = one.unwrap().unwrap();
     assert!(one.n_triangles() < 24);
-    assert!(SurfaceIndex::of_faces(&mesh, []).is_none());
+    assert!(
+        SurfaceIndex::of_faces(&mesh, [], &NoProgress)
+            .unwrap()
+            .is_none()
+    );
     assert!(SurfaceIndex::new(&Mesh::default()).is_none());
 }
 

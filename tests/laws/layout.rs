@@ -37,7 +37,7 @@ const ALLOWED_DEPENDENCIES: &[(&str, &[&str])] = &[
 
 /// The maximum number of external packages that `cargo build` compiles. A change that raises it must say in its
 /// commit how much time it adds to a first build.
-const MAX_PACKAGES: usize = 121;
+const MAX_PACKAGES: usize = 122;
 
 fn cargo(arguments: &str) -> String {
     let output = Command::new(env!("CARGO"))

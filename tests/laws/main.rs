@@ -11,6 +11,7 @@ mod every_op;
 mod extremes;
 mod files;
 mod fixtures;
+mod forecasts;
 #[cfg(unix)]
 mod growth;
 mod layout;
@@ -19,6 +20,7 @@ mod random_edits;
 mod registry;
 mod renewing;
 mod samples;
+mod saving;
 mod schema;
 mod threads;
 

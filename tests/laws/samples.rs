@@ -139,6 +139,8 @@ const MORE_STEPS: &[&str] = &[
     "Smooth(by: Denoise(angle: 0), boundary: Free, keep_volume: true)",
     "MoveVertices(vertices: Random(count: 2, seed: 1), by: Distance(-0.1), falloff: 0.7)",
     "MoveVertices(vertices: Vertices([0]), by: To((1, 2, 3)))",
+    "MoveVertices(vertices: Random(count: 3, seed: 1), by: Rotate(axis: Y, angle: 40), falloff: 0.7)",
+    "MoveVertices(vertices: Random(count: 3, seed: 1), by: Scale((1.2, 0.9, 1.1)))",
     "Displace(by: Random(seed: 3), distance: 0.01, vertices: Boundary)",
     r#"Displace(by: Attribute(name: "height"), distance: 1)"#,
     "Measure(of: GaussianCurvature)",

@@ -9,7 +9,7 @@ use recipe::RecipeStep;
 
 /// The version of the storage format. The names of records and histories depend on this version, so a program with
 /// another version of the format never finds them.
-const FORMAT: &str = "meshwright step cache 1";
+const FORMAT: &str = "meshwright step cache 2";
 
 /// Everything that determines the result of a step before it runs.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]

@@ -130,6 +130,10 @@ pub fn run_with(registry: &Registry, arguments: &[OsString]) -> u8 {
         Ok(false) => failure(1),
         Err(error) if is_broken_pipe(&error) => 0,
         Err(error) if error.is::<ReportedUsage>() => failure(2),
+        Err(error) if is_interrupted() && is_cancelled(&error) => {
+            print_error("interrupted\n");
+            failure(1)
+        }
         Err(error) => {
             print_error(&format!("error: {error:#}\n"));
             failure(if error.is::<WrongUsage>() {
@@ -144,6 +148,15 @@ pub fn run_with(registry: &Registry, arguments: &[OsString]) -> u8 {
 /// Returns the exit code of a failure: 130 if Ctrl-C caused it, as shells expect, or else `code`.
 fn failure(code: u8) -> u8 {
     if is_interrupted() { 130 } else { code }
+}
+
+/// Whether the reason for the error is that a computation was cancelled.
+fn is_cancelled(error: &anyhow::Error) -> bool {
+    error.chain().any(|cause| {
+        matches!(cause.downcast_ref(), Some(op::OpError::Cancelled))
+            || matches!(cause.downcast_ref(), Some(render::PictureError::Cancelled))
+            || cause.is::<op::Cancelled>()
+    })
 }
 
 /// Whether the error is a broken pipe: the reader of the output, such as `head`, has closed it.

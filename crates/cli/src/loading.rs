@@ -14,7 +14,28 @@ use crate::pipes;
 
 /// Reads and checks the recipe given on the command line.
 pub(crate) fn load(args: &RecipeArgs, engine: &Engine) -> anyhow::Result<Loaded> {
-    load_recipe(&args.recipe, &args.values, &args.out, args.budget, engine)
+    let checking = Checking {
+        budget: args.budget,
+        strict: args.strict,
+    };
+    load_recipe(&args.recipe, &args.values, &args.out, checking, engine)
+}
+
+/// What recipes are checked for.
+#[derive(Clone, Copy)]
+pub(crate) struct Checking {
+    /// The memory budget for meshes, in bytes.
+    pub(crate) budget: u64,
+    /// Whether losses are errors.
+    pub(crate) strict: bool,
+}
+
+impl Checking {
+    /// The check for a budget, in which losses are not errors.
+    pub(crate) fn for_budget(budget: u64) -> Self {
+        let strict = false;
+        Self { budget, strict }
+    }
 }
 
 /// Reads and checks a recipe.
@@ -22,7 +43,7 @@ pub(crate) fn load_recipe(
     path: &Path,
     values: &ValueArgs,
     out: &Path,
-    budget: u64,
+    checking: Checking,
     engine: &Engine,
 ) -> anyhow::Result<Loaded> {
     let source = if pipes::is_pipe(path) {
@@ -31,7 +52,7 @@ pub(crate) fn load_recipe(
         expect_kind(path, FileKind::Recipe)?;
         engine.open(path).map_err(anyhow::Error::msg)?
     };
-    load_text(&source, values, out, budget, engine)
+    load_text(&source, values, out, checking, engine)
 }
 
 /// Checks a recipe whose text has been read. Paths in parameter values are relative to the working directory.
@@ -39,7 +60,7 @@ pub(crate) fn load_text(
     source: &Source,
     values: &ValueArgs,
     out: &Path,
-    budget: u64,
+    Checking { budget, strict }: Checking,
     engine: &Engine,
 ) -> anyhow::Result<Loaded> {
     let folder = std::env::current_dir().context("cannot determine the working directory")?;
@@ -52,6 +73,7 @@ pub(crate) fn load_text(
         values,
         out,
         budget,
+        strict,
     };
     Ok(engine.load(source, &options))
 }

@@ -10,7 +10,7 @@ use scene::Scene;
 use crate::args::{ValueArgs, WrongUsage};
 use crate::file_kind::{FileKind, expect_kind};
 use crate::listener::{Terminal, catch_interrupts};
-use crate::loading::load_recipe;
+use crate::loading::{Checking, load_recipe};
 use crate::output::{print_diagnostics, print_error};
 use crate::pipes;
 
@@ -94,7 +94,13 @@ fn run_recipe(
     engine: &Engine,
 ) -> anyhow::Result<SceneAtStep> {
     let shown = path.display();
-    let mut loaded = load_recipe(path, values, Path::new("out"), BUDGET, engine)?;
+    let mut loaded = load_recipe(
+        path,
+        values,
+        Path::new("out"),
+        Checking::for_budget(BUDGET),
+        engine,
+    )?;
     print_diagnostics(&loaded, &loaded.diagnostics);
     anyhow::ensure!(!loaded.has_errors(), "{shown} cannot be run");
     let stream = loaded.stop(stop).map_err(|e| WrongUsage(e.to_string()))?;

@@ -14,11 +14,11 @@ use bezier::{Curve, Patch};
 use glam::{DVec2, DVec3};
 use scene::{Geometry, Scene};
 
-use crate::SingleFile;
 use crate::error::Unwritable;
 use crate::fault::{Fault, counted};
 use crate::loss::Losses;
 use crate::text::{Cursor, TextPosition, check_encoding, number, parsed, push_number};
+use crate::{Format, SingleFile};
 
 /// Reads the patches of a `.bez` file.
 ///
@@ -88,10 +88,7 @@ pub(crate) fn write_bez(scene: &Scene) -> Result<SingleFile, Unwritable> {
     let mut losses = Vec::new();
     for object in scene.objects() {
         let Geometry::Patches(patches) = &object.geometry else {
-            return Err(Unwritable::kind(
-                "a .bez file stores Bezier patches",
-                object,
-            ));
+            return Err(Unwritable::kind(Format::Bez, object));
         };
         all.extend_from_slice(patches);
         let mut losses = Losses::of(&object.name, &mut losses);
@@ -111,13 +108,11 @@ pub(crate) fn write_bez(scene: &Scene) -> Result<SingleFile, Unwritable> {
 /// If the scene does not consist of a single curve.
 pub(crate) fn write_bzc(scene: &Scene) -> Result<SingleFile, Unwritable> {
     let [object] = scene.objects() else {
-        let n = scene.objects().len();
-        let objects = counted(n, "object");
-        let message = format!("a .bzc file stores one curve, found {objects}");
-        return Err(Unwritable::scene(message));
+        let message = Format::Bzc.refused_count(scene.objects().len());
+        return Err(Unwritable::scene(message.unwrap_or_default()));
     };
     let Geometry::Curve(curve) = &object.geometry else {
-        return Err(Unwritable::kind("a .bzc file stores a curve", object));
+        return Err(Unwritable::kind(Format::Bzc, object));
     };
     let mut losses = Vec::new();
     let reason = "a .bzc file cannot store materials";

@@ -19,9 +19,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::decimal::{push_number, push_whole};
 use crate::error::Unwritable;
-use crate::joined::{Names, joined};
+use crate::joined::joined;
 use crate::loss::Losses;
-use crate::{SingleFile, WriteOptions};
+use crate::{Format, SingleFile, WriteOptions};
 use mesh::parallel;
 
 /// The kind of elements of a `.csv` file. Each element has a row.
@@ -38,7 +38,7 @@ pub enum Rows {
 }
 
 impl Rows {
-    const fn domain(self) -> Domain {
+    pub(crate) const fn domain(self) -> Domain {
         match self {
             Self::Vertices => Domain::Vertex,
             Self::Faces => Domain::Face,
@@ -53,12 +53,11 @@ impl Rows {
 ///
 /// If an object is not a mesh.
 pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<SingleFile, Unwritable> {
-    let mut joined = joined(scene, "CSV", Names::Kept)?;
+    let mut joined = joined(scene, Format::Csv)?;
     let (mesh, rows) = (&*joined.mesh, options.rows.unwrap_or_default());
     let domain = rows.domain();
     let mut losses = Losses::of(&joined.name, &mut joined.losses);
-    let word = format!("CSV with a row for each {domain}");
-    losses.add_columns(mesh, &word, |of, _| of == domain);
+    losses.add_columns_of_rows(mesh, Format::Csv, rows, |_, _| true);
     let parts = Parts::of(scene);
     let mut out = header(mesh, rows, &parts);
     let blocks = match rows {

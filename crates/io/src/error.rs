@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 use scene::Object;
 use store::StoreError;
 
+use crate::Format;
+
 /// The reason why a file could not be read. Nothing was loaded.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -186,11 +188,10 @@ impl Unwritable {
         Self { object, message }
     }
 
-    /// Creates the error for an object of a kind that the format cannot store. `holds` is a clause that says which
-    /// kinds the format can store.
-    pub(crate) fn kind(holds: &str, object: &Object) -> Self {
-        let kind = object.geometry.kind();
-        Self::object(&object.name, format!("{holds}, found {kind}"))
+    /// Creates the error for an object of a kind that the format cannot store.
+    pub(crate) fn kind(format: Format, object: &Object) -> Self {
+        let message = format.refused_kind(object.geometry.kind());
+        Self::object(&object.name, message.unwrap_or_default())
     }
 
     pub(crate) fn in_file(self, path: &Path) -> WriteError {

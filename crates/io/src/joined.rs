@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use mesh::{Attributes, Column, Connectivity, Domain, Mesh, Rule, Value, Values};
 use scene::{Geometry, Object, Scene};
 
+use crate::Format;
 use crate::error::Unwritable;
 use crate::loss::{Loss, Losses, n_values};
 use crate::polygons::OBJECT_TAG;
@@ -31,24 +32,17 @@ pub(crate) enum Names {
     Kept,
 }
 
-/// Joins the meshes of all objects of a scene. Materials are lost.
+/// Joins the meshes of all objects of a scene for a format. Materials are lost.
 ///
 /// # Errors
 ///
 /// If an object is not a mesh, or if the joined mesh would be too large.
-pub(crate) fn joined<'a>(
-    scene: &'a Scene,
-    format: &str,
-    names: Names,
-) -> Result<Joined<'a>, Unwritable> {
+pub(crate) fn joined(scene: &Scene, format: Format) -> Result<Joined<'_>, Unwritable> {
     let mut meshes = Vec::new();
     let mut losses = Vec::new();
     for object in scene.objects() {
         let Geometry::Mesh(mesh) = &object.geometry else {
-            return Err(Unwritable::kind(
-                &format!("{format} files store meshes"),
-                object,
-            ));
+            return Err(Unwritable::kind(format, object));
         };
         meshes.push(dense(mesh));
         let reason = format!("{format} cannot store materials");
@@ -73,6 +67,7 @@ pub(crate) fn joined<'a>(
         return Err(Unwritable::scene(message));
     }
     let mut losses_of_all = Losses::of(&name, &mut losses);
+    let names = format.joined_names();
     let tags = names == Names::Tags;
     if names != Names::Kept {
         let became = if tags {

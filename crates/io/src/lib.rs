@@ -62,6 +62,7 @@
 
 mod assets;
 mod bez;
+mod capability;
 mod clean;
 mod corners;
 mod csv;
@@ -99,6 +100,7 @@ use scene::{Geometry, Graph, Object, Scene};
 use store::Store;
 
 pub use assets::FileDependency;
+pub use capability::{Storage, Stored};
 pub use csv::Rows;
 pub use error::{ReadError, WriteError};
 pub use format::Format;
@@ -106,7 +108,7 @@ pub use images::Images;
 pub use loss::Loss;
 pub use note::{Note, NoteKind};
 pub use packing::{Bits, Compression, PackingReport, Quantization};
-pub use peek::{Peek, PeekGeometry, PeekMesh, PeekObject};
+pub use peek::{Peek, PeekGeometry, PeekMesh, PeekObject, PeekRanges};
 pub use policy::{CleanupPolicy, NonManifold, Orientation, Placements, Policies};
 pub use polygons::Polygons;
 pub use provenance::provenance;
@@ -365,7 +367,8 @@ fn fail_if_left_out(path: &Path, notes: &[Note]) -> Result<(), ReadError> {
 ///
 /// # Errors
 ///
-/// [`ReadError`] if the file cannot be read or if the checked part breaks the rules of its format.
+/// [`ReadError`] if the file cannot be read, if the checked part breaks the rules of its format, or if
+/// [`ReadOptions::strict`] is set and some of the content would be left out.
 pub fn peek(store: &dyn Store, path: &Path, options: &ReadOptions) -> Result<Peek, ReadError> {
     let format = known_format(path)?;
     let bytes = match format {
@@ -381,8 +384,13 @@ pub fn peek(store: &dyn Store, path: &Path, options: &ReadOptions) -> Result<Pee
     let mut notes = Notes::of(path);
     let mut assets = Assets::of(store, path);
     let mut graph = Graph::default();
-    let plain =
-        |mesh| vec![PeekObject::new(name.clone(), PeekGeometry::Mesh(mesh)).with_materials(&[])];
+    let plain = |mesh, attributes| {
+        let object = PeekObject::new(name.clone(), PeekGeometry::Mesh(mesh)).with_materials(&[]);
+        vec![PeekObject {
+            attributes,
+            ..object
+        }]
+    };
     let objects = match format {
         Format::Obj => obj::peek(&bytes, &name, &mut assets, &mut notes).map(|object| vec![object]),
         Format::Gltf | Format::Glb => gltf::peek(
@@ -393,9 +401,9 @@ pub fn peek(store: &dyn Store, path: &Path, options: &ReadOptions) -> Result<Pee
             &mut graph,
             &mut notes,
         ),
-        Format::Ply => ply::peek(&bytes, &mut notes).map(plain),
-        Format::Stl => stl::peek(&bytes, &mut notes).map(plain),
-        Format::Off => off::peek(&bytes, &mut notes).map(plain),
+        Format::Ply => ply::peek(&bytes, &mut notes).map(|(mesh, names)| plain(mesh, Some(names))),
+        Format::Stl => stl::peek(&bytes, &mut notes).map(|(mesh, names)| plain(mesh, names)),
+        Format::Off => off::peek(&bytes, &mut notes).map(|(mesh, names)| plain(mesh, Some(names))),
         Format::Dae => dae::peek(&bytes, &name, &mut notes),
         Format::Mws => mws::peek(
             &bytes,
@@ -411,6 +419,9 @@ pub fn peek(store: &dyn Store, path: &Path, options: &ReadOptions) -> Result<Pee
     let objects = objects.map_err(|fault| fault.in_file(path))?;
     let mut left_out = notes.into_vec();
     left_out.retain(|note| note.kind == NoteKind::LeftOut);
+    if options.strict {
+        fail_if_left_out(path, &left_out)?;
+    }
     Ok(Peek {
         format,
         objects,

@@ -5,6 +5,9 @@ use std::fmt;
 
 use mesh::{Column, Domain, Mesh, joint_name, morph_name};
 
+use crate::writing::is_mark;
+use crate::{Format, Rows, Storage, Stored};
+
 /// Content of a scene that a written file does not store.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Loss {
@@ -24,6 +27,28 @@ pub struct Loss {
 const NOT_ATTRIBUTES: [&str; 4] = ["influences", "joint weights", "morph targets", "polygon"];
 
 impl Loss {
+    /// A stable name of the kind of loss, for programs, such as `attribute-lost`.
+    pub fn code(&self) -> String {
+        const PARTS: [&str; 10] = [
+            "animations",
+            "cameras",
+            "lights",
+            "materials",
+            "mesh",
+            "morph targets",
+            "morph weights",
+            "name",
+            "nodes",
+            "skins",
+        ];
+        match self.attribute.as_str() {
+            name @ ("position" | "polygon") => format!("{name}-changed"),
+            _ if self.domain.is_some() => "attribute-lost".to_owned(),
+            name if PARTS.contains(&name) => format!("{}-lost", name.replace(' ', "-")),
+            _ => "material-changed".to_owned(),
+        }
+    }
+
     /// Returns the lost content in words, such as `the corner attribute "uv" (3 corners)`.
     pub fn what(&self) -> String {
         let (name, count) = (&self.attribute, self.count);
@@ -107,13 +132,36 @@ impl<'a> Losses<'a> {
         }
     }
 
-    /// Adds a loss for every column of `mesh` that the format does not store according to `is_stored`.
+    /// Adds a loss for every column of `mesh` that the format cannot store, or that is not stored according to
+    /// `is_stored`.
     pub(crate) fn add_columns(
         &mut self,
         mesh: &Mesh,
-        format: &str,
+        format: Format,
         is_stored: impl Fn(Domain, &Column) -> bool,
     ) {
+        self.add_columns_of_rows(mesh, format, Rows::default(), is_stored);
+    }
+
+    /// Like [`add_columns`](Self::add_columns), for a table with these rows.
+    pub(crate) fn add_columns_of_rows(
+        &mut self,
+        mesh: &Mesh,
+        format: Format,
+        rows: Rows,
+        is_stored: impl Fn(Domain, &Column) -> bool,
+    ) {
+        let has = |domain, name: &str| mesh.attributes().column(domain, name).is_some();
+        let table = Stored {
+            format,
+            rows,
+            has: &has,
+        };
+        let format = table.name();
+        let is_stored = |domain, column: &Column| {
+            let storage = table.storage(domain, &column.name, Some(&column.values));
+            is_mark(domain, column) || storage != Storage::Lost && is_stored(domain, column)
+        };
         let lost = |name: &str| {
             let column = mesh.attributes().column(Domain::Vertex, name);
             column.is_some_and(|column| !is_stored(Domain::Vertex, column))

@@ -48,7 +48,14 @@ pub(crate) fn peek(
     let scene = scene_of(bytes, name, placements)?;
     let objects = scene.objects().iter().map(|object| {
         let geometry = PeekGeometry::of(&object.geometry);
-        PeekObject::new(object.name.clone(), geometry).with_materials(&object.materials)
+        let attributes = object
+            .as_mesh()
+            .into_iter()
+            .flat_map(|m| m.attributes().iter());
+        let attributes = attributes.map(|(domain, column)| (domain, column.name.clone()));
+        PeekObject::new(object.name.clone(), geometry)
+            .with_materials(&object.materials)
+            .with_attributes(attributes.collect())
     });
     graph.clone_from(scene.graph());
     Ok(objects.collect())

@@ -1,9 +1,11 @@
 //! Counts the content of a file without building its objects. The counts are used to estimate a run before it starts.
 
+use std::ops::RangeInclusive;
+
 use mesh::{COLOR, CORNER_NORMAL, Domain, MATERIAL, Mesh, UV, VERTEX_NORMAL};
 use scene::{Geometry, Graph, Material};
 
-use crate::{Format, Note};
+use crate::{CleanupPolicy, Format, NonManifold, Note, Policies};
 
 /// The content of a file: its objects with their counts.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,6 +32,9 @@ pub struct PeekObject {
     pub geometry: PeekGeometry,
     /// The names of the materials of the object. `None` if the names are known only after reading.
     pub materials: Option<Vec<String>>,
+    /// The attributes that the mesh can have, apart from those that [`PeekMesh`] describes. For an exact mesh, all its
+    /// attributes. `None` if they are known only after reading.
+    pub attributes: Option<Vec<(Domain, String)>>,
 }
 
 impl PeekObject {
@@ -39,6 +44,15 @@ impl PeekObject {
             name,
             geometry,
             materials: None,
+            attributes: None,
+        }
+    }
+
+    /// Sets the attributes that the flags of the mesh do not describe.
+    pub(crate) fn with_attributes(self, attributes: Vec<(Domain, String)>) -> Self {
+        Self {
+            attributes: Some(attributes),
+            ..self
         }
     }
 
@@ -97,7 +111,7 @@ impl PeekGeometry {
 ///
 /// Reading never gives more faces or corners than these counts. Reading can give more vertices, because non-manifold
 /// vertices and edges are split. Reading can also give fewer vertices, for example because a glTF file has a separate
-/// vertex for each side of a seam.
+/// vertex for each side of a seam. [`ranges`](Self::ranges) returns the counts that are possible.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[expect(
     clippy::struct_excessive_bools,
@@ -126,9 +140,85 @@ pub struct PeekMesh {
     pub joints: u64,
     /// The number of morph targets.
     pub targets: u64,
+    /// The number of faces whose corners certainly have different vertices. Reading keeps these faces, unless a policy
+    /// drops them. In OBJ, OFF, PLY and binary STL files, these are the faces with at most 16 corners that have no vertex
+    /// twice, and in `.mws` files, all faces. In other formats, the number is 0, because the vertices of faces are not
+    /// examined.
+    pub simple_faces: u64,
+    /// The number of corners of these faces.
+    pub simple_corners: u64,
+    /// Whether reading keeps all vertices of the file, and only splits some of them.
+    pub keeps_vertices: bool,
+    /// Whether reading changes nothing, as in `.mws` files.
+    pub is_exact: bool,
+}
+
+/// The counts that a mesh can have after reading.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PeekRanges {
+    /// The number of vertices.
+    pub vertices: RangeInclusive<u64>,
+    /// The number of edges.
+    pub edges: RangeInclusive<u64>,
+    /// The number of faces.
+    pub faces: RangeInclusive<u64>,
+    /// The numbers of corners of the faces.
+    pub degrees: RangeInclusive<u64>,
+}
+
+/// The largest number of corners of a face that is compared with its other corners.
+pub(crate) const MAX_COMPARED: usize = 16;
+
+/// Whether the words are indices of different elements: all positive or all negative, and without leading zeros.
+pub(crate) fn are_different(words: &[&[u8]]) -> bool {
+    let is_index = |digits: &[u8]| {
+        digits.first().is_some_and(|&first| first != b'0') && digits.iter().all(u8::is_ascii_digit)
+    };
+    let is_whole = |word: &&[u8]| is_index(word);
+    let is_negative = |word: &&[u8]| word.strip_prefix(b"-").is_some_and(is_index);
+    (words.iter().all(is_whole) || words.iter().all(is_negative)) && differ(words)
+}
+
+/// Whether no two items are equal. Returns false for more than [`MAX_COMPARED`] items.
+pub(crate) fn differ<T: PartialEq>(items: &[T]) -> bool {
+    let is_new = |i: usize| !items[..i].contains(&items[i]);
+    items.len() <= MAX_COMPARED && (1..items.len()).all(is_new)
 }
 
 impl PeekMesh {
+    /// Returns the counts that the mesh can have after reading with these policies.
+    pub fn ranges(&self, policies: Policies) -> PeekRanges {
+        let drops = |policy| policy == CleanupPolicy::Drop && !self.is_exact;
+        let faces = match self.simple_faces {
+            _ if drops(policies.degenerate) => 0,
+            n if drops(policies.duplicates) => n.min(1),
+            n => n,
+        };
+        // An edge has at most two faces.
+        let edges = match self.simple_corners {
+            _ if faces < self.simple_faces => 3 * faces,
+            corners => corners.div_ceil(2),
+        };
+        let vertices = if self.keeps_vertices && !drops(policies.isolated) {
+            self.vertices
+        } else {
+            3 * faces.min(1)
+        };
+        let splits = policies.non_manifold == NonManifold::Split && !self.is_exact;
+        let copies = if splits { self.corners } else { 0 };
+        let degrees = if faces == self.faces && faces > 0 {
+            self.min_degree..=self.max_degree
+        } else {
+            3..=self.max_degree.max(3)
+        };
+        PeekRanges {
+            vertices: vertices..=self.vertices.saturating_add(copies),
+            edges: edges..=self.corners,
+            faces: faces..=self.faces,
+            degrees,
+        }
+    }
+
     fn of(mesh: &Mesh) -> Self {
         let has = |domain, name| mesh.attributes().column(domain, name).is_some();
         let mut peek = Self {
@@ -145,11 +235,23 @@ impl PeekMesh {
         for f in mesh.faces() {
             peek.add_faces(1, mesh.degree(f) as u64);
         }
+        peek.simple_faces = peek.faces;
+        peek.simple_corners = peek.corners;
+        peek.keeps_vertices = true;
+        peek.is_exact = true;
         peek
+    }
+
+    /// Adds `n` faces to the counts of faces whose corners certainly have different vertices.
+    pub(crate) fn add_simple(&mut self, n: u64, degree: u64) {
+        self.simple_faces = self.simple_faces.saturating_add(n);
+        self.simple_corners = self.simple_corners.saturating_add(n.saturating_mul(degree));
     }
 
     /// Adds the counts of faces and corners of `other`, and extends the range of degrees.
     pub(crate) fn add(&mut self, other: &Self) {
+        self.simple_faces = self.simple_faces.saturating_add(other.simple_faces);
+        self.simple_corners = self.simple_corners.saturating_add(other.simple_corners);
         if other.faces == 0 {
             return;
         }

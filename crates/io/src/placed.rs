@@ -28,7 +28,7 @@ pub(crate) fn placed<'s>(
     path: &Path,
 ) -> Result<Placed<'s>, WriteError> {
     let graph = scene.graph();
-    if matches!(format, Format::Gltf | Format::Glb | Format::Mws) || graph.is_empty() {
+    if format.has_nodes() || graph.is_empty() {
         return Ok(Placed {
             scene: Cow::Borrowed(scene),
             losses: Vec::new(),

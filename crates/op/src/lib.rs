@@ -42,6 +42,7 @@
 //! ```
 
 mod attribute_name;
+mod cancellable_store;
 mod context;
 mod edit;
 mod error;
@@ -61,6 +62,7 @@ mod targets;
 pub mod test;
 
 pub use attribute_name::{AttributeName, BadAttributeName};
+pub use cancellable_store::CancellableStore;
 pub use context::Context;
 pub use edit::{EditTarget, OnRefusal, Seams, edit_each};
 pub use error::{OpError, Refusal};

@@ -47,6 +47,13 @@ pub trait MeshOperation:
         Vec::new()
     }
 
+    /// Returns the problems with the mesh of the object `name`, which is one of the objects that the operation
+    /// [`reads`](Self::reads).
+    fn plan_reading(&self, name: &str, mesh: &MeshPlan) -> Vec<Problem> {
+        let _ = (name, mesh);
+        Vec::new()
+    }
+
     /// Changes `plan` as [`apply`](Self::apply) will change the mesh, and returns the problems.
     /// Runs before any geometry exists and must be fast.
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem>;
@@ -123,15 +130,17 @@ impl<T: MeshOperation> Operation for T {
                 let message = format!("`{parameter}` names \"{name}\", which the step acts on");
                 problems.push(Problem::error(message).at([parameter]));
             }
-            if let Some(object) = plan.object(name)
-                && !matches!(object.geometry, PlannedGeometry::Mesh(_))
-            {
-                let message = format!(
-                    "{} needs a mesh, but the type of \"{name}\" is {}",
-                    <T as MeshOperation>::NAME,
-                    object.geometry.kind()
-                );
-                problems.push(Problem::error(message).at([parameter]));
+            match plan.object(name).map(|object| &object.geometry) {
+                Some(PlannedGeometry::Mesh(mesh)) => problems.extend(self.plan_reading(name, mesh)),
+                Some(other) => {
+                    let message = format!(
+                        "{} needs a mesh, but the type of \"{name}\" is {}",
+                        <T as MeshOperation>::NAME,
+                        other.kind()
+                    );
+                    problems.push(Problem::error(message).at([parameter]));
+                }
+                None => {}
             }
         }
         let is_target = |o: &&PlannedObject| {

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use indexmap::IndexSet;
 use mesh::{
     CORNER_NORMAL, CORNER_TANGENT, DVec3, Domain, Rule, TANGENT, VERTEX_NORMAL, joint_of, morph_of,
 };
@@ -296,6 +297,14 @@ impl MeshPlan {
     }
 }
 
+/// Returns `name`, `name.2`, `name.3` and so on, each with its number, from the number `first`.
+pub(crate) fn numbered(name: &str, first: u64) -> impl Iterator<Item = (u64, String)> {
+    (first..).map(move |number| match number {
+        1 => (1, name.to_owned()),
+        _ => (number, format!("{name}.{number}")),
+    })
+}
+
 fn missing_element_message(number: u64, count: Range, nouns: [&str; 2]) -> Option<String> {
     let n = count.max;
     let limit = if count.is_exact() { "" } else { "at most " };
@@ -365,13 +374,18 @@ pub struct Plan {
     /// The index of each object by its name. The map is empty between [`objects_mut`](Self::objects_mut) and the next
     /// [`insert`](Self::insert).
     index_by_name: HashMap<String, usize>,
+    /// For each name that [`free_name`](Self::free_name) numbered, a number such that all lower numbers are taken. The
+    /// map is empty whenever the index is.
+    taken_numbers: HashMap<String, u64>,
     is_edited: bool,
     /// The files that the steps so far read.
     pub inputs: Vec<PathBuf>,
     /// The files that the steps so far write.
-    pub outputs: Vec<PathBuf>,
-    /// The data that the current step certainly loses, apart from attributes of meshes.
+    outputs: IndexSet<PathBuf>,
+    /// The data that the current step certainly loses, apart from attributes of meshes that the step changes.
     pub losses: Vec<Loss>,
+    /// The data that the current step may lose, because the values or the existence of the data are unknown.
+    pub possible_losses: Vec<Loss>,
     graph: Arc<Graph>,
     /// Whether an earlier step could not be read or planned. The scene can then have objects that are missing from
     /// the plan.
@@ -414,6 +428,7 @@ impl Plan {
     pub fn objects_mut(&mut self) -> &mut Vec<PlannedObject> {
         self.is_edited = true;
         self.index_by_name.clear();
+        self.taken_numbers.clear();
         &mut self.objects
     }
 
@@ -433,12 +448,29 @@ impl Plan {
             .map(|&place| &self.objects[place])
     }
 
-    /// Adds an object, or returns a problem if the name is taken.
-    pub fn insert(&mut self, name: &str, geometry: PlannedGeometry) -> Option<Problem> {
+    /// Returns the first name that no object has among `name`, `name.2`, `name.3` and so on.
+    pub fn free_name(&mut self, name: &str) -> String {
+        self.fill_index();
+        // Objects cannot be removed without clearing the map, so the numbers that were taken are still taken.
+        let first = self.taken_numbers.get(name).copied().unwrap_or(1);
+        let is_free = |(_, name): &(u64, String)| !self.index_by_name.contains_key(name);
+        let (number, free) = numbered(name, first)
+            .find(is_free)
+            .expect("fewer than 2^64 objects");
+        self.taken_numbers.insert(name.to_owned(), number);
+        free
+    }
+
+    fn fill_index(&mut self) {
         if self.index_by_name.is_empty() {
             let names = self.objects.iter().map(|o| o.name.clone());
             self.index_by_name = names.zip(0..).collect();
         }
+    }
+
+    /// Adds an object, or returns a problem if the name is taken.
+    pub fn insert(&mut self, name: &str, geometry: PlannedGeometry) -> Option<Problem> {
+        self.fill_index();
         let taken = self.taken(name, "name");
         if taken.is_none() {
             self.index_by_name
@@ -528,6 +560,11 @@ impl Plan {
         Some(problem.help(format!("objects at this point: {known}")))
     }
 
+    /// Returns the files that the steps so far write, in the order of the steps.
+    pub fn outputs(&self) -> &IndexSet<PathBuf> {
+        &self.outputs
+    }
+
     /// Adds a file that the step writes, and returns the problems of its `path`. `check` returns a problem if the file
     /// name extension is not supported.
     pub fn write(
@@ -541,11 +578,10 @@ impl Plan {
             Err(error) => return vec![Problem::error(error.to_string()).at(["path"])],
         };
         let mut problems = Vec::from_iter(check(&full));
-        if self.outputs.contains(&full) {
+        if !self.outputs.insert(full) {
             let message = format!("an earlier step writes \"{path}\" too");
             problems.push(Problem::error(message).at(["path"]));
         }
-        self.outputs.push(full);
         problems
     }
 }

@@ -218,10 +218,9 @@ fn canonical(parameters: &dyn erased_serde::Serialize) -> String {
 fn lost_channels(before: usize, graph: &Graph) -> Option<Loss> {
     let lost = before.saturating_sub(graph.n_channels());
     let noun = if lost == 1 { "channel" } else { "channels" };
+    let what = format!("{lost} animation {noun}");
     (lost > 0).then(|| Loss {
-        object: String::new(),
-        name: "animations".to_owned(),
-        what: format!("{lost} animation {noun}"),
-        reason: "the animated nodes were removed".to_owned(),
+        count: Some(lost as u64),
+        ..Loss::part("", "animations", what, "the animated nodes were removed")
     })
 }

@@ -60,6 +60,10 @@ pub struct Refused {
 /// Data that a step or a file format could not preserve.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
 pub struct Loss {
+    /// A stable name of the kind of loss, for programs, such as `attribute-lost`.
+    pub code: String,
+    /// The number of lost values, elements or other things, if it is known.
+    pub count: Option<u64>,
     /// The object or the file that lost the data. The name is empty if the loss concerns the whole scene, such as its
     /// animations.
     pub object: String,
@@ -76,18 +80,17 @@ impl fmt::Display for Loss {
         if self.reason.is_empty() {
             return f.write_str(&self.what);
         }
-        match self.object.as_str() {
-            "" => write!(f, "the scene lost {}: {}", self.what, self.reason),
-            object => write!(f, "\"{object}\" lost {}: {}", self.what, self.reason),
-        }
+        write!(f, "{} lost {}: {}", self.owner(), self.what, self.reason)
     }
 }
 
 impl Loss {
     /// Creates a loss that occurred while a file was read. `code` names the lost data. `message` describes the loss and
     /// names the file.
-    pub fn reading(file: &str, code: &str, message: impl Into<String>) -> Self {
+    pub fn reading(file: &str, code: &str, count: u64, message: impl Into<String>) -> Self {
         Self {
+            code: code.to_owned(),
+            count: Some(count),
             object: file.to_owned(),
             name: code.to_owned(),
             what: message.into(),
@@ -99,10 +102,42 @@ impl Loss {
     pub fn attribute(object: &str, domain: Domain, name: &str, reason: impl Into<String>) -> Self {
         let what = format!("the {domain} attribute \"{name}\"");
         Self {
+            code: "attribute-lost".to_owned(),
+            ..Self::part(object, name, what, reason)
+        }
+    }
+
+    /// Creates the loss of a part of an object or of the scene. `name` is the name of the part, such as `skins`. The
+    /// code is derived from this name.
+    pub fn part(
+        object: &str,
+        name: &str,
+        what: impl Into<String>,
+        reason: impl Into<String>,
+    ) -> Self {
+        Self {
+            code: format!("{}-lost", name.replace(' ', "-")),
+            count: None,
             object: object.to_owned(),
             name: name.to_owned(),
-            what,
+            what: what.into(),
             reason: reason.into(),
+        }
+    }
+
+    /// The message about this loss if it is possible, but not certain.
+    pub fn possible_message(&self) -> String {
+        if self.reason.is_empty() {
+            return format!("{} may lose {}", self.owner(), self.what);
+        }
+        format!("{} may lose {}: {}", self.owner(), self.what, self.reason)
+    }
+
+    /// The object in messages.
+    fn owner(&self) -> String {
+        match self.object.as_str() {
+            "" => "the scene".to_owned(),
+            object => format!("\"{object}\""),
         }
     }
 }

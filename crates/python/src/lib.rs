@@ -63,6 +63,7 @@ fn program(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
 
 /// Returns the recipes that `meshwright test` runs for these recipes and folders.
 #[pyfunction]
+#[expect(clippy::needless_pass_by_value, reason = "Python passes a new list")]
 fn tested_recipes(py: Python<'_>, paths: Vec<PathBuf>) -> PyResult<Vec<PathBuf>> {
     let found = interrupt::run(py, None, |_| cli::tested_recipes(&REGISTRY, &paths))?;
     found.map_err(|message| errors::error(py, &message))
@@ -70,6 +71,7 @@ fn tested_recipes(py: Python<'_>, paths: Vec<PathBuf>) -> PyResult<Vec<PathBuf>>
 
 /// Returns the input files that `meshwright batch` processes for these paths and patterns.
 #[pyfunction]
+#[expect(clippy::needless_pass_by_value, reason = "Python passes a new list")]
 fn batch_inputs(py: Python<'_>, patterns: Vec<String>) -> PyResult<Vec<String>> {
     let found = interrupt::run(py, None, |_| cli::batch_inputs(&patterns))?;
     found.map_err(|message| errors::error(py, &message))

@@ -44,6 +44,7 @@ impl Recipe {
                 },
                 out: &out,
                 budget: budget.unwrap_or(engine::BUDGET),
+                strict: false,
             };
             Ok::<_, String>(ENGINE.load(&source, &options))
         })?;

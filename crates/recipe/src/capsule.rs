@@ -17,7 +17,7 @@ use crate::params::Rebase;
 use crate::read::VERSION;
 use crate::recipe::{Recipe, RecipeStep};
 use crate::source::rebase_path;
-use ron_tree::{Value, ValueKind, string_literal};
+use ron_tree::{Span, Value, ValueKind, string_literal};
 
 /// The file name of the scene in a capsule.
 pub const BEFORE: &str = "before.mws";
@@ -82,6 +82,27 @@ fn line(step: &RecipeStep, value: &Value) -> String {
         return value.to_string();
     }
     format!("({})", fields.join(", "))
+}
+
+impl Rebase<'_> {
+    /// Returns the edits of a recipe's text that rewrite its relative paths of input files. `value` is the tree of the text,
+    /// and `inputs` are the files that the recipe reads.
+    pub fn edits(&self, value: &Value, inputs: &[PathBuf]) -> Vec<(Span, String)> {
+        let mut edits = Vec::new();
+        let mut values = vec![value.clone()];
+        while let Some(mut value) = values.pop() {
+            if let ValueKind::String(text) = &value.kind {
+                if Path::new(&**text).is_relative() && inputs.contains(&self.from.join(&**text)) {
+                    let path = rebase_path(self.store, text, self.from, self.to);
+                    let path = path.to_string_lossy().replace('\\', "/");
+                    edits.push((value.span, string_literal(&path)));
+                }
+            } else {
+                value.for_each_part(|part| values.push(part.clone()));
+            }
+        }
+        edits
+    }
 }
 
 /// Rewrites the paths of input files: a path relative to `folders.from` becomes relative to `folders.to`.

@@ -37,6 +37,11 @@ pub fn fields(schema: &Json) -> Vec<FieldDoc> {
     fields_of(&Schema::root(schema), true)
 }
 
+/// Returns the fields of `part`, which is a part of the schema `root`, such as the content of a variant.
+pub fn fields_in(root: &Json, part: &Json) -> Vec<FieldDoc> {
+    fields_of(&Schema::new(root, part), true)
+}
+
 /// Returns the fields of a schema. The variants of the types of the fields are included only if `with_variants` is set.
 /// Variants cannot be included at every level, because selections contain selections.
 fn fields_of(schema: &Schema, with_variants: bool) -> Vec<FieldDoc> {

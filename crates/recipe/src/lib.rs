@@ -34,7 +34,7 @@ mod sweep;
 
 pub use check::{Forecast, StepForecast, check, check_from};
 pub use describe::{
-    FieldDoc, TypeDoc, VariantDoc, expectations, fields, refusals, selections, types,
+    FieldDoc, TypeDoc, VariantDoc, expectations, fields, fields_in, refusals, selections, types,
 };
 pub use diagnostic::render;
 pub use expect::{ActualValue, Expectation, OtherMesh, Reader};

@@ -205,6 +205,15 @@ pub struct RecipeExpectation {
 }
 
 impl Recipe {
+    /// Makes losses errors in all steps with `on_loss: Warn`, which is the default.
+    pub fn forbid_losses(&mut self) {
+        for step in &mut self.steps {
+            if step.on_loss == OnLoss::Warn {
+                step.on_loss = OnLoss::Error;
+            }
+        }
+    }
+
     /// Returns the parameters of the recipe itself.
     pub fn parameters(&self) -> &[Parameter] {
         self.scopes.first().map_or(&[], |scope| &scope.parameters)

@@ -2,6 +2,7 @@
 
 mod load;
 mod save;
+mod save_plan;
 
 use op::Registry;
 

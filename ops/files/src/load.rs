@@ -1,9 +1,12 @@
 //! Load: reads the objects of a file into the scene.
 
+use std::ops::RangeInclusive;
+use std::path::Path;
+
 use mesh::{Domain, Elements, VertexId};
 use mesh_io::{
     CleanupPolicy, NonManifold, Note, NoteKind, Orientation, Peek, PeekGeometry, PeekMesh,
-    Placements, Policies, ReadOptions,
+    PeekObject, Placements, Policies, ReadError, ReadOptions,
 };
 use op::prelude::*;
 use op::{Loss, Operation, ReadingChange, ReadingElements};
@@ -55,16 +58,20 @@ pub struct Load {
 }
 
 impl Load {
+    fn policies(&self) -> Policies {
+        Policies {
+            non_manifold: self.non_manifold,
+            orientation: self.orientation,
+            duplicates: self.duplicates,
+            degenerate: self.degenerate,
+            isolated: self.isolated,
+        }
+    }
+
     fn options(&self, budget: u64) -> ReadOptions {
         ReadOptions {
             name: self.name.clone(),
-            policies: Policies {
-                non_manifold: self.non_manifold,
-                orientation: self.orientation,
-                duplicates: self.duplicates,
-                degenerate: self.degenerate,
-                isolated: self.isolated,
-            },
+            policies: self.policies(),
             placements: self.placements,
             strict: self.strict,
             budget: Some(budget),
@@ -86,11 +93,16 @@ impl Operation for Load {
         match mesh_io::peek(&*cx.files.store, &path, &self.options(cx.budget)) {
             Ok(peek) => {
                 plan.losses.extend(peek.left_out.iter().map(loss));
+                plan.possible_losses.extend(dropped_faces(&peek, &path));
                 self.plan_objects(&peek, plan)
             }
             Err(error) => {
                 plan.incomplete = true;
-                vec![Problem::error(error.to_string()).at(["path"])]
+                let field = match error {
+                    ReadError::Strict { .. } => "strict",
+                    _ => "path",
+                };
+                vec![Problem::error(error.to_string()).at([field])]
             }
         }
     }
@@ -138,10 +150,9 @@ impl Load {
         let mut problems = Vec::new();
         for object in &peek.objects {
             let geometry = match object.geometry {
-                PeekGeometry::Mesh(mesh) => PlannedGeometry::Mesh(MeshPlan {
-                    materials: object.materials.clone(),
-                    ..planned(&mesh)
-                }),
+                PeekGeometry::Mesh(mesh) => {
+                    PlannedGeometry::Mesh(planned(object, &mesh, self.policies()))
+                }
                 PeekGeometry::Patches { patches } => {
                     PlannedGeometry::Patches(Range::exactly(patches))
                 }
@@ -166,11 +177,34 @@ impl Load {
     }
 }
 
+/// Returns the possible loss of faces that contain a vertex twice, if the faces of the file were examined.
+fn dropped_faces(peek: &Peek, path: &Path) -> Option<Loss> {
+    let count = |object: &PeekObject| match object.geometry {
+        PeekGeometry::Mesh(mesh) if mesh.keeps_vertices || mesh.simple_faces > 0 => {
+            mesh.faces.saturating_sub(mesh.simple_faces)
+        }
+        _ => 0,
+    };
+    let n: u64 = peek.objects.iter().map(count).sum();
+    let path = path.display().to_string();
+    (n > 0).then(|| Loss {
+        code: "faces-dropped".to_owned(),
+        count: Some(n),
+        ..Loss::part(
+            &path,
+            "faces-dropped",
+            format!("up to {n} of its faces"),
+            "they may contain a vertex twice",
+        )
+    })
+}
+
 /// Converts a note to a loss: content of the file that was left out.
 fn loss(note: &Note) -> Loss {
     Loss::reading(
         &note.path.display().to_string(),
         note.code,
+        note.count as u64,
         note.to_string(),
     )
 }
@@ -198,18 +232,26 @@ fn change(note: &Note) -> ReadingChange {
 /// The largest number of joints and of morph targets of a mesh that are planned.
 const MAX_PLANNED: u64 = 1 << 12;
 
-/// Returns the plan of the mesh that is read from a file with these counts. Reading can leave out faces and remove
-/// repeated corners, and splitting can add vertices and edges.
-fn planned(peek: &PeekMesh) -> MeshPlan {
+/// Returns the plan of the mesh that is read from a file with these counts.
+fn planned(object: &PeekObject, peek: &PeekMesh, policies: Policies) -> MeshPlan {
+    let range = |range: RangeInclusive<u64>| Range::between(*range.start(), *range.end());
+    let ranges = peek.ranges(policies);
     let mut plan = MeshPlan {
-        vertices: Range::at_most(peek.vertices.saturating_add(peek.corners)),
-        edges: Range::at_most(peek.corners),
-        faces: Range::at_most(peek.faces),
-        degrees: Range::between(3, peek.max_degree.max(3)),
+        vertices: range(ranges.vertices),
+        edges: range(ranges.edges),
+        faces: range(ranges.faces),
+        degrees: range(ranges.degrees),
         attributes: Vec::new(),
-        has_unlisted_attributes: true,
-        materials: None,
+        has_unlisted_attributes: object.attributes.is_none(),
+        materials: object.materials.clone(),
     };
+    let others = object.attributes.iter().flatten();
+    if peek.is_exact {
+        for (domain, name) in others {
+            plan.provide(*domain, name);
+        }
+        return plan;
+    }
     let mut provide_uncertain = |may_exist: bool, domain, name: &str| {
         if may_exist {
             plan.provide(domain, name);
@@ -231,6 +273,9 @@ fn planned(peek: &PeekMesh) -> MeshPlan {
     let joints = deformers(peek.joints, mesh::joint_name);
     for name in joints.chain(deformers(peek.targets, mesh::morph_name)) {
         provide_uncertain(true, Domain::Vertex, &name);
+    }
+    for (domain, name) in others {
+        provide_uncertain(true, *domain, name);
     }
     plan
 }

@@ -6,6 +6,8 @@ use mesh_io::{Compression, Format, Images, Quantization, Rows, WriteOptions};
 use op::prelude::*;
 use op::{Loss, Operation, target_scene};
 
+use crate::save_plan;
+
 /// Writes objects to a file.
 ///
 /// The extension determines the format: `.obj`, `.gltf`, `.glb`, `.ply`, `.stl` or `.off` for meshes, `.bez` for Bezier
@@ -42,40 +44,6 @@ pub struct Save {
     /// For `.csv`, the elements that the rows list. If omitted, vertices.
     #[serde(default)]
     pub rows: Option<Rows>,
-}
-
-impl Save {
-    /// Adds the losses of skins, morph targets and animations in formats without them.
-    fn plan_losses(&self, plan: &mut Plan) {
-        let format = Format::from_path(Path::new(&self.path));
-        if matches!(
-            format,
-            None | Some(Format::Gltf | Format::Glb | Format::Mws)
-        ) {
-            return;
-        }
-        let keeps_morphs = matches!(format, Some(Format::Ply | Format::Csv | Format::Npz));
-        let morphs = plan.objects().iter().map(|object| match &object.geometry {
-            PlannedGeometry::Mesh(mesh) if !keeps_morphs => mesh.n_morphs() as u64,
-            _ => 0,
-        });
-        let counts = [
-            ("skins", plan.graph().skins.len() as u64),
-            ("animations", plan.graph().animations.len() as u64),
-            ("morph targets", morphs.sum()),
-        ];
-        for (name, count) in counts.into_iter().filter(|(_, count)| *count > 0) {
-            plan.losses.push(Loss {
-                object: self.path.clone(),
-                name: name.to_owned(),
-                what: match count {
-                    1 => format!("1 {}", name.trim_end_matches('s')),
-                    _ => format!("{count} {name}"),
-                },
-                reason: format!("the format has no {name}"),
-            });
-        }
-    }
 }
 
 impl Operation for Save {
@@ -117,7 +85,7 @@ impl Operation for Save {
         if self.rows.is_some() && format.is_some_and(|format| format != Format::Csv) {
             problems.push(Problem::error("only .csv files have rows").at(["rows"]));
         }
-        self.plan_losses(plan);
+        problems.extend(save_plan::plan(self, plan, cx));
         if plan.objects().is_empty() && !plan.incomplete {
             problems.push(Problem::error("no objects to save at this point"));
         }
@@ -143,8 +111,12 @@ impl Operation for Save {
             rows: self.rows,
             strict: false,
         };
-        let written = mesh_io::write(&*files.store, &path, &chosen, &options)
-            .map_err(|e| files.output_error(e))?;
+        let written = mesh_io::write(&cx.cancellable_store(), &path, &chosen, &options);
+        if written.is_err() {
+            // If the run was cancelled, this is the reason for the error.
+            cx.advance("write", 0, 1)?;
+        }
+        let written = written.map_err(|e| files.output_error(e))?;
         let mut report = Report::changed(chosen.objects().len());
         report
             .notes
@@ -153,6 +125,8 @@ impl Operation for Save {
             .losses
             .into_iter()
             .map(|loss| Loss {
+                code: loss.code(),
+                count: Some(loss.count as u64),
                 what: loss.what(),
                 object: loss.object,
                 name: loss.attribute,
@@ -191,6 +165,29 @@ mod tests {
         let mesh = back.objects[0].as_mesh().unwrap();
         assert_eq!((mesh.n_vertices(), mesh.n_faces()), (8, 6));
         assert_eq!(mesh.positions(), shapes::cube().positions());
+    }
+
+    #[test]
+    fn a_compressed_file_reports_progress_while_it_is_written() {
+        struct Counter(std::sync::atomic::AtomicUsize);
+        impl op::Progress for Counter {
+            fn advance(&self, _: &str, _: u64, _: u64) -> bool {
+                self.0.fetch_add(1, std::sync::atomic::Ordering::Relaxed) < 20
+            }
+        }
+        let folder = tempfile::tempdir().unwrap();
+        let files = Files {
+            output: folder.path().into(),
+            ..Files::default()
+        };
+        let mut scene = Scene::new();
+        let torus = shapes::torus(200, 200, 2.0, 1.0);
+        scene.insert(Object::mesh("torus", torus)).unwrap();
+        let counter = Counter(0.into());
+        let mut cx = Context::new(&counter, &files);
+        let saved = save("torus.obj.gz").apply(&mut scene, &mut cx);
+        assert!(matches!(saved, Err(OpError::Cancelled)), "{saved:?}");
+        assert_eq!(folder.path().read_dir().unwrap().count(), 0);
     }
 
     #[test]
@@ -345,7 +342,7 @@ mod tests {
             budget: u64::MAX,
         };
         let mut plan = Plan::default();
-        plan.insert("a", PlannedGeometry::Patches(Range::ANY));
+        plan.insert("a", PlannedGeometry::Polylines);
         assert_eq!(save("a.obj").plan(&mut plan, &cx), []);
         for path in ["a.obj", "../a.obj", "a.xyz", "a.dae", "{none.stem}.obj"] {
             assert_eq!(save(path).plan(&mut plan, &cx).len(), 1, "{path}");

@@ -7,6 +7,8 @@ use std::str::FromStr;
 use clap::Args as ClapArgs;
 use serde::{Deserialize, Serialize};
 
+use crate::loading::Checking;
+
 use super::{CacheArgs, DrawArgs, Format, PictureErrorsArgs, ValueArgs, size};
 
 /// Options of the commands that run several recipes at the same time.
@@ -21,9 +23,19 @@ pub(crate) struct ManyArgs {
     /// Memory budget for the meshes of all simultaneous runs together, such as 512MiB or 8GiB
     #[arg(long, default_value = "8GiB", value_name = "SIZE", value_parser = size)]
     pub(crate) budget: u64,
+    /// Fail if a step loses anything, except losses that the recipe allows with `on_loss: Allow([..])`
+    #[arg(long)]
+    pub(crate) strict: bool,
 }
 
 impl ManyArgs {
+    pub(crate) fn checking(&self) -> Checking {
+        Checking {
+            budget: self.budget,
+            strict: self.strict,
+        }
+    }
+
     pub(crate) fn limits(&self) -> recipe::JobLimits {
         recipe::JobLimits {
             threads: self.threads.map_or(0, usize::from),

@@ -137,6 +137,9 @@ pub(crate) struct OpsArgs {
     /// NAME is the operation in snake case
     #[arg(long, requires = "markdown", value_name = "FOLDER")]
     pub(crate) pictures: Option<PathBuf>,
+    /// Output format
+    #[arg(long, value_enum, default_value_t, conflicts_with_all = ["markdown", "selections"])]
+    pub(crate) format: Format,
 }
 
 #[derive(Debug, ClapArgs)]

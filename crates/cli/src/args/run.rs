@@ -36,6 +36,9 @@ pub(crate) struct RecipeArgs {
     /// Memory budget for meshes, such as 512MiB or 8GiB
     #[arg(long, default_value = "8GiB", value_name = "SIZE", value_parser = size)]
     pub(crate) budget: u64,
+    /// Fail if a step loses anything, except losses that the recipe allows with `on_loss: Allow([..])`
+    #[arg(long)]
+    pub(crate) strict: bool,
     /// Output format
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: Format,

@@ -29,6 +29,7 @@ pub(crate) fn run(args: &CheckArgs, engine: &Engine) -> anyhow::Result<bool> {
             json!({
                 "step": s.label, "vertices": range(s.vertices), "edges": range(s.edges),
                 "faces": range(s.faces), "bytes": range(s.bytes), "losses": engine::json::losses(&s.losses),
+                "possible_losses": engine::json::losses(&s.possible_losses),
             })
         });
         print_json(&json!({
@@ -49,6 +50,9 @@ pub(crate) fn run(args: &CheckArgs, engine: &Engine) -> anyhow::Result<bool> {
     for step in steps {
         for loss in &step.losses {
             print(&format!("{}: {loss}\n", step.label))?;
+        }
+        for loss in &step.possible_losses {
+            print(&format!("{}: {}\n", step.label, loss.possible_message()))?;
         }
     }
     let n = loaded.recipe.expectations.len();

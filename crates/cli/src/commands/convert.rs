@@ -51,6 +51,7 @@ pub(crate) fn run(args: &ConvertArgs) -> anyhow::Result<bool> {
     if !human {
         let losses = written.losses.iter().map(|loss| {
             json!({
+                "code": loss.code(),
                 "object": (!loss.object.is_empty()).then_some(&loss.object), "name": loss.attribute, "count": loss.count,
                 "domain": loss.domain.map(|d| d.to_string()), "message": loss.to_string(),
             })

@@ -5,16 +5,24 @@ use op::{Entry, Registry};
 use recipe::{
     FieldDoc, TypeDoc, VariantDoc, did_you_mean, fields, step_kinds, suggest_operations, types,
 };
-use serde_json::Value as Json;
+use serde_json::{Value as Json, json};
 
 use super::reference::reference;
-use crate::args::OpsArgs;
-use crate::output::print;
+use crate::args::{Format, OpsArgs};
+use crate::output::{print, print_json};
 
 /// Maximum length of the lines in a list of variants.
 const WIDTH: usize = 100;
 
 pub(crate) fn run(args: &OpsArgs, registry: &Registry) -> anyhow::Result<bool> {
+    if args.format == Format::Json {
+        let json = match &args.name {
+            Some(name) => operation_json(name, registry)?,
+            None => list_json(registry),
+        };
+        print_json(&json)?;
+        return Ok(true);
+    }
     let text = if args.markdown {
         reference(registry, args.pictures.as_deref())
     } else if args.selections {
@@ -64,6 +72,33 @@ fn list(registry: &Registry) -> String {
     text + "\n`meshwright ops NAME` describes one operation, `meshwright ops --selections` lists the selections.\n"
 }
 
+/// Returns the name and the summary of each operation.
+fn list_json(registry: &Registry) -> Json {
+    let entries = registry.entries().iter();
+    let operations = entries.map(|e| json!({ "name": e.name, "summary": e.summary }));
+    let steps = step_kinds().into_iter();
+    let steps = steps.map(|(name, s)| json!({ "name": name, "summary": s["description"] }));
+    operations.chain(steps).collect()
+}
+
+/// Returns the description of an operation, with the JSON schema of its parameters.
+fn operation_json(name: &str, registry: &Registry) -> anyhow::Result<Json> {
+    Ok(match find(name, registry)? {
+        Found::Step(schema) => {
+            let docs = &schema["description"];
+            json!({ "name": name, "summary": docs, "docs": docs, "schema": schema })
+        }
+        Found::Operation(entry) => {
+            let schema = entry.schema();
+            json!({
+                "name": entry.name, "version": entry.version, "summary": entry.summary,
+                "docs": schema["description"], "takes_on": entry.takes_on, "example": entry.example,
+                "schema": schema,
+            })
+        }
+    })
+}
+
 fn selections() -> String {
     let types = recipe::selections();
     let texts: Vec<String> = types.iter().map(type_text).collect();
@@ -71,8 +106,22 @@ fn selections() -> String {
 }
 
 fn operation(name: &str, registry: &Registry) -> anyhow::Result<String> {
-    if let Some((name, schema)) = step_kinds().into_iter().find(|(kind, _)| *kind == name) {
-        return Ok(format!("{name}: {}", described(&schema, "")));
+    Ok(match find(name, registry)? {
+        Found::Step(schema) => format!("{name}: {}", described(&schema, "")),
+        Found::Operation(entry) => detail(entry),
+    })
+}
+
+/// An operation, or a step that contains other steps.
+enum Found<'r> {
+    /// The JSON schema of the step.
+    Step(Json),
+    Operation(&'r Entry),
+}
+
+fn find<'r>(name: &str, registry: &'r Registry) -> anyhow::Result<Found<'r>> {
+    if let Some((_, schema)) = step_kinds().into_iter().find(|(kind, _)| *kind == name) {
+        return Ok(Found::Step(schema));
     }
     let Some(entry) = registry.get(name) else {
         let is_selection = |t: &TypeDoc| {
@@ -89,7 +138,7 @@ fn operation(name: &str, registry: &Registry) -> anyhow::Result<String> {
         let help = suggest_operations(name, registry);
         anyhow::bail!("unknown operation `{name}`: {help}");
     };
-    Ok(detail(entry))
+    Ok(Found::Operation(entry))
 }
 
 fn detail(entry: &Entry) -> String {

@@ -301,6 +301,7 @@ fn on_sheet(
         background: picture.style.background.srgb(),
         ..SheetStyle::default()
     };
+    let style = style.scaled_to(picture.size.map(op::Count::get));
     let image = sheet(&cells, &style, BUDGET)?;
     write_png(&image, &output_path(args, &files[0]), true)?;
     Ok(all_drawn)

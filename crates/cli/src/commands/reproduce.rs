@@ -125,6 +125,7 @@ impl Rerun {
             values: values(&set, &run),
             out: out.path(),
             budget,
+            strict: false,
         };
         let mut loaded = engine.load(&source, &options);
         if loaded.has_errors() {

@@ -9,12 +9,13 @@ use crate::args::ShrinkArgs;
 use crate::capsule;
 use crate::commands::run::report_errors;
 use crate::listener::{INTERRUPT, Terminal, catch_interrupts};
-use crate::loading::load_recipe;
+use crate::loading::{Checking, load_recipe};
 use crate::output::{print, print_error};
 
 pub(crate) fn run(args: &ShrinkArgs, engine: &Engine) -> anyhow::Result<bool> {
     let (path, out) = (&args.recipe, &args.out);
-    let mut loaded = load_recipe(path, &args.values, out, args.budget, engine)?;
+    let checking = Checking::for_budget(args.budget);
+    let mut loaded = load_recipe(path, &args.values, out, checking, engine)?;
     if loaded.has_errors() {
         return report_errors(&loaded, false);
     }

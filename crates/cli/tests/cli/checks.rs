@@ -125,3 +125,136 @@ fn losses_that_a_file_shows_are_listed_and_can_be_errors() {
         .with_code(1)
         .complains(&["`on_loss` does not allow it"]);
 }
+
+#[test]
+fn content_that_strict_loading_refuses() {
+    let folder = Folder::new()
+        .with("vp.obj", format!("{SQUARE}vp 1\nf 1 2 3 4\n"))
+        .with(
+            "image.obj",
+            format!("mtllib a.mtl\n{SQUARE}usemtl m\nf 1 2 3 4\n"),
+        )
+        .with("a.mtl", "newmtl m\nmap_Kd none.png\n");
+    for (file, what) in [
+        ("vp.obj", "1 statement `vp` left out"),
+        ("image.obj", "none.png"),
+    ] {
+        let load = format!("Load(path: \"{file}\", strict: true)");
+        refuses(&folder, &load, &[what]);
+    }
+}
+
+#[test]
+fn objects_that_a_format_cannot_store() {
+    let folder = Folder::new().with("a.bez", format!("1\n{}", "0 0 0\n".repeat(16)));
+    refuses(
+        &folder,
+        "Cube(), Save(path: \"a.bez\")",
+        &["object `cube`: a .bez file stores Bezier patches, found mesh"],
+    );
+    refuses(
+        &folder,
+        "Cube(), Save(path: \"a.bzc\")",
+        &["object `cube`: a .bzc file stores a curve, found mesh"],
+    );
+    refuses(
+        &folder,
+        "Load(path: \"a.bez\"), Save(path: \"b.obj\")",
+        &["object `a`: OBJ files store meshes and polylines, found patches"],
+    );
+}
+
+#[test]
+fn attributes_that_files_and_other_objects_do_not_have() {
+    let folder = Folder::new().with("a.obj", format!("{SQUARE}f 1 2 3 4\n"));
+    let load = "Load(path: \"a.obj\")";
+    refuses(
+        &folder,
+        &format!("{load}, PackUvs()"),
+        &["no texture coordinates"],
+    );
+    refuses(
+        &folder,
+        &format!("{load}, PokeFaces(faces: Tagged(\"t\"))"),
+        &["no element of \"a\" is tagged \"t\""],
+    );
+    refuses(
+        &folder,
+        "Cube(), Torus(), Transfer(from: \"cube\", attributes: [\"uv\"])",
+        &["\"cube\" has no attribute \"uv\"; it has: none"],
+    );
+}
+
+#[test]
+fn counts_and_budgets_that_a_file_exceeds() {
+    let folder = Folder::new().with("a.obj", format!("{SQUARE}f 1 2 3\nf 1 3 4\n"));
+    let levels =
+        |n: u32| format!("(recipe: 1, steps: [Load(path: \"a.obj\"), LoopSubdivide(levels: {n})])");
+    folder
+        .run_with("check - --budget 1MiB", &levels(4))
+        .with_code(0);
+    for n in [9, 10] {
+        let ended = folder.run_with("check - --budget 1MiB", &levels(n));
+        ended.with_code(1).complains(&["budget"]);
+    }
+    refuses(
+        &folder,
+        "Load(path: \"a.obj\"), CatmullClark(), LoopSubdivide()",
+        &["LoopSubdivide needs triangles"],
+    );
+}
+
+#[test]
+fn losses_of_saving_are_listed_before_the_run() {
+    let steps = "Cube(), Crease(edges: All, sharpness: 1), VertexNormals(), Torus()";
+    let text = format!("(recipe: 1, steps: [{steps}, Save(path: \"a.stl\")])");
+    let folder = Folder::new();
+    folder.run_with("check -", &text).with_code(0).prints(&[
+        "\"cube\" lost polygons",
+        "\"cube\" lost the edge attribute \"crease\": STL cannot store it",
+        "\"cube\" lost the vertex attribute \"normal\": STL cannot store it",
+        "\"cube\" may lose digits of positions",
+    ]);
+    let ended = folder.run_with("check - --format json", &text).with_code(0);
+    let json: serde_json::Value = serde_json::from_str(&ended.stdout).unwrap();
+    let losses = json["forecast"][4]["losses"].as_array().unwrap();
+    let codes: Vec<&str> = losses
+        .iter()
+        .filter_map(|loss| loss["code"].as_str())
+        .collect();
+    assert_eq!(
+        codes,
+        [
+            "name-lost",
+            "polygon-lost",
+            "attribute-lost",
+            "attribute-lost",
+            "polygon-lost"
+        ],
+        "{json:#}"
+    );
+}
+
+#[test]
+fn strict_makes_losses_errors_unless_the_recipe_allows_them() {
+    let recipe = |more: &str| {
+        format!(
+            "(recipe: 1, {more} steps: [Cube(), Save(path: \"a.glb\")], expect: [Faces(eq: 6)])"
+        )
+    };
+    let folder = Folder::new()
+        .with("warn.ron", recipe(""))
+        .with("allow.ron", recipe("on_loss: Allow([\"polygon\"]),"));
+    for command in ["run", "check", "test"] {
+        folder.run(&format!("{command} warn.ron")).with_code(0);
+        folder
+            .run(&format!("{command} warn.ron --strict"))
+            .with_code(1);
+        folder
+            .run(&format!("{command} allow.ron --strict"))
+            .with_code(0);
+    }
+    folder
+        .run("check warn.ron --strict")
+        .complains(&["Save loses polygons of \"cube\", and `on_loss` does not allow it"]);
+}

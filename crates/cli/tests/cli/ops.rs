@@ -208,3 +208,25 @@ fn an_error_with_a_closed_pipe_is_still_exit_code_1() {
         std::fs::remove_file(folder.path("code")).unwrap();
     }
 }
+
+#[test]
+fn operations_are_described_as_json() {
+    let folder = Folder::new();
+    let json = |command: &str| -> serde_json::Value {
+        let ended = folder.run(command).with_code(0);
+        serde_json::from_str(&ended.stdout).unwrap()
+    };
+    let list = json("ops --format json");
+    let named = |name: &str| {
+        let mut entries = list.as_array().unwrap().iter();
+        entries.any(|entry| entry["name"] == name && entry["summary"].is_string())
+    };
+    assert!(named("Weld") && named("Repeat"));
+    let weld = json("ops Weld --format json");
+    assert_eq!(weld["name"], "Weld");
+    assert!(weld["docs"].is_string() && weld["example"].is_string());
+    assert!(weld["schema"]["properties"]["distance"].is_object());
+    assert!(json("ops Repeat --format json")["schema"].is_object());
+    folder.run("ops Nothing --format json").with_code(1);
+    folder.run("ops --selections --format json").with_code(2);
+}

@@ -146,7 +146,7 @@ fn more_memory_than_the_budget_is_refused_before_anything_runs() {
     folder
         .run("run recipe.ron --budget 1MiB")
         .with_code(1)
-        .complains(&["error: ", "budget", "1048576", "1 error, no step was run\n"]);
+        .complains(&["error: ", "budget", "1.0 MiB", "1 error, no step was run\n"]);
     assert!(folder.entries("out").is_empty());
     folder.run("check recipe.ron --budget 1GiB").with_code(0);
 }

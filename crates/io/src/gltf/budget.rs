@@ -83,8 +83,9 @@ impl Budget {
         let length = usize::try_from(bytes).ok();
         let (Some(left), Some(length)) = (left, length) else {
             let message = format!(
-                "decoding this view adds {bytes} bytes, which makes the decoded views more than {BUDGET_FACTOR} times as \
-                large as the file"
+                "decoding this view adds {}, which makes the decoded views more than {BUDGET_FACTOR} times as large as \
+                 the file",
+                mesh::readable_bytes(bytes)
             );
             return Err(Fault::json(pointer, message));
         };

@@ -4,13 +4,16 @@ use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 
 use gltf_json::Index;
+use gltf_json::accessor::Type;
 use gltf_json::mesh::{Mode, Semantic};
 use gltf_json::validation::Checked;
+use mesh::Domain;
 use scene::Graph;
 
 use super::budget::Budget;
 use super::document::Document;
 use super::materials::{image_paths, material_name};
+use super::names::attribute_name;
 use super::nodes::placed_meshes;
 use super::primitives::attributes;
 use super::read::parse;
@@ -40,7 +43,7 @@ pub(crate) fn peek(
     let budget = Budget::of(json.len());
     let document = Document::new(&parse(json)?, &budget, notes)?;
     let reader = Reader::new(&document, &[], &budget);
-    let mut meshes: BTreeMap<usize, (PeekMesh, BTreeSet<usize>)> = BTreeMap::new();
+    let mut meshes: BTreeMap<usize, Counted> = BTreeMap::new();
     let mut objects = Vec::new();
     let deformers = Deformers::of_meshes(&document);
     let mut nodes = placed_meshes(&document, placements, name, &budget, notes)?;
@@ -49,26 +52,34 @@ pub(crate) fn peek(
         RigReader::without_numbers(&reader).fill(&nodes, graph, notes)?;
     }
     for placed in nodes.meshes {
-        let (mesh, materials) = match meshes.entry(placed.mesh) {
+        let counted = match meshes.entry(placed.mesh) {
             Entry::Occupied(known) => known.into_mut(),
             Entry::Vacant(new) => {
-                let (mut mesh, materials) = peek_mesh(&reader, placed.mesh)?;
                 let deformers = deformers[placed.mesh];
-                mesh.targets = deformers.targets as u64;
+                let mut counted = peek_mesh(&reader, placed.mesh, deformers, notes)?;
+                counted.mesh.targets = deformers.targets as u64;
                 if placements == Placements::Keep {
-                    mesh.joints = deformers.n_joints() as u64;
+                    counted.mesh.joints = deformers.n_joints() as u64;
                 }
-                new.insert((mesh, materials))
+                new.insert(counted)
             }
         };
-        let names = materials.iter().map(|&i| material_name(&document, i));
+        let names = counted
+            .materials
+            .iter()
+            .map(|&i| material_name(&document, i));
+        // The values of corners become values of vertices if they agree around each vertex.
+        let domains = [Domain::Vertex, Domain::Corner];
+        let attributes =
+            (counted.names.iter()).flat_map(|name| domains.map(|domain| (domain, name.clone())));
         objects.push(PeekObject {
             name: placed.name,
-            geometry: PeekGeometry::Mesh(*mesh),
+            geometry: PeekGeometry::Mesh(counted.mesh),
             materials: Some(names.collect()),
+            attributes: Some(attributes.collect()),
         });
     }
-    let used: BTreeSet<usize> = meshes.into_values().flat_map(|(_, used)| used).collect();
+    let used: BTreeSet<usize> = meshes.into_values().flat_map(|m| m.materials).collect();
     let paths: Vec<String> = used
         .iter()
         .flat_map(|&i| image_paths(&document, i))
@@ -77,13 +88,35 @@ pub(crate) fn peek(
     Ok(objects)
 }
 
-/// Returns the counts of a mesh, and the materials that it uses.
-fn peek_mesh(reader: &Reader, index: usize) -> Result<(PeekMesh, BTreeSet<usize>), Fault> {
+/// The content of a mesh.
+struct Counted {
+    mesh: PeekMesh,
+    /// The materials that the mesh uses.
+    materials: BTreeSet<usize>,
+    /// The names of the attributes that [`PeekMesh`] does not describe.
+    names: BTreeSet<String>,
+}
+
+/// Returns the content of a mesh, and adds notes on content that is left out.
+fn peek_mesh(
+    reader: &Reader,
+    index: usize,
+    deformers: Deformers,
+    notes: &mut Notes,
+) -> Result<Counted, Fault> {
     let mut counts = PeekMesh::default();
     let mut materials = BTreeSet::new();
+    let mut names = BTreeSet::new();
     let mut known = BTreeSet::new();
+    let mut left_out: BTreeMap<String, usize> = BTreeMap::new();
+    let (mut points, mut lines) = (0, 0);
     for (i, primitive) in reader.document.meshes[index].primitives.iter().enumerate() {
         let here = format!("/meshes/{index}/primitives/{i}");
+        match primitive.mode {
+            Checked::Valid(Mode::Points) => points += 1,
+            Checked::Valid(Mode::Lines | Mode::LineLoop | Mode::LineStrip) => lines += 1,
+            _ => {}
+        }
         let has = |semantic| primitive.attributes.contains_key(&Checked::Valid(semantic));
         let position = Checked::Valid(Semantic::Positions);
         let Some(position) = primitive.attributes.get(&position).map(Index::value) else {
@@ -102,6 +135,15 @@ fn peek_mesh(reader: &Reader, index: usize) -> Result<(PeekMesh, BTreeSet<usize>
         counts.add_faces(triangles, 3);
         if known.insert(attributes(primitive)) {
             counts.vertices = counts.vertices.saturating_add(vertices);
+            for (semantic, accessor) in attributes(primitive) {
+                match attribute(reader, &semantic, accessor, deformers) {
+                    Found::Described => {}
+                    Found::Named(name) => {
+                        names.insert(name);
+                    }
+                    Found::LeftOut(name) => *left_out.entry(name).or_default() += 1,
+                }
+            }
         }
         counts.uvs |= has(Semantic::TexCoords(0));
         counts.normals |= has(Semantic::Normals);
@@ -111,5 +153,57 @@ fn peek_mesh(reader: &Reader, index: usize) -> Result<(PeekMesh, BTreeSet<usize>
         let exists = |&i: &usize| triangles > 0 && i < reader.document.materials.len();
         materials.extend(material.filter(exists));
     }
-    Ok((counts, materials))
+    notes.left_out("points", points, None, "primitives of points left out");
+    notes.left_out("polylines", lines, None, "primitives of lines left out");
+    for (name, count) in left_out {
+        notes.left_out(
+            "attributes",
+            count,
+            None,
+            format!("attributes {name} left out"),
+        );
+    }
+    Ok(Counted {
+        mesh: counts,
+        materials,
+        names,
+    })
+}
+
+/// What becomes of an attribute of a primitive.
+enum Found {
+    /// [`PeekMesh`] describes the attribute.
+    Described,
+    /// The mesh gets an attribute with this name.
+    Named(String),
+    /// The attribute is left out.
+    LeftOut(String),
+}
+
+fn attribute(
+    reader: &Reader,
+    semantic: &Checked<Semantic>,
+    accessor: usize,
+    deformers: Deformers,
+) -> Found {
+    let Checked::Valid(semantic) = semantic else {
+        return Found::LeftOut("with unknown names".to_owned());
+    };
+    let kind = reader.document.accessors.get(accessor).map(|a| a.type_);
+    let is_matrix = matches!(
+        kind,
+        Some(Checked::Valid(Type::Mat2 | Type::Mat3 | Type::Mat4))
+    );
+    match semantic {
+        Semantic::Positions | Semantic::Normals | Semantic::TexCoords(0) | Semantic::Colors(0) => {
+            Found::Described
+        }
+        Semantic::Joints(set) | Semantic::Weights(set) if *set < deformers.weight_sets => {
+            Found::Described
+        }
+        _ => match attribute_name(semantic).filter(|_| !is_matrix) {
+            Some(name) => Found::Named(name),
+            None => Found::LeftOut(semantic.to_string()),
+        },
+    }
 }

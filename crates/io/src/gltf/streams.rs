@@ -6,6 +6,7 @@ use gltf_json::mesh::Semantic;
 use mesh::{Column, Domain, FaceId, HalfEdgeId, Mesh, Values, VertexId, joint_of, morph_of};
 
 use super::names::{custom_semantic, uv_set};
+use crate::Format;
 use crate::loss::Losses;
 use crate::writing::is_mark;
 
@@ -57,7 +58,7 @@ pub(super) fn streams<'a>(mesh: &'a Mesh, losses: &mut Losses) -> Vec<Stream<'a>
     {
         streams.retain(|stream| stream.semantic != Semantic::Tangents);
     }
-    losses.add_columns(mesh, "glTF", |domain, column| {
+    losses.add_columns(mesh, Format::Gltf, |domain, column| {
         let is_material = domain == Domain::Face && column.name == mesh::MATERIAL.name;
         is_deformer(domain, column)
             || is_mark(domain, column)

@@ -14,7 +14,7 @@ use crate::assets::percent_encoded;
 use crate::error::Unwritable;
 use crate::loss::{Loss, Losses};
 use crate::writing::dense;
-use crate::{PackingReport, WriteOptions, Written, gzip};
+use crate::{Format, PackingReport, WriteOptions, Written, gzip};
 
 /// Converts `scene` to the bytes of files, and lists the content that the files do not store. The result has the files
 /// in the order in which they must be renamed.
@@ -32,7 +32,7 @@ pub(crate) fn write(
     let mut meshes = Vec::new();
     for object in scene.objects() {
         let Geometry::Mesh(mesh) = &object.geometry else {
-            return Err(Unwritable::kind("glTF files store meshes", object));
+            return Err(Unwritable::kind(Format::Gltf, object));
         };
         meshes.push(dense(mesh));
     }

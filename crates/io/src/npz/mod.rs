@@ -19,10 +19,10 @@ use glam::DVec3;
 use mesh::{Column, Domain, HalfEdgeId, Mesh, Values, VertexId};
 use scene::Scene;
 
-use crate::SingleFile;
 use crate::csv::unused;
 use crate::error::Unwritable;
-use crate::joined::{Names, joined};
+use crate::joined::joined;
+use crate::{Format, SingleFile};
 use zip::Archive;
 
 /// Writes `scene`, and lists the content that the file does not store.
@@ -31,7 +31,7 @@ use zip::Archive;
 ///
 /// If an object is not a mesh, or if the file would exceed a limit of zip archives, such as 4 GiB.
 pub(crate) fn write(scene: &Scene) -> Result<SingleFile, Unwritable> {
-    let joined = joined(scene, "NPZ", Names::Lost)?;
+    let joined = joined(scene, Format::Npz)?;
     let mesh = &*joined.mesh;
     let mut archive = Archive::default();
     let positions = bytemuck::cast_slice::<DVec3, f64>(mesh.positions());

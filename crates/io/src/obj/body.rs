@@ -4,17 +4,18 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3, DVec4};
-use mesh::{CORNER_NORMAL, Domain, FaceId, HalfEdgeId, Mesh, UV, VERTEX_NORMAL, Values, VertexId};
+use mesh::{CORNER_NORMAL, Domain, FaceId, HalfEdgeId, Mesh, UV, VERTEX_NORMAL, VertexId};
 
 use super::corner::Counts;
 use super::file::NO_MATERIAL;
 use super::library::{Library, push_name, push_values};
 use super::states::{FaceState, FaceStates, TextState, one_word};
+use crate::Format;
 use crate::corners::CornerNumbers;
 use crate::decimal::push_whole;
 use crate::loss::Losses;
 use crate::save::Block;
-use crate::writing::{FileVertices, NOT_FINITE, is_mark};
+use crate::writing::{FileVertices, NOT_FINITE};
 use mesh::parallel;
 
 /// The number of vertices, values or faces in a block.
@@ -63,19 +64,7 @@ impl<'a> MeshBody<'a> {
             (Some(normals), _) => Some(Normals::Corners(normals)),
             (None, normals) => normals.map(Normals::Vertices),
         };
-        losses.add_columns(mesh, "OBJ", |domain, column| {
-            match (domain, column.name.as_str()) {
-                _ if is_mark(domain, column) => true,
-                (Domain::Corner, "uv") => uvs.is_some(),
-                (Domain::Corner, "normal") => matches!(normals, Some(Normals::Corners(_))),
-                (Domain::Vertex, "normal") => matches!(normals, Some(Normals::Vertices(_))),
-                (Domain::Vertex, "color") => colors.is_some(),
-                (Domain::Face, _) if matches!(column.values, Values::Tag(_)) => true,
-                (Domain::Face, "material") => mesh.get(mesh::MATERIAL).is_some(),
-                (Domain::Face, "smoothing") => mesh.get(mesh::SMOOTHING).is_some(),
-                _ => false,
-            }
-        });
+        losses.add_columns(mesh, Format::Obj, |_, _| true);
         if let Some(colors) = colors {
             lost_colors(colors, losses);
         }

@@ -1,5 +1,6 @@
 //! Counts the statements of an OBJ file without storing them.
 
+use mesh::Domain;
 use scene::{Material, Texture};
 
 use super::file::{LeftOut, NO_MATERIAL, ObjFile};
@@ -12,7 +13,8 @@ use crate::assets::Assets;
 use crate::fault::Fault;
 use crate::images::note_missing;
 use crate::note::Notes;
-use crate::peek::{PeekGeometry, PeekMesh, PeekObject};
+use crate::peek::{MAX_COMPARED, PeekGeometry, PeekMesh, PeekObject, are_different};
+use crate::polygons::OBJECT_TAG;
 use crate::text::{Cursor, TextPosition, name};
 use mesh::parallel;
 
@@ -46,8 +48,20 @@ pub(crate) fn peek(
     let materials = read_libraries(assets, &file, notes)?;
     let textures = materials.iter().flat_map(Material::textures);
     note_missing(textures.filter_map(Texture::path), assets, notes);
+    let tag = |name: &String| format!("{OBJECT_TAG}{name}");
+    let objects = all.objects.list.iter().map(tag);
+    let groups = all.groups.list.iter().map(|name| match name.as_str() {
+        // A group is renamed if its name is taken by another attribute.
+        "material" | "smoothing" => format!("{name} group"),
+        _ => name.clone(),
+    });
+    let tags = objects.chain(all.groups.list.iter().cloned()).chain(groups);
+    let smoothing = all.smoothing.then(|| mesh::SMOOTHING.name.to_owned());
+    let attributes = tags.chain(smoothing).map(|name| (Domain::Face, name));
     let object = PeekObject::new(name.to_owned(), PeekGeometry::Mesh(all.mesh));
-    Ok(object.with_materials(&materials))
+    Ok(object
+        .with_materials(&materials)
+        .with_attributes(attributes.collect()))
 }
 
 /// The counts of a part of the text.
@@ -61,6 +75,10 @@ struct Counts {
     /// Whether the last `usemtl` sets a material. `None` if there is no `usemtl`.
     material: Option<bool>,
     materials: Names,
+    objects: Names,
+    groups: Names,
+    /// Whether there is a smoothing group other than `off` and 0.
+    smoothing: bool,
     /// The text after each `mtllib`, with its position.
     libraries: Vec<(TextPosition, String)>,
     /// For each kind of content that is left out, its number of occurrences and its first line, in the order of the
@@ -74,6 +92,7 @@ impl Counts {
     fn of_file(bytes: &[u8], size: usize) -> Self {
         let parts = parallel::consume(cut(bytes, size), |_, part| Self::of_part(part));
         let mut all = Self::default();
+        all.mesh.keeps_vertices = true;
         for part in parts {
             all.add(part);
         }
@@ -90,28 +109,30 @@ impl Counts {
 
     fn of_part(bytes: &[u8]) -> Self {
         let mut counts = Self::default();
+        counts.mesh.keeps_vertices = true;
         let mut cursor = Cursor::new(bytes);
+        let mut corners: Vec<&[u8]> = Vec::new();
         while !cursor.is_at_end() {
             let mesh = &mut counts.mesh;
             let (place, keyword) = cursor.argument_or_nothing();
             match keyword {
                 b"v" => {
                     mesh.vertices += 1;
-                    // Usually, either all vertices have colors or none of them, so only the first vertex is checked.
-                    mesh.colors |= mesh.vertices == 1 && arguments(&mut cursor) >= 6;
+                    mesh.colors = mesh.colors || arguments(&mut cursor) >= 6;
                 }
                 b"f" | b"fo" => {
                     let mut degree = 0;
+                    corners.clear();
                     while let Some((_, corner)) = cursor.argument() {
-                        if degree == 0 {
-                            let mut fields = corner.split(|&byte| byte == b'/').skip(1);
-                            mesh.uvs |= fields.next().is_some_and(|field| !field.is_empty());
-                            mesh.normals |= fields.next().is_some_and(|field| !field.is_empty());
-                        }
+                        let mut fields = corner.split(|&byte| byte == b'/');
+                        corners.extend(fields.next().filter(|_| degree <= MAX_COMPARED as u64));
+                        mesh.uvs |= fields.next().is_some_and(|field| !field.is_empty());
+                        mesh.normals |= fields.next().is_some_and(|field| !field.is_empty());
                         degree += 1;
                     }
                     if degree >= 3 {
                         mesh.add_faces(1, degree);
+                        mesh.add_simple(u64::from(are_different(&corners)), degree);
                         mesh.materials |= counts.material == Some(true);
                         counts.faces_first |= counts.material.is_none();
                     } else {
@@ -139,7 +160,24 @@ impl Counts {
                     let n = usize::try_from(n).unwrap_or(usize::MAX);
                     counts.leave_out(place.line, n, LeftOut::Points);
                 }
-                b"" | b"vt" | b"vn" | b"g" | b"o" | b"s" => {}
+                // Comments of this kind contain colors.
+                b"" => mesh.colors = mesh.colors || cursor.rest_of_line().starts_with(b"#MRGB"),
+                b"o" => {
+                    let name = cursor.rest_of_line();
+                    if !name.is_empty() {
+                        counts.objects.index_of_bytes(&name);
+                    }
+                }
+                b"g" => {
+                    while let Some((_, name)) = cursor.argument() {
+                        counts.groups.index_of_bytes(name);
+                    }
+                }
+                b"s" => {
+                    let group = cursor.argument().map(|(_, word)| word);
+                    counts.smoothing |= !matches!(group, None | Some(b"off" | b"0"));
+                }
+                b"vt" | b"vn" => {}
                 other => {
                     let word = name(&other[..other.len().min(40)]);
                     if is_other_statement(&word) {
@@ -156,7 +194,7 @@ impl Counts {
     /// Adds the counts of the next part.
     fn add(&mut self, next: Self) {
         let (mesh, other) = (&mut self.mesh, &next.mesh);
-        mesh.colors |= mesh.vertices == 0 && other.colors;
+        mesh.colors |= other.colors;
         mesh.vertices += other.vertices;
         mesh.add(other);
         mesh.uvs |= other.uvs;
@@ -166,8 +204,15 @@ impl Counts {
         self.material = next.material.or(self.material);
         self.lines += next.lines;
         self.points += next.points;
-        for name in next.materials.list {
-            self.materials.index_of(name);
+        self.smoothing |= next.smoothing;
+        for (names, next) in [
+            (&mut self.materials, next.materials),
+            (&mut self.objects, next.objects),
+            (&mut self.groups, next.groups),
+        ] {
+            for name in next.list {
+                names.index_of(name);
+            }
         }
         for (place, words) in next.libraries {
             let line = place.line + self.n_lines;
@@ -205,6 +250,9 @@ mod tests {
             uvs: true,
             colors: true,
             materials: true,
+            simple_faces: 2,
+            simple_corners: 7,
+            keeps_vertices: true,
             ..PeekMesh::default()
         };
         assert_eq!(Counts::of_file(text, PART).mesh, expected);

@@ -16,7 +16,7 @@ use crate::error::{Unwritable, WriteError};
 use crate::loss::Losses;
 use crate::save::{Block, Content, save};
 use crate::writing::{dense, push_comment};
-use crate::{WriteOptions, WriteReport, fail_if_lost, gzip};
+use crate::{Format, WriteOptions, WriteReport, fail_if_lost, gzip};
 
 /// Writes `scene` to an OBJ file. Before the OBJ file, `images` are written, and the material library if there are
 /// materials.
@@ -98,10 +98,7 @@ impl<'a> Shape<'a> {
         match &object.geometry {
             Geometry::Mesh(mesh) => Ok(Self::Mesh(Box::new(dense(mesh)))),
             Geometry::Polylines(lines) => Ok(Self::Polylines(lines)),
-            Geometry::Patches(_) | Geometry::Curve(_) => Err(Unwritable::kind(
-                "OBJ files store meshes and polylines",
-                object,
-            )),
+            Geometry::Patches(_) | Geometry::Curve(_) => Err(Unwritable::kind(Format::Obj, object)),
         }
     }
 }

@@ -24,5 +24,5 @@
 mod read;
 mod write;
 
-pub(crate) use read::{peek, read};
+pub(crate) use read::{COLOR_INDEX, peek, read};
 pub(crate) use write::write;

@@ -6,11 +6,11 @@ use mesh::{COLOR, Domain, Rule, UV, VERTEX_NORMAL};
 use crate::Polygons;
 use crate::fault::{Fault, counted};
 use crate::note::Notes;
-use crate::peek::PeekMesh;
+use crate::peek::{MAX_COMPARED, PeekMesh, are_different};
 use crate::text::{Cursor, TextPosition, check_encoding, number, parsed};
 
 /// The name of the face attribute that stores indices into a color map.
-pub(super) const COLOR_INDEX: &str = "color_index";
+pub(crate) const COLOR_INDEX: &str = "color_index";
 
 /// The color of faces without a color, if other faces have one.
 const GRAY: DVec4 = DVec4::new(2.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0, 1.0);
@@ -330,13 +330,16 @@ fn note_left_out(small: usize, first: Option<usize>, cursor: &mut Cursor, notes:
 
 // ---- Counts ------------------------------------------------------------------------------------
 
-/// Returns the counts of an OFF file, and adds notes on faces and lines that are left out. Numbers and vertex indices
+/// Returns the counts of an OFF file and the attributes that faces can have, and adds notes on faces and lines that are left out. Numbers and vertex indices
 /// are not checked.
 ///
 /// # Errors
 ///
 /// If the header or the number of corners of a face violates the format, or if the file ends too early.
-pub(crate) fn peek(bytes: &[u8], notes: &mut Notes) -> Result<PeekMesh, Fault> {
+pub(crate) fn peek(
+    bytes: &[u8],
+    notes: &mut Notes,
+) -> Result<(PeekMesh, Vec<(Domain, String)>), Fault> {
     let mut cursor = Cursor::new(bytes);
     let header = Header::read(&mut cursor)?;
     check_room(&cursor, header.n_vertices, 3, "vertices")?;
@@ -349,14 +352,30 @@ pub(crate) fn peek(bytes: &[u8], notes: &mut Notes) -> Result<PeekMesh, Fault> {
         vertices: header.n_vertices as u64,
         normals: header.normals,
         colors: header.colors,
+        keeps_vertices: true,
         ..PeekMesh::default()
     };
     let (mut small, mut first_small) = (0, None);
+    let mut has_values = false;
     for _ in 0..header.n_faces {
         cursor.skip_empty_lines();
         let line = cursor.place().line;
         let degree = count(&mut cursor, "corners")? as u64;
         mesh.add_faces(u64::from(degree >= 3), degree);
+        has_values |= degree > MAX_COMPARED as u64;
+        if (3..=MAX_COMPARED as u64).contains(&degree) {
+            let words = (0..degree).map_while(|_| cursor.argument());
+            let vertices: Vec<&[u8]> = words.map(|(_, word)| word).collect();
+            // Vertex 0 differs from all vertices that are written without leading zeros.
+            let others: Vec<&[u8]> = (vertices.iter().copied())
+                .filter(|word| *word != b"0")
+                .collect();
+            let is_simple = vertices.len() as u64 == degree
+                && others.len() + 1 >= vertices.len()
+                && are_different(&others);
+            mesh.add_simple(u64::from(is_simple), degree);
+            has_values = has_values || cursor.argument().is_some();
+        }
         if degree < 3 {
             small += 1;
             first_small.get_or_insert(line);
@@ -365,5 +384,7 @@ pub(crate) fn peek(bytes: &[u8], notes: &mut Notes) -> Result<PeekMesh, Fault> {
     }
     note_left_out(small, first_small, &mut cursor, notes);
     mesh.uvs = header.uvs && mesh.faces > 0;
-    Ok(mesh)
+    let names = [COLOR.name, COLOR_INDEX].map(|name| (Domain::Face, name.to_owned()));
+    let names = names.into_iter().filter(|_| has_values);
+    Ok((mesh, names.collect()))
 }

@@ -9,13 +9,13 @@ use scene::Scene;
 use super::read::COLOR_INDEX;
 use crate::decimal::{push_number, push_whole};
 use crate::error::Unwritable;
-use crate::joined::{Names, joined};
+use crate::joined::joined;
 use crate::loss::{Losses, n_values};
 use crate::writing::{
-    FileVertices, NOT_FINITE, finite, is_byte, is_mark, push_comment, to_byte, uvs_of_vertices,
+    FileVertices, NOT_FINITE, finite, is_byte, push_comment, to_byte, uvs_of_vertices,
     zero_non_finite,
 };
-use crate::{SingleFile, WriteOptions};
+use crate::{Format, SingleFile, WriteOptions};
 
 /// Writes `scene`, and lists the content that the file does not store.
 ///
@@ -23,7 +23,7 @@ use crate::{SingleFile, WriteOptions};
 ///
 /// If an object is not a mesh.
 pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<SingleFile, Unwritable> {
-    let mut joined = joined(scene, "OFF", Names::Lost)?;
+    let mut joined = joined(scene, Format::Off)?;
     let mut losses = Losses::of(&joined.name, &mut joined.losses);
     let mut out = Vec::new();
     Content::of(&joined.mesh, &mut losses).push(&mut out, options);
@@ -66,9 +66,8 @@ impl<'a> Content<'a> {
         }
         let of_faces = column(Domain::Face, "color").or(column(Domain::Face, COLOR_INDEX));
         let is_other = |column| of_faces.is_none_or(|one| !std::ptr::eq(one, column));
-        losses.add_columns(mesh, "OFF", |domain, column| {
-            is_mark(domain, column)
-                || fits(domain, column) && (domain != Domain::Face || !is_other(column))
+        losses.add_columns(mesh, Format::Off, |domain, column| {
+            fits(domain, column) && (domain != Domain::Face || !is_other(column))
         });
         let mut of_vertices = Vec::new();
         for name in ["normal", "color"] {

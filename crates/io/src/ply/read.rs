@@ -61,7 +61,7 @@ pub(crate) fn read(bytes: &[u8], notes: &mut Notes) -> Result<Polygons, Fault> {
 
 /// Returns the comments that describe existing properties. If several comments describe the same property, the first
 /// one is used.
-fn attribute_comments(header: &Header) -> Vec<AttributeComment> {
+pub(super) fn attribute_comments(header: &Header) -> Vec<AttributeComment> {
     let properties = header.elements.iter().flat_map(|e| &e.properties);
     let names: BTreeSet<&str> = properties.map(|p| p.name.as_str()).collect();
     let mut described = BTreeSet::new();
@@ -74,6 +74,12 @@ fn attribute_comments(header: &Header) -> Vec<AttributeComment> {
             && described.insert((comment.domain, comment.property.clone()))
     };
     comments.filter(|comment| is_first(comment)).collect()
+}
+
+/// Adds a note on a list that is left out.
+pub(super) fn note_list(property: &Property, element: &Element, rows: usize, notes: &mut Notes) {
+    let what = format!("lists {property} of {element} left out");
+    notes.left_out("properties", rows, property.place.line, what);
 }
 
 struct Reader<'a, 'n> {
@@ -271,9 +277,7 @@ impl Reader<'_, '_> {
         let unused = (0..used.len()).filter(|&p| !used[p]);
         for (p, property) in unused.map(|p| (p, &element.properties[p])) {
             if property.count.is_some() {
-                let what = format!("lists {property} of {element} left out");
-                self.notes
-                    .left_out("properties", table.rows, property.place.line, what);
+                note_list(property, element, table.rows, self.notes);
                 continue;
             }
             let of_kind = |kind| values(table, Source::Scalars(p), kind).0;

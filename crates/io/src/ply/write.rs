@@ -16,13 +16,13 @@ use super::read::plain_rule;
 use super::roles;
 use super::types::Type;
 use crate::error::WriteError;
-use crate::joined::{Names, joined};
+use crate::joined::joined;
 use crate::loss::{Losses, n_values};
 use crate::save::{Block, Content, save};
 use crate::writing::{
     FileVertices, finite, is_byte, is_mark, push_comment, to_byte, uvs_of_vertices,
 };
-use crate::{WriteOptions, WriteReport, fail_if_lost};
+use crate::{Format, WriteOptions, WriteReport, fail_if_lost};
 use mesh::parallel;
 
 /// The number of rows in a block of the file, which is then a few hundred kilobytes.
@@ -40,10 +40,10 @@ pub(crate) fn write(
     images: Vec<(PathBuf, Content<'static>)>,
     options: &WriteOptions,
 ) -> Result<WriteReport, WriteError> {
-    let mut joined = joined(scene, "PLY", Names::Tags).map_err(|why| why.in_file(path))?;
+    let mut joined = joined(scene, Format::Ply).map_err(|why| why.in_file(path))?;
     let mesh = &*joined.mesh;
     let mut losses = Losses::of(&joined.name, &mut joined.losses);
-    losses.add_columns(mesh, "PLY", |domain, _| domain != Domain::Edge);
+    losses.add_columns(mesh, Format::Ply, |_, _| true);
     let mut vertices = Element::vertices(mesh);
     let mut faces = Element::faces(mesh);
     for (domain, column) in mesh.attributes().iter().filter(|(d, c)| !is_mark(*d, c)) {

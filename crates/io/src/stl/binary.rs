@@ -5,6 +5,7 @@ use mesh::zeroed;
 
 use super::facets::{Facets, compare};
 use crate::fault::Fault;
+use crate::peek::differ;
 use mesh::parallel::{self, BLOCK};
 
 pub(super) const HEADER: usize = 80;
@@ -69,6 +70,17 @@ pub(super) fn read(facets: &[u8]) -> Result<Facets, Fault> {
         found.colored += colored;
     }
     Ok(found)
+}
+
+/// The number of facets whose corners are at three different points.
+pub(super) fn n_simple(facets: &[u8]) -> usize {
+    let n = facets.len() / FACET;
+    parallel::count(n, |i| {
+        let facet = &facets[FACET * i..FACET * (i + 1)];
+        let numbers: [f32; 12] = std::array::from_fn(|i| number(facet, i));
+        let corners: [DVec3; 3] = std::array::from_fn(|i| vector(&numbers, 3 + 3 * i));
+        differ(&corners)
+    })
 }
 
 /// The number of facets with attribute bytes other than 0.

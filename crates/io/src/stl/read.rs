@@ -137,26 +137,36 @@ fn set_tags(polygons: &mut Polygons, solids: &[(String, Range<usize>)], notes: &
     notes.left_out("too-many-names", too_many, None, what);
 }
 
+/// The names of attributes with their domains.
+type AttributeNames = Vec<(Domain, String)>;
+
 /// Returns the counts of an STL file, and adds notes on the bytes of a binary file that are left out. The number of
 /// vertices is an upper bound, because corners are not compared.
 ///
 /// # Errors
 ///
 /// If a binary file is shorter than its declared number of triangles requires.
-pub(crate) fn peek(bytes: &[u8], notes: &mut Notes) -> Result<PeekMesh, Fault> {
+pub(crate) fn peek(
+    bytes: &[u8],
+    notes: &mut Notes,
+) -> Result<(PeekMesh, Option<AttributeNames>), Fault> {
+    let mut mesh = PeekMesh::default();
+    // In a text file, the faces of several solids get tags.
+    let mut names = Some(Vec::new());
     let n = match kind(bytes)? {
-        Kind::Text => text::count(bytes),
+        Kind::Text => {
+            names = names.filter(|_| text::n_solids(bytes) <= 1);
+            text::count(bytes)
+        }
         Kind::Binary(end) => {
+            mesh.add_simple(binary::n_simple(&bytes[binary::START..end]) as u64, 3);
             notes.left_out("extra-content", bytes.len() - end, None, REST);
             let colored = binary::n_colored(&bytes[binary::START..end]);
             notes.left_out("facet-attributes", colored, None, COLORED);
             binary::count(bytes).unwrap_or(0).into()
         }
     };
-    let mut mesh = PeekMesh {
-        vertices: 3 * n,
-        ..PeekMesh::default()
-    };
+    mesh.vertices = 3 * n;
     mesh.add_faces(n, 3);
-    Ok(mesh)
+    Ok((mesh, names))
 }

@@ -79,13 +79,23 @@ fn normal(cursor: &mut Cursor) -> Result<DVec3, Fault> {
 
 /// Counts the facets of a text file by the word `endfacet`.
 pub(super) fn count(bytes: &[u8]) -> u64 {
+    count_words(bytes, b"endfacet")
+}
+
+/// Counts the solids of a text file by the word `endsolid`.
+pub(super) fn n_solids(bytes: &[u8]) -> u64 {
+    count_words(bytes, b"endsolid")
+}
+
+/// Counts a word that begins with `e`.
+fn count_words(bytes: &[u8], word: &[u8]) -> u64 {
     let mut n = 0;
     let mut rest = bytes;
     while let Some(at) = rest.iter().position(|byte| matches!(byte, b'e' | b'E')) {
         let tail = &rest[at..];
-        let found = tail.len() >= 8 && is(&tail[..8], b"endfacet");
+        let found = tail.get(..word.len()).is_some_and(|tail| is(tail, word));
         n += u64::from(found);
-        rest = &tail[if found { 8 } else { 1 }..];
+        rest = &tail[if found { word.len() } else { 1 }..];
     }
     n
 }

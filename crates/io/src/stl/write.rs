@@ -7,10 +7,10 @@ use scene::Scene;
 
 use super::binary::{FACET, HEADER};
 use crate::error::Unwritable;
-use crate::joined::{Names, joined};
+use crate::joined::joined;
 use crate::loss::Losses;
 use crate::weld::n_merged;
-use crate::{SingleFile, WriteOptions};
+use crate::{Format, SingleFile, WriteOptions};
 use mesh::parallel;
 
 /// Writes `scene`, and lists the content that the file does not store.
@@ -20,10 +20,10 @@ use mesh::parallel;
 /// If an object is not a mesh, a position exceeds the range of 32-bit numbers, or there are at least 2^32
 /// triangles.
 pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<SingleFile, Unwritable> {
-    let mut joined = joined(scene, "STL", Names::Lost)?;
+    let mut joined = joined(scene, Format::Stl)?;
     let mesh = &*joined.mesh;
     let mut losses = Losses::of(&joined.name, &mut joined.losses);
-    losses.add_columns(mesh, "STL", |_, _| false);
+    losses.add_columns(mesh, Format::Stl, |_, _| true);
     note_losses(mesh, &mut losses);
     let large = |&v: &VertexId| !mesh.position(v).as_vec3().is_finite();
     if let Some(v) = mesh.vertices().find(large) {

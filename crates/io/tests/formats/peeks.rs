@@ -1,7 +1,11 @@
 //! Tests of the notes of [`mesh_io::peek`] about content that reading leaves out.
 
-use mesh_io::{ReadOptions, peek, read};
-use scene::Graph;
+use mesh::Domain;
+use mesh_io::{
+    CleanupPolicy, NonManifold, PeekGeometry, PeekObject, PeekRanges, Policies, ReadOptions, peek,
+    read,
+};
+use scene::{Graph, Object};
 use store::{Memory, Store};
 
 /// Checks that peeking at a file gives exactly the expected notes, and that reading gives these notes too. Each
@@ -34,7 +38,159 @@ fn peek_notes(files: &[(&str, &[u8])], expected: &[&str]) {
             let names: Vec<&String> = read.materials.iter().map(|m| &m.name).collect();
             assert_eq!(materials.iter().collect::<Vec<_>>(), names);
         }
+        check_counts(peek, read, options.policies);
     }
+}
+
+/// Checks that a mesh has counts and attributes that its file announces.
+#[track_caller]
+fn check_counts(peek: &PeekObject, read: &Object, policies: Policies) {
+    let (PeekGeometry::Mesh(counts), Some(mesh)) = (&peek.geometry, read.as_mesh()) else {
+        return;
+    };
+    let ranges = counts.ranges(policies);
+    assert!(
+        ranges.vertices.contains(&(mesh.n_vertices() as u64)),
+        "{ranges:?}"
+    );
+    assert!(
+        ranges.edges.contains(&(mesh.n_edges() as u64)),
+        "{ranges:?}"
+    );
+    assert!(
+        ranges.faces.contains(&(mesh.n_faces() as u64)),
+        "{ranges:?}"
+    );
+    for f in mesh.faces() {
+        assert!(
+            ranges.degrees.contains(&(mesh.degree(f) as u64)),
+            "{ranges:?}"
+        );
+    }
+    let Some(others) = &peek.attributes else {
+        return;
+    };
+    for (domain, column) in mesh.attributes().iter() {
+        let is_described = !counts.is_exact
+            && match (domain, column.name.as_str()) {
+                (Domain::Corner, "uv") => counts.uvs,
+                (Domain::Vertex | Domain::Corner, "normal") => counts.normals,
+                (Domain::Vertex, "color") => counts.colors,
+                (Domain::Face, "material") => counts.materials,
+                _ => false,
+            };
+        let is_listed = others
+            .iter()
+            .any(|(d, name)| *d == domain && *name == column.name);
+        assert!(
+            is_described || is_listed,
+            "{domain} {} is not announced",
+            column.name
+        );
+    }
+}
+
+/// Reads and peeks at a file with these policies, and returns the announced counts.
+#[track_caller]
+fn ranges(path: &str, bytes: &[u8], policies: Policies) -> PeekRanges {
+    let store = Memory::default();
+    store.write(path.as_ref(), bytes).unwrap();
+    let options = ReadOptions {
+        policies,
+        ..ReadOptions::default()
+    };
+    let read = read(&store, path.as_ref(), &options).unwrap();
+    let peek = peek(&store, path.as_ref(), &options).unwrap();
+    check_counts(&peek.objects[0], &read.objects[0], policies);
+    let PeekGeometry::Mesh(mesh) = peek.objects[0].geometry else {
+        panic!("expected a mesh");
+    };
+    mesh.ranges(policies)
+}
+
+#[test]
+fn counts_are_exact_unless_faces_are_dropped_or_vertices_split() {
+    let torus = Object::mesh("a", geometry::shapes::torus(7, 5, 2.0, 0.5));
+    let mut scene = scene::Scene::new();
+    scene.insert(torus).unwrap();
+    for extension in ["obj", "ply", "off", "mws", "stl"] {
+        let path = format!("a.{extension}");
+        let store = Memory::default();
+        let options = mesh_io::WriteOptions::default();
+        mesh_io::write(&store, path.as_ref(), &scene, &options).unwrap();
+        let bytes = store.read(path.as_ref()).unwrap();
+        let faces = if extension == "stl" { 70 } else { 35 };
+        for non_manifold in [NonManifold::Split, NonManifold::Refuse] {
+            for drop in [CleanupPolicy::Keep, CleanupPolicy::Drop] {
+                let policies = Policies {
+                    non_manifold,
+                    duplicates: drop,
+                    isolated: drop,
+                    ..Policies::default()
+                };
+                let found = ranges(&path, &bytes, policies);
+                if drop == CleanupPolicy::Keep {
+                    assert_eq!(found.faces, faces..=faces, "{path}");
+                    assert!(*found.edges.start() >= faces * 3 / 2, "{path}");
+                    if extension != "stl" {
+                        assert_eq!(*found.vertices.start(), 35, "{path}");
+                        assert_eq!(found.degrees, 4..=4, "{path}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn faces_that_reading_may_drop_do_not_count_as_certain() {
+    let points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n";
+    for (faces, certain) in [
+        ("f 1 2 3\nf 2 4 3\n", 2),
+        ("f 1 2 3\nf 2 2 3\n", 1),
+        ("f 1 2 3\nf 2 02 3\n", 1),
+        ("f 1 2 3\nf 2 -3 3\n", 1),
+        ("f 1/1 2 3\nf -3 -1 -2\n", 2),
+        ("f 1 2 3 1 4\nf 2 4 3\n", 1),
+    ] {
+        let text = format!("{points}vt 0 0\n{faces}");
+        let found = ranges("a.obj", text.as_bytes(), Policies::default());
+        assert_eq!(*found.faces.start(), certain, "{faces}");
+    }
+    let off = "OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 2\n3 1 1 2\n3 1 3 2 1 0 0\n";
+    let found = ranges("a.off", off.as_bytes(), Policies::default());
+    assert_eq!(*found.faces.start(), 2);
+    let drops = Policies {
+        degenerate: CleanupPolicy::Drop,
+        ..Policies::default()
+    };
+    let found = ranges("a.off", off.as_bytes(), drops);
+    assert_eq!(*found.faces.start(), 0);
+}
+
+#[test]
+fn strict_peeking_fails_if_content_would_be_left_out() {
+    let text = format!("{TRIANGLE}vp 1\nf 1 2 3\n");
+    let store = Memory::default();
+    store.write("a.obj".as_ref(), text.as_bytes()).unwrap();
+    let options = |strict| ReadOptions {
+        strict,
+        ..ReadOptions::default()
+    };
+    assert!(peek(&store, "a.obj".as_ref(), &options(false)).is_ok());
+    let refused = peek(&store, "a.obj".as_ref(), &options(true)).unwrap_err();
+    let read = read(&store, "a.obj".as_ref(), &options(true)).unwrap_err();
+    assert_eq!(refused.to_string(), read.to_string());
+}
+
+#[test]
+fn lists_of_ply_that_are_left_out() {
+    let text = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
+        property list uchar float weights\nproperty float quality\nelement face 1\n\
+        property list uchar int vertex_indices\nproperty list uchar float texcoord\nproperty list uchar int other\n\
+        property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n\
+        0 0 0 1 5 1\n1 0 0 1 5 1\n0 1 0 1 5 1\n3 0 1 2 6 0 0 1 0 0 1 1 7 255 0 0\n";
+    peek_notes(&[("a.ply", text.as_bytes())], &["weights", "other"]);
 }
 
 /// Returns the graph as far as the JSON of a file has it.

@@ -2272,6 +2272,8 @@ class SceneOperations:
             ``choice.Offset(..)``: By this offset along x, y and z, in scene units.
             ``choice.Distance(..)``: By this distance along the normal of each vertex, in scene units.
             ``choice.To(..)``: By one offset for all selected vertices.
+            ``choice.Rotate(..)``: By a rotation around an axis through the mean of the selected vertices.
+            ``choice.Scale(..)``: By scaling along x, y and z about the mean of the selected vertices.
         :param falloff: The distance from the selected vertices at which the movement has fallen to 0, in scene units.
             If omitted, only the selected vertices move.
         :param on: The objects that the step acts on. If omitted, all that it supports.
@@ -4545,6 +4547,8 @@ class MeshOperations:
             ``choice.Offset(..)``: By this offset along x, y and z, in scene units.
             ``choice.Distance(..)``: By this distance along the normal of each vertex, in scene units.
             ``choice.To(..)``: By one offset for all selected vertices.
+            ``choice.Rotate(..)``: By a rotation around an axis through the mean of the selected vertices.
+            ``choice.Scale(..)``: By scaling along x, y and z about the mean of the selected vertices.
         :param falloff: The distance from the selected vertices at which the movement has fallen to 0, in scene units.
             If omitted, only the selected vertices move.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.

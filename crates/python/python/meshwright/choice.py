@@ -298,6 +298,28 @@ def Random(*, seed: int | Arg | Ron | None = None) -> Choice:
 
 
 
+def Rotate(*, axis: Literal['X', 'Y', 'Z'] | Arg | Ron, angle: float | Arg | Ron) -> Choice:
+    """By a rotation around an axis through the mean of the selected vertices.
+
+    :param axis: The direction of the axis.
+        ``"X"``: The x axis.
+        ``"Y"``: The y axis.
+        ``"Z"``: The z axis.
+    :param angle: The angle in degrees, counter-clockwise when the axis points towards the viewer.
+    """
+    return Choice('Rotate', axis=axis, angle=angle)
+
+
+
+def Scale(value: Sequence[float] | NDArray[Any] | Arg | Ron, /) -> Choice:
+    """By scaling along x, y and z about the mean of the selected vertices.
+
+    With the factor 0, all selected vertices get the same coordinate.
+    """
+    return Choice('Scale', value)
+
+
+
 def Tag(value: str | Arg | Ron, /) -> Choice:
     """The first part has the faces with the tag of this name, and the second part all other faces.
 

@@ -5,7 +5,7 @@
 //! mesh certainly has it before a step and the plan does not list it after the step. An attribute is missing if all
 //! attributes of the mesh are known and the attribute is not one of them.
 
-use std::collections::HashSet;
+use std::collections::HashMap;
 
 use mesh::Domain;
 use op::{Loss, MeshPlan, Plan, PlannedAttribute, PlannedGeometry, PlannedObject};
@@ -30,21 +30,22 @@ struct DroppedAttribute {
     step: String,
 }
 
-/// The name of each mesh that certainly has attributes, with these attributes.
-pub(super) type CertainAttributes = Vec<(String, Vec<PlannedAttribute>)>;
+/// The name of each mesh with known attributes, with these attributes.
+pub(super) type KnownAttributes = Vec<(String, Vec<PlannedAttribute>)>;
 
 fn key(attribute: &PlannedAttribute) -> (Domain, &str) {
     (attribute.domain, &attribute.name)
 }
 
 impl Attributes {
-    /// Records the attributes that a step certainly loses, and reports those that `on_loss` does not allow it to lose.
+    /// Records the attributes that a step certainly loses, and adds the certain and the possible losses.
     pub(super) fn losses(
         &mut self,
         step: &RecipeStep,
-        before: &CertainAttributes,
+        before: &KnownAttributes,
         plan: &Plan,
-        found: &mut Vec<Diagnostic>,
+        losses: &mut Vec<Loss>,
+        possible: &mut Vec<Loss>,
     ) {
         for (object, had) in before {
             // If the step removes the whole object, the removal is deliberate, so the attributes of the object do not
@@ -55,13 +56,20 @@ impl Attributes {
             if mesh.attributes == *had {
                 continue;
             }
-            let kept: HashSet<(Domain, &str)> = mesh.attributes.iter().map(key).collect();
-            let is_lost = |a: &&PlannedAttribute| !kept.contains(&key(a));
-            for lost in had.iter().filter(is_lost) {
-                let loss = Loss::attribute(object, lost.domain, &lost.name, "");
-                if !step.on_loss.allows(&lost.name) {
-                    found.push(forbidden(step, &loss));
+            let kept = mesh.attributes.iter().map(|a| (key(a), a.certain));
+            let kept: HashMap<(Domain, &str), bool> = kept.collect();
+            for lost in had {
+                let kept = kept.get(&key(lost));
+                if kept.is_some_and(|is_certain| *is_certain || !lost.certain) {
+                    continue;
                 }
+                let reason = format!("{} cannot preserve it", step.name);
+                let loss = Loss::attribute(object, lost.domain, &lost.name, reason);
+                if kept.is_some() || !lost.certain {
+                    possible.push(loss);
+                    continue;
+                }
+                losses.push(loss);
                 self.dropped.push(DroppedAttribute {
                     object: object.clone(),
                     domain: lost.domain,
@@ -182,6 +190,19 @@ pub(crate) fn forbidden(step: &RecipeStep, loss: &Loss) -> Diagnostic {
         _ => format!("allow it with `on_loss: Allow([{name:?}])`"),
     };
     Diagnostic::error(step.span, message).with_help(help)
+}
+
+/// Returns the warning for a possible loss that `on_loss` does not allow.
+pub(super) fn may_fail(step: &RecipeStep, loss: &Loss) -> Diagnostic {
+    let message = format!(
+        "{}, and `on_loss` does not allow it",
+        loss.possible_message()
+    );
+    let help = format!(
+        "if the loss is acceptable, add {:?} to `on_loss: Allow([..])`",
+        loss.name
+    );
+    Diagnostic::warning(step.span, message).with_help(help)
 }
 
 #[cfg(test)]

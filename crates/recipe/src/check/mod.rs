@@ -3,7 +3,6 @@
 mod attributes;
 mod selections;
 
-use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use op::{Files, Loss, Plan, PlanContext, Problem, Range, readable_bytes};
@@ -14,7 +13,7 @@ use crate::recipe::{Recipe, RecipeExpectation, RecipeStep};
 use crate::shape::did_you_mean;
 use ron_tree::{Diagnostic, Span, field_span};
 
-use attributes::{Attributes, CertainAttributes, meshes};
+use attributes::{Attributes, KnownAttributes, may_fail, meshes};
 
 use selections::missing_elements;
 
@@ -35,8 +34,11 @@ pub struct StepForecast {
     pub faces: Range,
     /// The memory that all meshes take, in bytes.
     pub bytes: Range,
-    /// The data that the step certainly loses, apart from attributes of meshes.
+    /// The data that the step certainly loses.
     pub losses: Vec<Loss>,
+    /// The data that the step may lose. Losses that depend on the values of points and attributes, such as coincident
+    /// vertices or numbers that are not finite, are not listed.
+    pub possible_losses: Vec<Loss>,
     /// The number of files in [`Forecast::inputs`] that this step and earlier steps read.
     pub n_inputs: usize,
     /// The number of files in [`Forecast::outputs`] that this step and earlier steps write.
@@ -81,7 +83,6 @@ pub fn check_from(recipe: &Recipe, scene: &Scene, files: &Files, budget: u64) ->
     let mut attributes = Attributes::default();
     let mut totals = Totals::default();
     let mut over_budget = false;
-    let mut written = HashSet::new();
     let files = recipe.files(files);
     // Expectations are in the order of their steps. Expectations for the end of the recipe come last.
     let mut expectations = recipe.expectations.iter().peekable();
@@ -90,14 +91,23 @@ pub fn check_from(recipe: &Recipe, scene: &Scene, files: &Files, budget: u64) ->
         attributes.needs(step, &plan, &mut found);
         missing_elements(step, &plan, &mut found);
         let files_of = &files[step.scope];
-        plan_step(step, &mut plan, files_of, budget, &mut written, &mut found);
-        let losses = std::mem::take(&mut plan.losses);
-        if let Some(loss) = step.on_loss.forbidden(&losses) {
-            found.push(forbidden(step, loss));
-        }
+        plan_step(step, &mut plan, files_of, budget, &mut found);
+        let mut losses = std::mem::take(&mut plan.losses);
+        let mut possible = std::mem::take(&mut plan.possible_losses);
         if plan.take_edited() {
-            attributes.losses(step, &totals.certain, &plan, &mut found);
+            attributes.losses(step, &totals.attributes, &plan, &mut losses, &mut possible);
             totals = Totals::default();
+        }
+        let is_forbidden = |loss: &&Loss| !step.on_loss.allows(&loss.name);
+        found.extend(
+            losses
+                .iter()
+                .filter(is_forbidden)
+                .map(|loss| forbidden(step, loss)),
+        );
+        if !found.iter().any(Diagnostic::is_error) {
+            let loss = possible.iter().filter(is_forbidden);
+            found.extend(loss.map(|loss| may_fail(step, loss)));
         }
         totals.add_objects(&plan);
         // Only the first step that exceeds the budget is reported.
@@ -114,8 +124,9 @@ pub fn check_from(recipe: &Recipe, scene: &Scene, files: &Files, budget: u64) ->
         }
         let mut step = totals.forecast(step, plan.incomplete);
         step.losses = losses;
+        step.possible_losses = possible;
         step.n_inputs = plan.inputs.len();
-        step.n_outputs = plan.outputs.len();
+        step.n_outputs = plan.outputs().len();
         forecast.steps.push(step);
     }
     for placed in expectations {
@@ -125,7 +136,7 @@ pub fn check_from(recipe: &Recipe, scene: &Scene, files: &Files, budget: u64) ->
     forecast.diagnostics.sort_by_key(|d| (d.source, d.span));
     // Each repetition of a step can give the same diagnostic, so duplicates are removed.
     forecast.diagnostics.dedup();
-    forecast.outputs = plan.outputs;
+    forecast.outputs = plan.outputs().iter().cloned().collect();
     forecast.inputs = plan.inputs;
     forecast
 }
@@ -135,7 +146,6 @@ fn plan_step(
     plan: &mut Plan,
     files: &Files,
     budget: u64,
-    written: &mut HashSet<PathBuf>,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
     let Some(operation) = &step.step else {
@@ -165,16 +175,7 @@ fn plan_step(
         operation.plan(&mut plan.clone(), &cx);
         return;
     }
-    let earlier = plan.outputs.len();
-    let mut problems = operation.plan(plan, &cx);
-    let new = plan.outputs.get(earlier..).unwrap_or_default();
-    if problems.iter().all(|p| p.is_warning)
-        && let Some(twice) = new.iter().find(|path| written.contains(*path))
-    {
-        let message = format!("an earlier step writes {} too", twice.display());
-        problems.push(Problem::error(message));
-    }
-    written.extend(new.iter().cloned());
+    let problems = operation.plan(plan, &cx);
     plan.incomplete |= problems.iter().any(|p| !p.is_warning);
     for problem in &problems {
         let span = field_span(&step.value, &problem.path);
@@ -256,9 +257,9 @@ fn check_output(
     let mut found = Vec::new();
     match files.to_write(path) {
         Err(error) => found.push(Diagnostic::error(span, error.to_string())),
-        Ok(full) if !plan.incomplete && !plan.outputs.contains(&full) => {
+        Ok(full) if !plan.incomplete && !plan.outputs().contains(&full) => {
             let below = |path: &PathBuf| path.strip_prefix(&files.output).ok().map(Path::to_owned);
-            let written: Vec<PathBuf> = plan.outputs.iter().filter_map(below).collect();
+            let written: Vec<PathBuf> = plan.outputs().iter().filter_map(below).collect();
             let names = written.iter().filter_map(|path| path.to_str());
             let message = format!("no step writes \"{path}\" before this expectation is checked");
             let help = did_you_mean(path, names);
@@ -305,7 +306,7 @@ struct Totals {
     edges: Range,
     faces: Range,
     bytes: Range,
-    certain: CertainAttributes,
+    attributes: KnownAttributes,
 }
 
 impl Default for Totals {
@@ -317,7 +318,7 @@ impl Default for Totals {
             edges: none,
             faces: none,
             bytes: none,
-            certain: CertainAttributes::new(),
+            attributes: KnownAttributes::new(),
         }
     }
 }
@@ -329,14 +330,8 @@ impl Totals {
             self.edges = self.edges.plus(mesh.edges);
             self.faces = self.faces.plus(mesh.faces);
             self.bytes = self.bytes.plus(mesh.bytes());
-            let certain: Vec<_> = mesh
-                .attributes
-                .iter()
-                .filter(|a| a.certain)
-                .cloned()
-                .collect();
-            if !certain.is_empty() {
-                self.certain.push((name.to_owned(), certain));
+            if !mesh.attributes.is_empty() {
+                (self.attributes).push((name.to_owned(), mesh.attributes.clone()));
             }
         }
         self.objects = plan.objects().len();
@@ -355,6 +350,7 @@ impl Totals {
             faces: self.faces.plus(unknown),
             bytes: self.bytes,
             losses: Vec::new(),
+            possible_losses: Vec::new(),
             n_inputs: 0,
             n_outputs: 0,
         }

@@ -37,7 +37,8 @@ impl<'s> Schema<'s> {
         schema
     }
 
-    fn new(root: &'s Json, json: &'s Json) -> Self {
+    /// Creates the schema of `json`. References are looked up in `root`.
+    pub(crate) fn new(root: &'s Json, json: &'s Json) -> Self {
         let mut schema = Self {
             root,
             layers: Vec::new(),

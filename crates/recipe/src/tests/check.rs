@@ -181,10 +181,10 @@ fn two_steps_cannot_write_one_file() {
     let forecast = checked(&text, u64::MAX);
     assert_eq!(
         shown(&text, &forecast.diagnostics),
-        [("Write", "an earlier step writes out/a.txt too", "")]
+        [("\"a.txt\"", "an earlier step writes \"a.txt\" too", "")]
     );
     let start = forecast.diagnostics[0].span.unwrap().start;
-    assert_eq!(start, text.rfind("Write").unwrap());
+    assert_eq!(start, text.rfind("\"a.txt\"").unwrap());
 }
 
 #[test]

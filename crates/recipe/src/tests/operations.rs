@@ -139,11 +139,7 @@ impl Operation for Write {
     const EXAMPLE: &'static str = r#"Write(path: "names.txt")"#;
 
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
-        match cx.files.to_write(&self.path) {
-            Ok(path) => plan.outputs.push(path),
-            Err(error) => return vec![Problem::error(error.to_string()).at(["path"])],
-        }
-        Vec::new()
+        plan.write(cx, &self.path, |_| None)
     }
 
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {

@@ -130,12 +130,7 @@ pub(super) fn lost_skin(joined: &str, why: LostSkin) -> Loss {
         }
         LostSkin::NoWeights => "no part has weights of joints",
     };
-    Loss {
-        object: joined.to_owned(),
-        name: "skins".to_owned(),
-        what: "its skin".to_owned(),
-        reason: reason.to_owned(),
-    }
+    Loss::part(joined, "skins", "its skin", reason)
 }
 
 /// Returns the names of the parts with morph targets.
@@ -206,14 +201,11 @@ pub(super) fn report(
     let keeps_label = label.is_some()
         || skin.is_some_and(|kept| matches!(morphed[..], [only] if only == kept.part));
     if !keeps_label {
-        report.losses.push(Loss {
-            object: joined.name.clone(),
-            name: "morph targets".to_owned(),
-            what: "the names and default weights of morph targets".to_owned(),
-            reason: "they are kept only if they are the same for all parts with morph targets, or if only the part \
-                     whose skin is kept has morph targets"
-                .to_owned(),
-        });
+        let what = "the names and default weights of morph targets";
+        let reason = "they are kept only if they are the same for all parts with morph targets, or if only the part \
+                      whose skin is kept has morph targets";
+        let loss = Loss::part(&joined.name, "morph targets", what, reason);
+        report.losses.push(loss);
     }
     if kept.is_err()
         && let Geometry::Mesh(mesh) = &mut joined.geometry

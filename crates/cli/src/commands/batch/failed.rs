@@ -66,6 +66,9 @@ fn command(batch: &Batch, file: &Input) -> String {
     }
     option("--out", batch.out(file).display().to_string());
     option("--budget", batch.args.many.budget.to_string());
+    if batch.args.many.strict {
+        words.push("--strict".to_owned());
+    }
     let words: Vec<_> = words.iter().map(|word| shell_quoted(word)).collect();
     words.join(" ")
 }

@@ -43,7 +43,13 @@ impl<'a> Batch<'a> {
         expect_kind(path, FileKind::Recipe)?;
         let source = Source::open(path).map_err(anyhow::Error::msg)?;
         // Loads the recipe with the default value of its path parameter. The file at this path can be missing.
-        let loaded = load_text(&source, &args.values, &args.out, args.many.budget, engine)?;
+        let loaded = load_text(
+            &source,
+            &args.values,
+            &args.out,
+            args.many.checking(),
+            engine,
+        )?;
         if !loaded.is_read {
             report_errors(&loaded, false)?;
             return Ok(None);
@@ -175,8 +181,8 @@ impl<'a> Batch<'a> {
     }
 
     fn load_at(&self, file: &Input, out: &Path) -> anyhow::Result<Loaded> {
-        let budget = self.args.many.budget;
-        load_text(&self.source, &self.values(file), out, budget, self.engine)
+        let checking = self.args.many.checking();
+        load_text(&self.source, &self.values(file), out, checking, self.engine)
     }
 
     /// Returns the digest of everything that the row of an input file depends on; `None` if an input cannot be read.

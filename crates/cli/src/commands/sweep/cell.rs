@@ -103,8 +103,8 @@ impl Cells<'_> {
             Some(folder) => folder.join((i + 1).to_string()),
             None => "out".into(),
         };
-        let budget = self.args.many.budget;
-        let mut loaded = load_text(self.source, &values, &out, budget, self.engine)?;
+        let checking = self.args.many.checking();
+        let mut loaded = load_text(self.source, &values, &out, checking, self.engine)?;
         if !self.expects {
             loaded.recipe.expectations.clear();
         }

@@ -162,7 +162,7 @@ impl Plan {
                     &recipe,
                     &ValueArgs::default(),
                     out,
-                    args.many.budget,
+                    args.many.checking(),
                     engine,
                 )?;
                 if !loaded.is_read {

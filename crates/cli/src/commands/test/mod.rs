@@ -38,7 +38,7 @@ use super::test_update::update_recorded_values;
 use crate::args::{Format, TestArgs, ValueArgs};
 use crate::cache;
 use crate::listener::{INTERRUPT, catch_interrupts};
-use crate::loading::{RecipeFile, load_text, recipes};
+use crate::loading::{Checking, RecipeFile, load_text, recipes};
 use crate::many::{JobResult, error_message, run_all, run_in_order};
 use crate::output::{print, print_diagnostics, print_error, print_json, write_atomically};
 use crate::picture_errors::{PictureListener, Pictures};
@@ -119,7 +119,11 @@ pub(crate) fn tested(paths: &[PathBuf], engine: &Engine) -> anyhow::Result<Vec<P
         jobs: 0,
         budget: engine::BUDGET,
     };
-    let mut tests = read(&recipes, None, limits, engine)?;
+    let checking = Checking {
+        budget: limits.budget,
+        strict: false,
+    };
+    let mut tests = read(&recipes, None, limits, checking, engine)?;
     mark_called(&mut tests);
     tests.retain(|test| test.reason_not_to_run().is_none());
     Ok(tests.iter().map(|test| test.found.path.clone()).collect())
@@ -131,7 +135,8 @@ fn tests<'a>(
     args: &TestArgs,
     engine: &Engine,
 ) -> anyhow::Result<Vec<Test<'a>>> {
-    let mut tests = read(recipes, args.out.as_deref(), args.many.limits(), engine)?;
+    let (limits, checking) = (args.many.limits(), args.many.checking());
+    let mut tests = read(recipes, args.out.as_deref(), limits, checking, engine)?;
     if let Some(filter) = &args.filter {
         tests.retain(|test| test.found.path.to_string_lossy().contains(filter));
         let found = counted(recipes.len(), "recipe");
@@ -162,13 +167,14 @@ fn read<'a>(
     recipes: &'a [RecipeFile],
     out: Option<&Path>,
     limits: JobLimits,
+    checking: Checking,
     engine: &Engine,
 ) -> anyhow::Result<Vec<Test<'a>>> {
     let loaded = run_all(recipes.len(), limits, |i| {
         let found = &recipes[i];
         let out = out.map_or_else(|| "out".into(), |out| out.join(&found.own_folder));
         let source = engine.open(&found.path).map_err(anyhow::Error::msg)?;
-        load_text(&source, &ValueArgs::default(), &out, limits.budget, engine)
+        load_text(&source, &ValueArgs::default(), &out, checking, engine)
     })?;
     let made = recipes.iter().zip(loaded);
     Ok(made.map(|(found, end)| Test::new(found, end)).collect())

@@ -62,7 +62,7 @@ fn a_batch_is_resumed_with_a_different_number_of_parts() {
     kept("--set levels=2");
     let ended = batch(&folder, "").with_code(1);
     assert!(!ended.stdout.contains("earlier runs"), "{ended:#?}");
-    kept("--shard 2/3");
+    kept("--shard 1/3");
     kept("");
 }
 

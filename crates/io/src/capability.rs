@@ -1,0 +1,192 @@
+//! The table of what each format can store. The writers and the plans of recipes use the same table.
+
+use mesh::{COLOR, CORNER_NORMAL, Domain, MATERIAL, SMOOTHING, UV, VERTEX_NORMAL, Values};
+
+use crate::fault::counted;
+use crate::joined::Names;
+use crate::off::COLOR_INDEX;
+use crate::{Format, Rows, gltf};
+
+/// How much of an attribute a format stores.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Storage {
+    /// Nothing.
+    Lost,
+    /// Everything, a part or nothing, depending on the values.
+    Partial,
+    /// All finite values.
+    Kept,
+}
+
+/// The attributes of a mesh that is written in a format.
+#[derive(Clone, Copy)]
+pub struct Stored<'a> {
+    /// The format.
+    pub format: Format,
+    /// For `.csv`, the elements that the rows list.
+    pub rows: Rows,
+    /// Whether the mesh has an attribute with this name.
+    pub has: &'a dyn Fn(Domain, &str) -> bool,
+}
+
+impl Stored<'_> {
+    /// The name of the format in messages.
+    pub fn name(&self) -> String {
+        match self.format {
+            Format::Csv => format!("CSV with a row for each {}", self.rows.domain()),
+            Format::Glb => Format::Gltf.to_string(),
+            format => format.to_string(),
+        }
+    }
+
+    /// Returns how much of an attribute is stored. `values` determines only the type of the values. If the type is
+    /// unknown, it is the usual type of an attribute with this name.
+    pub fn storage(&self, domain: Domain, name: &str, values: Option<&Values>) -> Storage {
+        let of_type = |values: &Values| self.storage_of(domain, name, values);
+        if let Some(values) = values {
+            return of_type(values);
+        }
+        let known = usual_type(domain, name);
+        let all = types();
+        let mut possible = match &known {
+            Some(usual) => std::slice::from_ref(usual),
+            None => &all[..],
+        }
+        .iter()
+        .map(of_type);
+        let first = possible.next().unwrap_or(Storage::Partial);
+        if possible.all(|next| next == first) {
+            first
+        } else {
+            Storage::Partial
+        }
+    }
+
+    fn storage_of(&self, domain: Domain, name: &str, values: &Values) -> Storage {
+        use Storage::{Kept, Lost, Partial};
+        let has = self.has;
+        let kept_if = |is_kept| if is_kept { Kept } else { Lost };
+        match self.format {
+            Format::Obj => match (domain, name, values) {
+                (Domain::Corner, "uv", Values::Vec2(_))
+                | (Domain::Corner, "normal", Values::Vec3(_))
+                | (Domain::Face, "material" | "smoothing", Values::Int(_)) => Kept,
+                (Domain::Vertex, "normal", Values::Vec3(_)) => {
+                    kept_if(!has(Domain::Corner, CORNER_NORMAL.name))
+                }
+                // Alpha is lost. A tag without faces is lost, and names can change.
+                (Domain::Vertex, "color", Values::Vec4(_)) | (Domain::Face, _, Values::Tag(_)) => {
+                    Partial
+                }
+                _ => Lost,
+            },
+            Format::Gltf | Format::Glb => gltf::storage(domain, name, values, has),
+            Format::Ply => kept_if(domain != Domain::Edge),
+            Format::Off => match (domain, name, values) {
+                (Domain::Vertex, "normal", Values::Vec3(_))
+                | (Domain::Vertex, "color", Values::Vec4(_)) => Kept,
+                // Corners of the same vertex can differ. A file stores either colors or indices of faces.
+                (Domain::Corner, "uv", Values::Vec2(_))
+                | (Domain::Face, "color", Values::Vec4(_))
+                | (Domain::Face, COLOR_INDEX, Values::Int(_)) => Partial,
+                _ => Lost,
+            },
+            Format::Csv => kept_if(domain == self.rows.domain()),
+            Format::Npz | Format::Mws => Kept,
+            Format::Stl | Format::Dae | Format::Bez | Format::Bzc => Lost,
+        }
+    }
+}
+
+/// Returns an empty list of values of each type.
+fn types() -> [Values; 6] {
+    [
+        Values::Float(Vec::new()),
+        Values::Vec2(Vec::new()),
+        Values::Vec3(Vec::new()),
+        Values::Vec4(Vec::new()),
+        Values::Int(Vec::new()),
+        Values::Tag(Vec::new()),
+    ]
+}
+
+/// Returns the type of the well-known attribute with this name, as an empty list of values.
+fn usual_type(domain: Domain, name: &str) -> Option<Values> {
+    let [_, vec2, vec3, vec4, int, _] = types();
+    match domain {
+        Domain::Corner if name == UV.name => Some(vec2),
+        Domain::Corner if name == CORNER_NORMAL.name => Some(vec3),
+        Domain::Corner if name == mesh::CORNER_TANGENT.name => Some(vec4),
+        Domain::Vertex if name == VERTEX_NORMAL.name || name == mesh::TANGENT.name => Some(vec3),
+        Domain::Vertex | Domain::Face if name == COLOR.name => Some(vec4),
+        Domain::Face if name == MATERIAL.name || name == SMOOTHING.name => Some(int),
+        _ => None,
+    }
+}
+
+impl Format {
+    /// Returns why files of this format cannot store an object with this [kind](scene::Geometry::kind) of geometry.
+    /// `None` if they can.
+    pub fn refused_kind(self, kind: &str) -> Option<String> {
+        let (kinds, stores): (&[&str], _) = match self {
+            Self::Mws => return None,
+            Self::Obj => (
+                &["mesh", "polylines"],
+                "OBJ files store meshes and polylines",
+            ),
+            Self::Gltf | Self::Glb => (&["mesh"], "glTF files store meshes"),
+            Self::Ply => (&["mesh"], "PLY files store meshes"),
+            Self::Stl => (&["mesh"], "STL files store meshes"),
+            Self::Off => (&["mesh"], "OFF files store meshes"),
+            Self::Csv => (&["mesh"], "CSV files store meshes"),
+            Self::Npz => (&["mesh"], "NPZ files store meshes"),
+            Self::Dae => (&[], "COLLADA files cannot be written"),
+            Self::Bez => (&["patches"], "a .bez file stores Bezier patches"),
+            Self::Bzc => (&["curve"], "a .bzc file stores a curve"),
+        };
+        (!kinds.contains(&kind)).then(|| format!("{stores}, found {kind}"))
+    }
+
+    /// Returns why files of this format cannot store `n` objects. `None` if they can.
+    pub fn refused_count(self, n: usize) -> Option<String> {
+        (self == Self::Bzc && n != 1).then(|| {
+            format!(
+                "a .bzc file stores one curve, found {}",
+                counted(n, "object")
+            )
+        })
+    }
+
+    /// Whether files of this format store nodes, cameras, lights, skins and animations.
+    pub const fn has_nodes(self) -> bool {
+        matches!(self, Self::Gltf | Self::Glb | Self::Mws)
+    }
+
+    /// Whether files of this format store materials.
+    pub const fn has_materials(self) -> bool {
+        matches!(self, Self::Obj | Self::Gltf | Self::Glb | Self::Mws)
+    }
+
+    /// Whether files of this format store only triangles.
+    pub const fn has_only_triangles(self) -> bool {
+        matches!(self, Self::Gltf | Self::Glb | Self::Stl)
+    }
+
+    /// Whether files of this format store the names of several objects. In some of the other formats, faces get tags
+    /// with these names.
+    pub const fn keeps_names(self) -> bool {
+        !matches!(
+            self,
+            Self::Ply | Self::Stl | Self::Off | Self::Npz | Self::Bez
+        )
+    }
+
+    /// What becomes of the names of several meshes that are joined.
+    pub(crate) const fn joined_names(self) -> Names {
+        match self {
+            Self::Ply => Names::Tags,
+            _ if self.keeps_names() => Names::Kept,
+            _ => Names::Lost,
+        }
+    }
+}

@@ -1,0 +1,48 @@
+//! Which attributes of a mesh a glTF file stores.
+
+use mesh::{Domain, Values, joint_of, morph_of};
+
+use super::names::{custom_semantic, uv_set};
+use crate::Storage;
+
+/// Returns how much of an attribute a file stores. `has` says whether the mesh has another attribute.
+pub(crate) fn storage(
+    domain: Domain,
+    name: &str,
+    values: &Values,
+    has: &dyn Fn(Domain, &str) -> bool,
+) -> Storage {
+    use Storage::{Kept, Lost, Partial};
+    let kept_if = |is_kept| if is_kept { Kept } else { Lost };
+    // Corner attributes take precedence over vertex attributes.
+    let is_hidden = domain == Domain::Vertex && has(Domain::Corner, name);
+    match (domain, name, values) {
+        (Domain::Face, "material", Values::Int(_)) => Kept,
+        // A file stores a few joints for each vertex, and can number the targets differently.
+        (Domain::Vertex, _, Values::Float(_)) if joint_of(name).is_some() => Partial,
+        (Domain::Vertex, _, Values::Vec3(_)) if morph_of(name).is_some() => Partial,
+        (Domain::Edge | Domain::Face, ..) | (.., Values::Int(_) | Values::Tag(_)) => Lost,
+        (_, "normal", Values::Vec3(_)) => kept_if(!is_hidden),
+        // Numbers above 1 are lost.
+        (_, "color", Values::Vec4(_)) => {
+            if is_hidden {
+                Lost
+            } else {
+                Partial
+            }
+        }
+        (Domain::Corner, "tangent", Values::Vec4(_)) => {
+            let domains = [Domain::Corner, Domain::Vertex];
+            kept_if(domains.iter().any(|&domain| has(domain, "normal")))
+        }
+        (Domain::Corner, _, Values::Vec2(_)) if uv_set(name).is_some() => {
+            let lower = 0..uv_set(name).unwrap_or_default();
+            let name_of = |set| match set {
+                0 => "uv".to_owned(),
+                set => format!("uv{set}"),
+            };
+            kept_if(lower.into_iter().all(|set| has(domain, &name_of(set))))
+        }
+        _ => kept_if(custom_semantic(name).is_some() && !is_hidden),
+    }
+}

@@ -285,7 +285,7 @@ mod tests {
     use super::*;
     use op::{FileUse, Files, NoProgress};
 
-    fn files(folder: &std::path::Path) -> Files {
+    fn files(folder: &Path) -> Files {
         Files {
             input: folder.into(),
             ..Files::default()
@@ -400,7 +400,7 @@ mod tests {
 
     #[test]
     fn a_missing_file_is_a_problem_of_the_parameter_path() {
-        let files = files(std::path::Path::new("nowhere"));
+        let files = files(Path::new("nowhere"));
         let cx = PlanContext {
             files: &files,
             on: None,

@@ -191,10 +191,10 @@ fn counts_and_budgets_that_a_file_exceeds() {
     let levels =
         |n: u32| format!("(recipe: 1, steps: [Load(path: \"a.obj\"), LoopSubdivide(levels: {n})])");
     folder
-        .run_with("check - --budget 1MiB", &levels(4))
+        .run_with("check - --budget 1MiB", levels(4))
         .with_code(0);
     for n in [9, 10] {
-        let ended = folder.run_with("check - --budget 1MiB", &levels(n));
+        let ended = folder.run_with("check - --budget 1MiB", levels(n));
         ended.with_code(1).complains(&["budget"]);
     }
     refuses(

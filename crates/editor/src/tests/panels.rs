@@ -144,6 +144,7 @@ fn with_part(kind: &FieldKind, whole: &str, path: &[&str], new: Option<&str>) ->
 }
 
 #[test]
+#[expect(clippy::too_many_lines, reason = "a list")]
 fn the_parts_of_variants_and_structs_are_fields_of_their_own() {
     let registry = ops_all::registry();
     for (operation, field, whole, path, new, expected) in [

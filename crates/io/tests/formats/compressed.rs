@@ -104,10 +104,7 @@ fn a_bomb_is_refused() {
     ];
     for error in errors {
         assert!(matches!(&error, ReadError::Compressed { .. }), "{error}");
-        assert!(
-            error.to_string().contains("larger than 1.0 MiB"),
-            "{error}"
-        );
+        assert!(error.to_string().contains("larger than 1.0 MiB"), "{error}");
     }
 }
 

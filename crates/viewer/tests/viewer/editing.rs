@@ -67,7 +67,7 @@ fn a_cube_is_edited_by_clicks_and_keys_and_its_recipe_replays_to_the_same_digest
     // A slider of the parameters of the step.
     window
         .harness
-        .get_by_role_and_label(eframe::egui::accesskit::Role::Slider, "levels")
+        .get_by_role_and_label(Role::Slider, "levels")
         .set_value_accesskit(3.0);
     window.settle();
     assert!(

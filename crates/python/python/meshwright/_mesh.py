@@ -440,7 +440,7 @@ class Mesh(MeshConversions, MeshOperations):
         fields: Mapping[str, Any],
         on: str | Sequence[str] | None,
         id: str | None,
-        progress: bool | Progress | None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         from ._scene import Scene
 

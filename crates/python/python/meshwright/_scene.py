@@ -124,7 +124,7 @@ class Scene(SceneOperations, Mapping[str, Mesh]):
         fields: Mapping[str, Any],
         on: str | Sequence[str] | None,
         id: str | None,
-        progress: bool | Progress | None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         path = fields.get("path")
         if operation not in WRITES or not isinstance(path, str | os.PathLike):

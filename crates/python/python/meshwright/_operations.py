@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal, Self
 
 from numpy.typing import NDArray
 
+from ._progress import Progress
 from ._ron import Arg, Choice, Ron
 
 if TYPE_CHECKING:
@@ -21,7 +22,12 @@ class SceneOperations:
     """The operations on a scene, and the steps of a recipe."""
 
     def _apply(
-        self, operation: str, fields: Mapping[str, Any], on: str | Sequence[str] | None, id: str | None
+        self,
+        operation: str,
+        fields: Mapping[str, Any],
+        on: str | Sequence[str] | None,
+        id: str | None,
+        progress: bool | Progress | None,
     ) -> Self:
         raise NotImplementedError
 
@@ -38,6 +44,7 @@ class SceneOperations:
         placements: Literal['Keep', 'Bake'] | Arg | Ron | None = None,
         strict: bool | Arg | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Reads the objects of a file into the scene.
 
@@ -53,7 +60,8 @@ class SceneOperations:
 
         Example: ``scene.load(path="teapot.bez")``, in a recipe ``Load(path: "teapot.bez")``
 
-        :param path: The file. A relative path is relative to the folder of the recipe.
+        :param path: The file. For a scene, a relative path is relative to the working directory; in a recipe, to the
+            folder of the recipe.
         :param name: The name for objects that have no name in the file, and for the only object of an ``.mws`` file. If
             omitted, objects without a name get the name of the file without its extension, and the object of an
             ``.mws`` file keeps its name.
@@ -81,8 +89,10 @@ class SceneOperations:
             ``"Bake"``: Apply the transforms of nodes to the points.
         :param strict: If true, the step fails if anything in the file would be left out. Defaults to ``False``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Load', {'path': path, 'name': name, 'non_manifold': non_manifold, 'orientation': orientation, 'duplicates': duplicates, 'degenerate': degenerate, 'isolated': isolated, 'placements': placements, 'strict': strict}, None, id)
+        return self._apply('Load', {'path': path, 'name': name, 'non_manifold': non_manifold, 'orientation': orientation, 'duplicates': duplicates, 'degenerate': degenerate, 'isolated': isolated, 'placements': placements, 'strict': strict}, None, id, progress)
 
     def save(
         self,
@@ -95,20 +105,22 @@ class SceneOperations:
         rows: Literal['Vertices', 'Faces', 'Corners'] | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
-        """Writes objects to a file in the output folder.
+        """Writes objects to a file.
 
         The extension determines the format: ``.obj``, ``.gltf``, ``.glb``, ``.ply``, ``.stl`` or ``.off`` for meshes,
         ``.bez`` for Bezier patches, ``.bzc`` for a curve, and ``.mws`` for a complete scene without any loss. ``.csv``
         is a table of the positions and attributes of vertices, faces or corners, and ``.npz`` has the arrays of a mesh
         for ``NumPy``. These two formats cannot be read. If the name ends with ``.gz``, as in ``a.obj.gz``, the file is
         compressed with gzip, which is not possible for ``.glb``, ``.mws`` and ``.npz``. The report lists the content
-        that the format cannot store. The file is only created when the whole recipe has succeeded.
+        that the format cannot store. A recipe creates the file only if all of its steps and expectations succeed.
 
         Example: ``scene.save(path="a.obj")``, in a recipe ``Save(path: "a.obj")``
 
-        :param path: The file. The path is relative to the output folder. ``{name.stem}`` is replaced by the name,
-            without extension, of the file in the recipe parameter ``name``.
+        :param path: The file. For a scene, a relative path is relative to the working directory; in a recipe, to the
+            output folder. ``{name.stem}`` is replaced by the name, without extension, of the file in the recipe
+            parameter ``name``.
         :param images: What to do with the images of materials. If omitted, images are embedded in ``.glb`` files. For
             ``.gltf`` and ``.obj``, images in the folder of the source model are copied to the folder of the output
             file. OBJ cannot embed images, so embedded images are also written to files.
@@ -138,8 +150,10 @@ class SceneOperations:
             ``"Corners"``: The corners of the faces, face by face.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Save', {'path': path, 'images': images, 'compress': compress, 'quantize': quantize, 'weight_sets': weight_sets, 'rows': rows}, on, id)
+        return self._apply('Save', {'path': path, 'images': images, 'compress': compress, 'quantize': quantize, 'weight_sets': weight_sets, 'rows': rows}, on, id, progress)
 
     def polygons(
         self,
@@ -148,6 +162,7 @@ class SceneOperations:
         *,
         name: str | Arg | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Creates a mesh from points and faces.
 
@@ -166,8 +181,10 @@ class SceneOperations:
         :param name: The name of the new object. Defaults to the name of the operation in lower case, followed by a
             number if this name is taken.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Polygons', {'name': name, 'points': points, 'faces': faces}, None, id)
+        return self._apply('Polygons', {'name': name, 'points': points, 'faces': faces}, None, id, progress)
 
     def cube(
         self,
@@ -177,6 +194,7 @@ class SceneOperations:
         center: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
         triangles: bool | Arg | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Creates a cube.
 
@@ -195,8 +213,10 @@ class SceneOperations:
             b, c) and (a, c, d). Square f becomes the faces 2 f and 2 f + 1. The diagonals are 0-3, 4-7, 0-5, 1-7, 3-6
             and 2-4. Defaults to ``False``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Cube', {'name': name, 'size': size, 'center': center, 'triangles': triangles}, None, id)
+        return self._apply('Cube', {'name': name, 'size': size, 'center': center, 'triangles': triangles}, None, id, progress)
 
     def tetrahedron(
         self,
@@ -205,6 +225,7 @@ class SceneOperations:
         radius: float | Arg | Ron | None = None,
         center: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Creates a regular tetrahedron with 4 vertices and 4 triangles.
 
@@ -218,8 +239,10 @@ class SceneOperations:
         :param radius: The distance from the center to the vertices, in scene units. More than 0. Defaults to ``1.0``.
         :param center: The center of the tetrahedron, in scene units.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Tetrahedron', {'name': name, 'radius': radius, 'center': center}, None, id)
+        return self._apply('Tetrahedron', {'name': name, 'radius': radius, 'center': center}, None, id, progress)
 
     def octahedron(
         self,
@@ -228,6 +251,7 @@ class SceneOperations:
         radius: float | Arg | Ron | None = None,
         center: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Creates a regular octahedron with 6 vertices and 8 triangles.
 
@@ -240,8 +264,10 @@ class SceneOperations:
         :param radius: The distance from the center to the vertices, in scene units. More than 0. Defaults to ``1.0``.
         :param center: The center of the octahedron, in scene units.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Octahedron', {'name': name, 'radius': radius, 'center': center}, None, id)
+        return self._apply('Octahedron', {'name': name, 'radius': radius, 'center': center}, None, id, progress)
 
     def icosahedron(
         self,
@@ -250,6 +276,7 @@ class SceneOperations:
         radius: float | Arg | Ron | None = None,
         center: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Creates a regular icosahedron with 12 vertices and 20 triangles.
 
@@ -262,8 +289,10 @@ class SceneOperations:
         :param radius: The distance from the center to the vertices, in scene units. More than 0. Defaults to ``1.0``.
         :param center: The center of the icosahedron, in scene units.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Icosahedron', {'name': name, 'radius': radius, 'center': center}, None, id)
+        return self._apply('Icosahedron', {'name': name, 'radius': radius, 'center': center}, None, id, progress)
 
     def grid(
         self,
@@ -274,6 +303,7 @@ class SceneOperations:
         size: float | Arg | Ron | None = None,
         center: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Creates a flat sheet of squares whose normals point to +z.
 
@@ -288,8 +318,10 @@ class SceneOperations:
         :param size: The side length of a square, in scene units. More than 0. Defaults to ``1.0``.
         :param center: The center of the sheet, in scene units.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Grid', {'name': name, 'columns': columns, 'rows': rows, 'size': size, 'center': center}, None, id)
+        return self._apply('Grid', {'name': name, 'columns': columns, 'rows': rows, 'size': size, 'center': center}, None, id, progress)
 
     def torus(
         self,
@@ -301,6 +333,7 @@ class SceneOperations:
         minor: float | Arg | Ron | None = None,
         center: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Creates a torus of quadrilaterals around the z axis.
 
@@ -320,8 +353,10 @@ class SceneOperations:
             is less than ``major``. Defaults to ``0.25``.
         :param center: The center of the torus, in scene units.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Torus', {'name': name, 'around': around, 'across': across, 'major': major, 'minor': minor, 'center': center}, None, id)
+        return self._apply('Torus', {'name': name, 'around': around, 'across': across, 'major': major, 'minor': minor, 'center': center}, None, id, progress)
 
     def cylinder(
         self,
@@ -333,6 +368,7 @@ class SceneOperations:
         caps: bool | Arg | Ron | None = None,
         center: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Creates a cylinder around the z axis.
 
@@ -352,8 +388,10 @@ class SceneOperations:
         :param caps: Whether the ends are closed. Defaults to ``True``.
         :param center: The center of the cylinder, in scene units.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Cylinder', {'name': name, 'around': around, 'radius': radius, 'height': height, 'caps': caps, 'center': center}, None, id)
+        return self._apply('Cylinder', {'name': name, 'around': around, 'radius': radius, 'height': height, 'caps': caps, 'center': center}, None, id, progress)
 
     def uv_sphere(
         self,
@@ -364,6 +402,7 @@ class SceneOperations:
         radius: float | Arg | Ron | None = None,
         center: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Creates a sphere of meridians and rings, with poles at -z and +z.
 
@@ -380,8 +419,10 @@ class SceneOperations:
         :param radius: The distance from the center to the vertices, in scene units. More than 0. Defaults to ``1.0``.
         :param center: The center of the sphere, in scene units.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('UvSphere', {'name': name, 'around': around, 'rings': rings, 'radius': radius, 'center': center}, None, id)
+        return self._apply('UvSphere', {'name': name, 'around': around, 'rings': rings, 'radius': radius, 'center': center}, None, id, progress)
 
     def tessellate(
         self,
@@ -392,6 +433,7 @@ class SceneOperations:
         normals: bool | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Turns Bezier patches into a mesh.
 
@@ -413,8 +455,10 @@ class SceneOperations:
         :param normals: Whether to store the exact unit normals of the patches as vertex normals. Defaults to ``False``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Tessellate', {'segments': segments, 'faces': faces, 'uvs': uvs, 'normals': normals}, on, id)
+        return self._apply('Tessellate', {'segments': segments, 'faces': faces, 'uvs': uvs, 'normals': normals}, on, id, progress)
 
     def sample_curve(
         self,
@@ -422,6 +466,7 @@ class SceneOperations:
         *,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Replaces curves with polylines whose points lie on the curves.
 
@@ -433,8 +478,10 @@ class SceneOperations:
         :param segments: The number of straight segments.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('SampleCurve', {'segments': segments}, on, id)
+        return self._apply('SampleCurve', {'segments': segments}, on, id, progress)
 
     def curve_levels(
         self,
@@ -442,6 +489,7 @@ class SceneOperations:
         *,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Replaces curves with the levels of de Casteljau's algorithm.
 
@@ -454,8 +502,10 @@ class SceneOperations:
         :param t: The parameter of the point, from 0 (the start of the curve) to 1 (its end).
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('CurveLevels', {'t': t}, on, id)
+        return self._apply('CurveLevels', {'t': t}, on, id, progress)
 
     def move_control_point(
         self,
@@ -464,6 +514,7 @@ class SceneOperations:
         *,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Moves one control point of curves.
 
@@ -478,8 +529,10 @@ class SceneOperations:
         :param to: The new position: ``(x, y)`` in the plane z = 0, in scene units.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('MoveControlPoint', {'index': index, 'to': to}, on, id)
+        return self._apply('MoveControlPoint', {'index': index, 'to': to}, on, id, progress)
 
     def move_patch_point(
         self,
@@ -488,6 +541,7 @@ class SceneOperations:
         *,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Moves one control point of Bezier patches.
 
@@ -504,8 +558,10 @@ class SceneOperations:
         :param to: The new position ``(x, y, z)``, in scene units.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('MovePatchPoint', {'index': index, 'to': to}, on, id)
+        return self._apply('MovePatchPoint', {'index': index, 'to': to}, on, id, progress)
 
     def copy(
         self,
@@ -513,6 +569,7 @@ class SceneOperations:
         to: str | Arg | Ron,
         *,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Copies an object, with its attributes and materials, under a new name.
 
@@ -524,14 +581,17 @@ class SceneOperations:
         :param from_: The name of the object to copy.
         :param to: The name of the new object.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Copy', {'from': from_, 'to': to}, None, id)
+        return self._apply('Copy', {'from': from_, 'to': to}, None, id, progress)
 
     def delete(
         self,
         objects: Sequence[str] | NDArray[Any] | Arg | Ron,
         *,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Deletes objects.
 
@@ -542,8 +602,10 @@ class SceneOperations:
 
         :param objects: The names of the objects. All of these objects must exist.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Delete', {'objects': objects}, None, id)
+        return self._apply('Delete', {'objects': objects}, None, id, progress)
 
     def rename(
         self,
@@ -551,6 +613,7 @@ class SceneOperations:
         to: str | Arg | Ron,
         *,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Renames an object.
 
@@ -562,8 +625,10 @@ class SceneOperations:
         :param from_: The current name.
         :param to: The new name.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Rename', {'from': from_, 'to': to}, None, id)
+        return self._apply('Rename', {'from': from_, 'to': to}, None, id, progress)
 
     def join(
         self,
@@ -572,6 +637,7 @@ class SceneOperations:
         *,
         tag_parts: bool | Arg | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Joins meshes into one object.
 
@@ -596,8 +662,10 @@ class SceneOperations:
         :param tag_parts: Whether to tag the faces of each part with the name of the part, so that
             ``sel.Tagged("head")`` selects them in later steps. Defaults to ``True``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Join', {'objects': objects, 'name': name, 'tag_parts': tag_parts}, None, id)
+        return self._apply('Join', {'objects': objects, 'name': name, 'tag_parts': tag_parts}, None, id, progress)
 
     def separate(
         self,
@@ -606,6 +674,7 @@ class SceneOperations:
         by: Literal['Components', 'Material'] | Choice | Arg | Ron | None = None,
         count: int | Arg | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Splits a mesh into several objects.
 
@@ -632,8 +701,10 @@ class SceneOperations:
             parts are not known before the recipe runs, so the object names in later steps cannot be checked before the
             run.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Separate', {'object': object, 'by': by, 'count': count}, None, id)
+        return self._apply('Separate', {'object': object, 'by': by, 'count': count}, None, id, progress)
 
     def transform(
         self,
@@ -645,6 +716,7 @@ class SceneOperations:
         space: Literal['Scene', 'Object'] | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Scales, rotates and moves objects.
 
@@ -680,8 +752,10 @@ class SceneOperations:
             ``"Object"``: The space of each object.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Transform', {'scale': scale, 'rotate': rotate, 'move': move, 'about': about, 'space': space}, on, id)
+        return self._apply('Transform', {'scale': scale, 'rotate': rotate, 'move': move, 'about': about, 'space': space}, on, id, progress)
 
     def scatter(
         self,
@@ -693,6 +767,7 @@ class SceneOperations:
         align: Literal['X', 'Y', 'Z'] | Arg | Ron | None = None,
         name: str | Arg | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Places copies of an object on a surface, at random and evenly spread.
 
@@ -720,8 +795,10 @@ class SceneOperations:
             ``"Z"``: The z axis.
         :param name: Without ``object``, the name of the mesh of points. Defaults to ``points``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Scatter', {'object': object, 'surface': surface, 'count': count, 'seed': seed, 'align': align, 'name': name}, None, id)
+        return self._apply('Scatter', {'object': object, 'surface': surface, 'count': count, 'seed': seed, 'align': align, 'name': name}, None, id, progress)
 
     def weld(
         self,
@@ -729,6 +806,7 @@ class SceneOperations:
         *,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Merges vertices that are close together, and joins the faces at them.
 
@@ -751,8 +829,10 @@ class SceneOperations:
             positions merge.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Weld', {'distance': distance}, on, id)
+        return self._apply('Weld', {'distance': distance}, on, id, progress)
 
     def reverse(
         self,
@@ -760,6 +840,7 @@ class SceneOperations:
         faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Reverses the orientation of faces, so that their other side is the outside.
 
@@ -775,8 +856,10 @@ class SceneOperations:
             ``"Boundary"``, ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Reverse', {'faces': faces}, on, id)
+        return self._apply('Reverse', {'faces': faces}, on, id, progress)
 
     def triangulate(
         self,
@@ -784,6 +867,7 @@ class SceneOperations:
         faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Cuts polygons into triangles.
 
@@ -809,8 +893,10 @@ class SceneOperations:
             value of ``meshwright.sel``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Triangulate', {'faces': faces}, on, id)
+        return self._apply('Triangulate', {'faces': faces}, on, id, progress)
 
     def flip_edges(
         self,
@@ -822,6 +908,7 @@ class SceneOperations:
         seams: Literal['Refuse', 'Drop'] | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Replaces the edge between two triangles with the other diagonal of the quadrilateral that they form.
 
@@ -862,8 +949,10 @@ class SceneOperations:
             ``"Drop"``: Edit anyway.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('FlipEdges', {'edges': edges, 'until': until, 'passes': passes, 'on_refusal': on_refusal, 'seams': seams}, on, id)
+        return self._apply('FlipEdges', {'edges': edges, 'until': until, 'passes': passes, 'on_refusal': on_refusal, 'seams': seams}, on, id, progress)
 
     def split_edges(
         self,
@@ -873,6 +962,7 @@ class SceneOperations:
         on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Inserts a vertex on each edge and joins it to the opposite corners of the triangles beside the edge.
 
@@ -893,8 +983,10 @@ class SceneOperations:
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('SplitEdges', {'edges': edges, 'at': at, 'on_refusal': on_refusal}, on, id)
+        return self._apply('SplitEdges', {'edges': edges, 'at': at, 'on_refusal': on_refusal}, on, id, progress)
 
     def collapse_edges(
         self,
@@ -904,6 +996,7 @@ class SceneOperations:
         on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Collapses edges, so that the two ends of each edge become one vertex.
 
@@ -939,8 +1032,10 @@ class SceneOperations:
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('CollapseEdges', {'edges': edges, 'at': at, 'on_refusal': on_refusal}, on, id)
+        return self._apply('CollapseEdges', {'edges': edges, 'at': at, 'on_refusal': on_refusal}, on, id, progress)
 
     def dissolve_edges(
         self,
@@ -950,6 +1045,7 @@ class SceneOperations:
         seams: Literal['Refuse', 'Drop'] | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Removes edges and merges the faces beside them.
 
@@ -974,8 +1070,10 @@ class SceneOperations:
             ``"Drop"``: Edit anyway.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('DissolveEdges', {'edges': edges, 'on_refusal': on_refusal, 'seams': seams}, on, id)
+        return self._apply('DissolveEdges', {'edges': edges, 'on_refusal': on_refusal, 'seams': seams}, on, id, progress)
 
     def bevel_edges(
         self,
@@ -986,6 +1084,7 @@ class SceneOperations:
         on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Replaces edges with faces of constant width.
 
@@ -1023,8 +1122,10 @@ class SceneOperations:
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('BevelEdges', {'edges': edges, 'width': width, 'fraction': fraction, 'on_refusal': on_refusal}, on, id)
+        return self._apply('BevelEdges', {'edges': edges, 'width': width, 'fraction': fraction, 'on_refusal': on_refusal}, on, id, progress)
 
     def crease(
         self,
@@ -1034,6 +1135,7 @@ class SceneOperations:
         vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Makes edges and vertices sharp for subdivision.
 
@@ -1057,8 +1159,10 @@ class SceneOperations:
             a value of ``meshwright.sel``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Crease', {'edges': edges, 'vertices': vertices, 'sharpness': sharpness}, on, id)
+        return self._apply('Crease', {'edges': edges, 'vertices': vertices, 'sharpness': sharpness}, on, id, progress)
 
     def poke_faces(
         self,
@@ -1068,6 +1172,7 @@ class SceneOperations:
         on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Inserts a vertex at the center of each face and connects it to the corners of the face.
 
@@ -1093,8 +1198,10 @@ class SceneOperations:
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('PokeFaces', {'faces': faces, 'distance': distance, 'on_refusal': on_refusal}, on, id)
+        return self._apply('PokeFaces', {'faces': faces, 'distance': distance, 'on_refusal': on_refusal}, on, id, progress)
 
     def split_faces(
         self,
@@ -1103,6 +1210,7 @@ class SceneOperations:
         on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Cuts each face in two with an edge between two of its corners.
 
@@ -1123,8 +1231,10 @@ class SceneOperations:
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('SplitFaces', {'between': between, 'on_refusal': on_refusal}, on, id)
+        return self._apply('SplitFaces', {'between': between, 'on_refusal': on_refusal}, on, id, progress)
 
     def delete_faces(
         self,
@@ -1134,6 +1244,7 @@ class SceneOperations:
         keep_vertices: bool | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Removes faces and leaves holes.
 
@@ -1157,8 +1268,10 @@ class SceneOperations:
         :param keep_vertices: Whether to keep vertices that are left without an edge. Defaults to ``False``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('DeleteFaces', {'faces': faces, 'on_refusal': on_refusal, 'keep_vertices': keep_vertices}, on, id)
+        return self._apply('DeleteFaces', {'faces': faces, 'on_refusal': on_refusal, 'keep_vertices': keep_vertices}, on, id, progress)
 
     def extrude_faces(
         self,
@@ -1170,6 +1283,7 @@ class SceneOperations:
         tag: str | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Moves faces out of the surface and connects them to their old rim with side faces.
 
@@ -1210,8 +1324,10 @@ class SceneOperations:
             If omitted, no faces are tagged.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('ExtrudeFaces', {'faces': faces, 'by': by, 'scale': scale, 'rotate': rotate, 'tag': tag}, on, id)
+        return self._apply('ExtrudeFaces', {'faces': faces, 'by': by, 'scale': scale, 'rotate': rotate, 'tag': tag}, on, id, progress)
 
     def inset_faces(
         self,
@@ -1221,6 +1337,7 @@ class SceneOperations:
         on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Shrinks faces and surrounds each face with a ring of faces.
 
@@ -1247,8 +1364,10 @@ class SceneOperations:
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('InsetFaces', {'faces': faces, 'fraction': fraction, 'on_refusal': on_refusal}, on, id)
+        return self._apply('InsetFaces', {'faces': faces, 'fraction': fraction, 'on_refusal': on_refusal}, on, id, progress)
 
     def bevel_faces(
         self,
@@ -1259,6 +1378,7 @@ class SceneOperations:
         on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Shrinks and raises faces, and surrounds each face with a ring of faces.
 
@@ -1288,8 +1408,10 @@ class SceneOperations:
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('BevelFaces', {'faces': faces, 'fraction': fraction, 'distance': distance, 'on_refusal': on_refusal}, on, id)
+        return self._apply('BevelFaces', {'faces': faces, 'fraction': fraction, 'distance': distance, 'on_refusal': on_refusal}, on, id, progress)
 
     def dissolve_vertices(
         self,
@@ -1299,6 +1421,7 @@ class SceneOperations:
         seams: Literal['Refuse', 'Drop'] | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Removes vertices and merges the faces around them.
 
@@ -1326,8 +1449,10 @@ class SceneOperations:
             ``"Drop"``: Edit anyway.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('DissolveVertices', {'vertices': vertices, 'on_refusal': on_refusal, 'seams': seams}, on, id)
+        return self._apply('DissolveVertices', {'vertices': vertices, 'on_refusal': on_refusal, 'seams': seams}, on, id, progress)
 
     def bevel_vertices(
         self,
@@ -1337,6 +1462,7 @@ class SceneOperations:
         on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Replaces vertices with faces.
 
@@ -1367,8 +1493,10 @@ class SceneOperations:
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('BevelVertices', {'vertices': vertices, 'fraction': fraction, 'on_refusal': on_refusal}, on, id)
+        return self._apply('BevelVertices', {'vertices': vertices, 'fraction': fraction, 'on_refusal': on_refusal}, on, id, progress)
 
     def vertex_normals(
         self,
@@ -1376,6 +1504,7 @@ class SceneOperations:
         weight: Literal['Area', 'Angle', 'Uniform'] | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Computes a unit normal for every vertex, from the faces around it.
 
@@ -1391,8 +1520,10 @@ class SceneOperations:
             ``"Uniform"``: The same weight for all faces.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('VertexNormals', {'weight': weight}, on, id)
+        return self._apply('VertexNormals', {'weight': weight}, on, id, progress)
 
     def tangents(
         self,
@@ -1400,6 +1531,7 @@ class SceneOperations:
         uv: str | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Computes tangents for normal maps with the ``MikkTSpace`` algorithm, which many other tools also use.
 
@@ -1416,8 +1548,10 @@ class SceneOperations:
         :param uv: The name of the texture coordinates of the normal map. Defaults to ``uv``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Tangents', {'uv': uv}, on, id)
+        return self._apply('Tangents', {'uv': uv}, on, id, progress)
 
     def fill_holes(
         self,
@@ -1428,6 +1562,7 @@ class SceneOperations:
         on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Covers holes with faces.
 
@@ -1458,8 +1593,10 @@ class SceneOperations:
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('FillHoles', {'around': around, 'max_edges': max_edges, 'with': with_, 'on_refusal': on_refusal}, on, id)
+        return self._apply('FillHoles', {'around': around, 'max_edges': max_edges, 'with': with_, 'on_refusal': on_refusal}, on, id, progress)
 
     def bridge_loops(
         self,
@@ -1468,6 +1605,7 @@ class SceneOperations:
         *,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Joins two holes with a band of faces.
 
@@ -1490,8 +1628,10 @@ class SceneOperations:
         :param second: The id of the vertex on the second hole that is joined to ``first``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('BridgeLoops', {'first': first, 'second': second}, on, id)
+        return self._apply('BridgeLoops', {'first': first, 'second': second}, on, id, progress)
 
     def stitch(
         self,
@@ -1500,6 +1640,7 @@ class SceneOperations:
         on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Joins boundary edges that coincide.
 
@@ -1526,8 +1667,10 @@ class SceneOperations:
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Stitch', {'distance': distance, 'on_refusal': on_refusal}, on, id)
+        return self._apply('Stitch', {'distance': distance, 'on_refusal': on_refusal}, on, id, progress)
 
     def cut(
         self,
@@ -1536,6 +1679,7 @@ class SceneOperations:
         on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Opens the mesh along edges.
 
@@ -1557,8 +1701,10 @@ class SceneOperations:
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Cut', {'edges': edges, 'on_refusal': on_refusal}, on, id)
+        return self._apply('Cut', {'edges': edges, 'on_refusal': on_refusal}, on, id, progress)
 
     def tag_vertices(
         self,
@@ -1567,6 +1713,7 @@ class SceneOperations:
         *,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Tags the selected vertices and removes the tag from all other vertices. In later steps, ``sel.Tagged("rim")``
         selects the vertices with the tag ``rim``.
@@ -1584,8 +1731,10 @@ class SceneOperations:
             ``"Isolated"``, or a value of ``meshwright.sel``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('TagVertices', {'name': name, 'vertices': vertices}, on, id)
+        return self._apply('TagVertices', {'name': name, 'vertices': vertices}, on, id, progress)
 
     def tag_edges(
         self,
@@ -1594,6 +1743,7 @@ class SceneOperations:
         *,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Tags the selected edges and removes the tag from all other edges. In later steps, ``sel.Tagged("rim")``
         selects the edges with the tag ``rim``.
@@ -1610,8 +1760,10 @@ class SceneOperations:
             ``meshwright.sel``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('TagEdges', {'name': name, 'edges': edges}, on, id)
+        return self._apply('TagEdges', {'name': name, 'edges': edges}, on, id, progress)
 
     def tag_faces(
         self,
@@ -1620,6 +1772,7 @@ class SceneOperations:
         *,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Tags the selected faces and removes the tag from all other faces. In later steps, ``sel.Tagged("rim")``
         selects the faces with the tag ``rim``.
@@ -1636,8 +1789,10 @@ class SceneOperations:
             ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('TagFaces', {'name': name, 'faces': faces}, on, id)
+        return self._apply('TagFaces', {'name': name, 'faces': faces}, on, id, progress)
 
     def loop_subdivide(
         self,
@@ -1652,6 +1807,7 @@ class SceneOperations:
         faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Splits every triangle into four and smooths the surface, for a number of levels.
 
@@ -1700,8 +1856,10 @@ class SceneOperations:
             ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('LoopSubdivide', {'levels': levels, 'until': until, 'weights': weights, 'boundary': boundary, 'creasing': creasing, 'face_varying': face_varying, 'to_limit': to_limit, 'faces': faces}, on, id)
+        return self._apply('LoopSubdivide', {'levels': levels, 'until': until, 'weights': weights, 'boundary': boundary, 'creasing': creasing, 'face_varying': face_varying, 'to_limit': to_limit, 'faces': faces}, on, id, progress)
 
     def catmull_clark(
         self,
@@ -1715,6 +1873,7 @@ class SceneOperations:
         faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Splits every face into quads and smooths the surface, for a number of levels.
 
@@ -1761,8 +1920,10 @@ class SceneOperations:
             of ``meshwright.sel``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('CatmullClark', {'levels': levels, 'until': until, 'boundary': boundary, 'creasing': creasing, 'face_varying': face_varying, 'to_limit': to_limit, 'faces': faces}, on, id)
+        return self._apply('CatmullClark', {'levels': levels, 'until': until, 'boundary': boundary, 'creasing': creasing, 'face_varying': face_varying, 'to_limit': to_limit, 'faces': faces}, on, id, progress)
 
     def midpoint(
         self,
@@ -1773,6 +1934,7 @@ class SceneOperations:
         faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Splits every face into smaller faces without moving vertices, for a number of levels.
 
@@ -1803,8 +1965,10 @@ class SceneOperations:
             ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Midpoint', {'levels': levels, 'until': until, 'into': into, 'faces': faces}, on, id)
+        return self._apply('Midpoint', {'levels': levels, 'until': until, 'into': into, 'faces': faces}, on, id, progress)
 
     def butterfly(
         self,
@@ -1813,6 +1977,7 @@ class SceneOperations:
         until: Choice | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Splits every triangle into four and smooths the surface without moving the old vertices, for a number of
         levels.
@@ -1835,8 +2000,10 @@ class SceneOperations:
                 than ``below``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Butterfly', {'levels': levels, 'until': until}, on, id)
+        return self._apply('Butterfly', {'levels': levels, 'until': until}, on, id, progress)
 
     def sqrt3(
         self,
@@ -1845,6 +2012,7 @@ class SceneOperations:
         until: Choice | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Splits every triangle into three, flips the old edges, and smooths the surface, for a number of levels.
 
@@ -1870,8 +2038,10 @@ class SceneOperations:
                 than ``below``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Sqrt3', {'levels': levels, 'until': until}, on, id)
+        return self._apply('Sqrt3', {'levels': levels, 'until': until}, on, id, progress)
 
     def doo_sabin(
         self,
@@ -1880,6 +2050,7 @@ class SceneOperations:
         until: Choice | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Replaces every edge and every vertex with a face and shrinks the old faces, for a number of levels.
 
@@ -1905,8 +2076,10 @@ class SceneOperations:
                 than ``below``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('DooSabin', {'levels': levels, 'until': until}, on, id)
+        return self._apply('DooSabin', {'levels': levels, 'until': until}, on, id, progress)
 
     def bisect(
         self,
@@ -1917,6 +2090,7 @@ class SceneOperations:
         tag: str | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Cuts meshes along a plane.
 
@@ -1946,8 +2120,10 @@ class SceneOperations:
             no edges are tagged.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Bisect', {'point': point, 'normal': normal, 'keep': keep, 'tag': tag}, on, id)
+        return self._apply('Bisect', {'point': point, 'normal': normal, 'keep': keep, 'tag': tag}, on, id, progress)
 
     def symmetrize(
         self,
@@ -1957,6 +2133,7 @@ class SceneOperations:
         from_: Literal['Front', 'Back'] | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Replaces one half of a mesh with the mirror image of the other half.
 
@@ -1979,8 +2156,10 @@ class SceneOperations:
             ``"Back"``: The side that the normal points away from.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Symmetrize', {'point': point, 'normal': normal, 'from': from_}, on, id)
+        return self._apply('Symmetrize', {'point': point, 'normal': normal, 'from': from_}, on, id, progress)
 
     def simplify(
         self,
@@ -1994,6 +2173,7 @@ class SceneOperations:
         on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Removes triangles from meshes, and changes the surface as little as possible.
 
@@ -2046,8 +2226,10 @@ class SceneOperations:
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Simplify', {'faces': faces, 'ratio': ratio, 'error': error, 'features': features, 'pin': pin, 'intersections': intersections, 'on_refusal': on_refusal}, on, id)
+        return self._apply('Simplify', {'faces': faces, 'ratio': ratio, 'error': error, 'features': features, 'pin': pin, 'intersections': intersections, 'on_refusal': on_refusal}, on, id, progress)
 
     def lods(
         self,
@@ -2058,6 +2240,7 @@ class SceneOperations:
         features: Literal['All', 'Boundary'] | Choice | Arg | Ron | None = None,
         on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Makes simplified copies of an object, its levels of detail.
 
@@ -2080,8 +2263,10 @@ class SceneOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Lods', {'from': from_, 'ratios': ratios, 'to': to, 'features': features, 'on_refusal': on_refusal}, None, id)
+        return self._apply('Lods', {'from': from_, 'ratios': ratios, 'to': to, 'features': features, 'on_refusal': on_refusal}, None, id, progress)
 
     def remesh(
         self,
@@ -2095,6 +2280,7 @@ class SceneOperations:
         on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Replaces all triangles with nearly equilateral triangles of a given size, on the same surface.
 
@@ -2150,8 +2336,10 @@ class SceneOperations:
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Remesh', {'length': length, 'curvature': curvature, 'features': features, 'error': error, 'pin': pin, 'passes': passes, 'on_refusal': on_refusal}, on, id)
+        return self._apply('Remesh', {'length': length, 'curvature': curvature, 'features': features, 'error': error, 'pin': pin, 'passes': passes, 'on_refusal': on_refusal}, on, id, progress)
 
     def smooth(
         self,
@@ -2164,6 +2352,7 @@ class SceneOperations:
         keep_volume: bool | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Moves vertices so that noise disappears.
 
@@ -2201,8 +2390,10 @@ class SceneOperations:
             distance, until the mesh has its original volume. The mesh must be closed. Defaults to ``False``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Smooth', {'by': by, 'passes': passes, 'vertices': vertices, 'pin': pin, 'boundary': boundary, 'keep_volume': keep_volume}, on, id)
+        return self._apply('Smooth', {'by': by, 'passes': passes, 'vertices': vertices, 'pin': pin, 'boundary': boundary, 'keep_volume': keep_volume}, on, id, progress)
 
     def transfer(
         self,
@@ -2212,6 +2403,7 @@ class SceneOperations:
         within: float | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Copies attributes from the nearest points of another object.
 
@@ -2239,8 +2431,10 @@ class SceneOperations:
         :param within: The largest distance from the source, in scene units. If omitted, any distance.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Transfer', {'from': from_, 'attributes': attributes, 'within': within}, on, id)
+        return self._apply('Transfer', {'from': from_, 'attributes': attributes, 'within': within}, on, id, progress)
 
     def move_vertices(
         self,
@@ -2250,6 +2444,7 @@ class SceneOperations:
         falloff: float | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Moves vertices.
 
@@ -2278,8 +2473,10 @@ class SceneOperations:
             If omitted, only the selected vertices move.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('MoveVertices', {'vertices': vertices, 'by': by, 'falloff': falloff}, on, id)
+        return self._apply('MoveVertices', {'vertices': vertices, 'by': by, 'falloff': falloff}, on, id, progress)
 
     def displace(
         self,
@@ -2289,6 +2486,7 @@ class SceneOperations:
         vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Moves vertices along their normals, by amounts that vary over the surface.
 
@@ -2314,8 +2512,10 @@ class SceneOperations:
             value of ``meshwright.sel``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Displace', {'by': by, 'distance': distance, 'vertices': vertices}, on, id)
+        return self._apply('Displace', {'by': by, 'distance': distance, 'vertices': vertices}, on, id, progress)
 
     def bend(
         self,
@@ -2329,6 +2529,7 @@ class SceneOperations:
         vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Bends a mesh, so that an axis becomes an arc of a circle.
 
@@ -2362,8 +2563,10 @@ class SceneOperations:
             value of ``meshwright.sel``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Bend', {'axis': axis, 'angle': angle, 'towards': towards, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, on, id)
+        return self._apply('Bend', {'axis': axis, 'angle': angle, 'towards': towards, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, on, id, progress)
 
     def twist(
         self,
@@ -2376,6 +2579,7 @@ class SceneOperations:
         vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Rotates vertices around an axis, by an angle that grows along the axis.
 
@@ -2403,8 +2607,10 @@ class SceneOperations:
             value of ``meshwright.sel``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Twist', {'axis': axis, 'angle': angle, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, on, id)
+        return self._apply('Twist', {'axis': axis, 'angle': angle, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, on, id, progress)
 
     def taper(
         self,
@@ -2417,6 +2623,7 @@ class SceneOperations:
         vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Scales vertices towards or away from an axis, by a factor that changes along the axis.
 
@@ -2443,8 +2650,10 @@ class SceneOperations:
             value of ``meshwright.sel``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Taper', {'axis': axis, 'factor': factor, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, on, id)
+        return self._apply('Taper', {'axis': axis, 'factor': factor, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, on, id, progress)
 
     def lattice(
         self,
@@ -2456,6 +2665,7 @@ class SceneOperations:
         vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Deforms vertices with a box of control points.
 
@@ -2481,8 +2691,10 @@ class SceneOperations:
             value of ``meshwright.sel``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Lattice', {'size': size, 'moves': moves, 'min': min, 'max': max, 'vertices': vertices}, on, id)
+        return self._apply('Lattice', {'size': size, 'moves': moves, 'min': min, 'max': max, 'vertices': vertices}, on, id, progress)
 
     def project(
         self,
@@ -2494,6 +2706,7 @@ class SceneOperations:
         distance: float | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Moves vertices onto the surface of another object (shrinkwrap).
 
@@ -2519,8 +2732,10 @@ class SceneOperations:
         :param distance: The largest distance that a vertex moves, in scene units. If omitted, any distance.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Project', {'onto': onto, 'along': along, 'vertices': vertices, 'pin': pin, 'distance': distance}, on, id)
+        return self._apply('Project', {'onto': onto, 'along': along, 'vertices': vertices, 'pin': pin, 'distance': distance}, on, id, progress)
 
     def measure(
         self,
@@ -2530,6 +2745,7 @@ class SceneOperations:
         missing: float | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Stores a quantity, such as a curvature or a distance, as an attribute of vertices or faces.
 
@@ -2573,8 +2789,10 @@ class SceneOperations:
             for all others.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Measure', {'of': of, 'name': name, 'missing': missing}, on, id)
+        return self._apply('Measure', {'of': of, 'name': name, 'missing': missing}, on, id, progress)
 
     def unwrap(
         self,
@@ -2588,6 +2806,7 @@ class SceneOperations:
         on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Computes texture coordinates without overlaps.
 
@@ -2623,8 +2842,10 @@ class SceneOperations:
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Unwrap', {'seams': seams, 'max_angle': max_angle, 'max_stretch': max_stretch, 'page': page, 'padding': padding, 'uv': uv, 'on_refusal': on_refusal}, on, id)
+        return self._apply('Unwrap', {'seams': seams, 'max_angle': max_angle, 'max_stretch': max_stretch, 'page': page, 'padding': padding, 'uv': uv, 'on_refusal': on_refusal}, on, id, progress)
 
     def pack_uvs(
         self,
@@ -2634,6 +2855,7 @@ class SceneOperations:
         padding: int | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Moves, rotates and scales charts of texture coordinates so that they do not overlap and have the same scale.
 
@@ -2652,8 +2874,10 @@ class SceneOperations:
             this number. Defaults to 2.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('PackUvs', {'uv': uv, 'page': page, 'padding': padding}, on, id)
+        return self._apply('PackUvs', {'uv': uv, 'page': page, 'padding': padding}, on, id, progress)
 
     def picture(
         self,
@@ -2672,6 +2896,7 @@ class SceneOperations:
         images: str | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Draws the scene into an image file.
 
@@ -2683,8 +2908,9 @@ class SceneOperations:
         "Valence"}, style={"wireframe": {}})``, in a recipe ``Picture(path: "a.png", size: (64, 48), highlight:
         Edges(Sharp(above: 30)), color_by: (of: Valence), style: (wireframe: ()))``
 
-        :param path: The file. The path is relative to the output folder. ``{name.stem}`` is replaced by the name,
-            without extension, of the file in the recipe parameter ``name``.
+        :param path: The file. For a scene, a relative path is relative to the working directory; in a recipe, to the
+            output folder. ``{name.stem}`` is replaced by the name, without extension, of the file in the recipe
+            parameter ``name``.
         :param size: The width and the height of each view in pixels.
         :param camera: The camera.
             ``choice.Fit(..)``: Looks from a side, at the distance from which the picture shows the whole scene.
@@ -2736,8 +2962,10 @@ class SceneOperations:
             omitted, the folder of the recipe. Missing images are not drawn, and the report lists them.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('Picture', {'path': path, 'size': size, 'camera': camera, 'views': views, 'columns': columns, 'style': style, 'highlight': highlight, 'highlight_width': highlight_width, 'marks': marks, 'color_by': color_by, 'turntable': turntable, 'images': images}, on, id)
+        return self._apply('Picture', {'path': path, 'size': size, 'camera': camera, 'views': views, 'columns': columns, 'style': style, 'highlight': highlight, 'highlight_width': highlight_width, 'marks': marks, 'color_by': color_by, 'turntable': turntable, 'images': images}, on, id, progress)
 
     def curve_figure(
         self,
@@ -2753,6 +2981,7 @@ class SceneOperations:
         legend: bool | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Draws Bezier curves, and de Casteljau's construction of their points, into an image file.
 
@@ -2766,8 +2995,9 @@ class SceneOperations:
         Example: ``scene.curve_figure(path="figure.svg", t=[0.25, 0.5])``, in a recipe ``CurveFigure(path: "figure.svg",
         t: [0.25, 0.5])``
 
-        :param path: The file. The path is relative to the output folder. ``{name.stem}`` is replaced by the name,
-            without extension, of the file in the recipe parameter ``name``.
+        :param path: The file. For a scene, a relative path is relative to the working directory; in a recipe, to the
+            output folder. ``{name.stem}`` is replaced by the name, without extension, of the file in the recipe
+            parameter ``name``.
         :param t: The parameters of the constructed points, from 0 (start) to 1 (end). If empty, only the curves and
             their control polygons are drawn.
         :param by_level: Whether each level of the algorithm has its own panel. If false, one panel shows all levels.
@@ -2782,8 +3012,10 @@ class SceneOperations:
         :param legend: Whether there is a legend below the panels. Defaults to ``True``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('CurveFigure', {'path': path, 't': t, 'by_level': by_level, 'before': before, 'width': width, 'columns': columns, 'scale': scale, 'labels': labels, 'legend': legend}, on, id)
+        return self._apply('CurveFigure', {'path': path, 't': t, 'by_level': by_level, 'before': before, 'width': width, 'columns': columns, 'scale': scale, 'labels': labels, 'legend': legend}, on, id, progress)
 
     def half_edge_figure(
         self,
@@ -2794,6 +3026,7 @@ class SceneOperations:
         scale: int | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Draws the half-edges of some faces of a mesh into an image file.
 
@@ -2809,16 +3042,19 @@ class SceneOperations:
 
         Example: ``scene.half_edge_figure(path="figure.svg")``, in a recipe ``HalfEdgeFigure(path: "figure.svg")``
 
-        :param path: The file. The path is relative to the output folder. ``{name.stem}`` is replaced by the name,
-            without extension, of the file in the recipe parameter ``name``.
+        :param path: The file. For a scene, a relative path is relative to the working directory; in a recipe, to the
+            output folder. ``{name.stem}`` is replaced by the name, without extension, of the file in the recipe
+            parameter ``name``.
         :param faces: The faces to draw, at most 200. Defaults to ``"All"``. ``"All"``, ``"Boundary"``,
             ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
         :param width: The width of the figure in SVG pixels. Defaults to ``640``.
         :param scale: The number of PNG pixels per SVG pixel. Has no effect on ``.svg`` files. Defaults to ``2``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('HalfEdgeFigure', {'path': path, 'faces': faces, 'width': width, 'scale': scale}, on, id)
+        return self._apply('HalfEdgeFigure', {'path': path, 'faces': faces, 'width': width, 'scale': scale}, on, id, progress)
 
     def uv_picture(
         self,
@@ -2831,6 +3067,7 @@ class SceneOperations:
         scale: int | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Draws the charts of the texture coordinates of a mesh into an image file.
 
@@ -2841,8 +3078,9 @@ class SceneOperations:
 
         Example: ``scene.uv_picture(path="uv.svg")``, in a recipe ``UvPicture(path: "uv.svg")``
 
-        :param path: The file. The path is relative to the output folder. ``{name.stem}`` is replaced by the name,
-            without extension, of the file in the recipe parameter ``name``.
+        :param path: The file. For a scene, a relative path is relative to the working directory; in a recipe, to the
+            output folder. ``{name.stem}`` is replaced by the name, without extension, of the file in the recipe
+            parameter ``name``.
         :param uv: The name of the texture coordinates. Defaults to ``uv``.
         :param fill: What the colors inside charts show. Defaults to ``"Charts"``.
             ``"None"``: Nothing.
@@ -2853,15 +3091,22 @@ class SceneOperations:
         :param scale: The number of PNG pixels per SVG pixel. Has no effect on ``.svg`` files. Defaults to ``2``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
-        return self._apply('UvPicture', {'path': path, 'uv': uv, 'fill': fill, 'edges': edges, 'width': width, 'scale': scale}, on, id)
+        return self._apply('UvPicture', {'path': path, 'uv': uv, 'fill': fill, 'edges': edges, 'width': width, 'scale': scale}, on, id, progress)
 
 
 class MeshOperations:
     """The operations on one mesh."""
 
     def _apply(
-        self, operation: str, fields: Mapping[str, Any], on: str | Sequence[str] | None, id: str | None
+        self,
+        operation: str,
+        fields: Mapping[str, Any],
+        on: str | Sequence[str] | None,
+        id: str | None,
+        progress: bool | Progress | None,
     ) -> Self:
         raise NotImplementedError
 
@@ -2875,20 +3120,20 @@ class MeshOperations:
         weight_sets: int | Ron | None = None,
         rows: Literal['Vertices', 'Faces', 'Corners'] | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
-        """Writes objects to a file in the output folder.
+        """Writes objects to a file.
 
         The extension determines the format: ``.obj``, ``.gltf``, ``.glb``, ``.ply``, ``.stl`` or ``.off`` for meshes,
         ``.bez`` for Bezier patches, ``.bzc`` for a curve, and ``.mws`` for a complete scene without any loss. ``.csv``
         is a table of the positions and attributes of vertices, faces or corners, and ``.npz`` has the arrays of a mesh
         for ``NumPy``. These two formats cannot be read. If the name ends with ``.gz``, as in ``a.obj.gz``, the file is
         compressed with gzip, which is not possible for ``.glb``, ``.mws`` and ``.npz``. The report lists the content
-        that the format cannot store. The file is only created when the whole recipe has succeeded.
+        that the format cannot store. A recipe creates the file only if all of its steps and expectations succeed.
 
         Example: ``mesh.save(path="a.obj")``
 
-        :param path: The file. The path is relative to the output folder. ``{name.stem}`` is replaced by the name,
-            without extension, of the file in the recipe parameter ``name``.
+        :param path: The file. A relative path is relative to the working directory.
         :param images: What to do with the images of materials. If omitted, images are embedded in ``.glb`` files. For
             ``.gltf`` and ``.obj``, images in the folder of the source model are copied to the folder of the output
             file. OBJ cannot embed images, so embedded images are also written to files.
@@ -2917,9 +3162,11 @@ class MeshOperations:
             ``"Faces"``: Faces, at the means of their corners.
             ``"Corners"``: The corners of the faces, face by face.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('Save', {'path': path, 'images': images, 'compress': compress, 'quantize': quantize, 'weight_sets': weight_sets, 'rows': rows}, None, id)
+        return self._apply('Save', {'path': path, 'images': images, 'compress': compress, 'quantize': quantize, 'weight_sets': weight_sets, 'rows': rows}, None, id, progress)
 
     def tessellate(
         self,
@@ -2929,6 +3176,7 @@ class MeshOperations:
         uvs: bool | Ron | None = None,
         normals: bool | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Turns Bezier patches into a mesh.
 
@@ -2949,15 +3197,18 @@ class MeshOperations:
             the whole square from 0 to 1. Defaults to ``False``.
         :param normals: Whether to store the exact unit normals of the patches as vertex normals. Defaults to ``False``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('Tessellate', {'segments': segments, 'faces': faces, 'uvs': uvs, 'normals': normals}, None, id)
+        return self._apply('Tessellate', {'segments': segments, 'faces': faces, 'uvs': uvs, 'normals': normals}, None, id, progress)
 
     def sample_curve(
         self,
         segments: int | Ron,
         *,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Replaces curves with polylines whose points lie on the curves.
 
@@ -2968,15 +3219,18 @@ class MeshOperations:
 
         :param segments: The number of straight segments.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('SampleCurve', {'segments': segments}, None, id)
+        return self._apply('SampleCurve', {'segments': segments}, None, id, progress)
 
     def curve_levels(
         self,
         t: float | Ron,
         *,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Replaces curves with the levels of de Casteljau's algorithm.
 
@@ -2988,9 +3242,11 @@ class MeshOperations:
 
         :param t: The parameter of the point, from 0 (the start of the curve) to 1 (its end).
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('CurveLevels', {'t': t}, None, id)
+        return self._apply('CurveLevels', {'t': t}, None, id, progress)
 
     def move_control_point(
         self,
@@ -2998,6 +3254,7 @@ class MeshOperations:
         to: Sequence[float] | NDArray[Any] | Ron,
         *,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Moves one control point of curves.
 
@@ -3010,9 +3267,11 @@ class MeshOperations:
             point with this index.
         :param to: The new position: ``(x, y)`` in the plane z = 0, in scene units.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('MoveControlPoint', {'index': index, 'to': to}, None, id)
+        return self._apply('MoveControlPoint', {'index': index, 'to': to}, None, id, progress)
 
     def move_patch_point(
         self,
@@ -3020,6 +3279,7 @@ class MeshOperations:
         to: Sequence[float] | NDArray[Any] | Ron,
         *,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Moves one control point of Bezier patches.
 
@@ -3034,9 +3294,11 @@ class MeshOperations:
             plus the column. Every object on which the step acts must have a control point with this index.
         :param to: The new position ``(x, y, z)``, in scene units.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('MovePatchPoint', {'index': index, 'to': to}, None, id)
+        return self._apply('MovePatchPoint', {'index': index, 'to': to}, None, id, progress)
 
     def transform(
         self,
@@ -3047,6 +3309,7 @@ class MeshOperations:
         about: Literal['Origin', 'Center'] | Choice | Ron | None = None,
         space: Literal['Scene', 'Object'] | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Scales, rotates and moves objects.
 
@@ -3080,15 +3343,18 @@ class MeshOperations:
             ``"Scene"``: The space of the scene.
             ``"Object"``: The space of each object.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('Transform', {'scale': scale, 'rotate': rotate, 'move': move, 'about': about, 'space': space}, None, id)
+        return self._apply('Transform', {'scale': scale, 'rotate': rotate, 'move': move, 'about': about, 'space': space}, None, id, progress)
 
     def weld(
         self,
         distance: float | Ron,
         *,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Merges vertices that are close together, and joins the faces at them.
 
@@ -3110,15 +3376,18 @@ class MeshOperations:
         :param distance: The largest distance between linked vertices, in scene units. With 0, only vertices at equal
             positions merge.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('Weld', {'distance': distance}, None, id)
+        return self._apply('Weld', {'distance': distance}, None, id, progress)
 
     def reverse(
         self,
         *,
         faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Reverses the orientation of faces, so that their other side is the outside.
 
@@ -3133,15 +3402,18 @@ class MeshOperations:
         :param faces: The faces to reverse. They must form whole connected components. Defaults to ``"All"``. ``"All"``,
             ``"Boundary"``, ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('Reverse', {'faces': faces}, None, id)
+        return self._apply('Reverse', {'faces': faces}, None, id, progress)
 
     def triangulate(
         self,
         *,
         faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Cuts polygons into triangles.
 
@@ -3166,9 +3438,11 @@ class MeshOperations:
         :param faces: The faces to cut. Defaults to ``"All"``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a
             value of ``meshwright.sel``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('Triangulate', {'faces': faces}, None, id)
+        return self._apply('Triangulate', {'faces': faces}, None, id, progress)
 
     def flip_edges(
         self,
@@ -3179,6 +3453,7 @@ class MeshOperations:
         on_refusal: Literal['Error', 'Skip'] | Ron | None = None,
         seams: Literal['Refuse', 'Drop'] | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Replaces the edge between two triangles with the other diagonal of the quadrilateral that they form.
 
@@ -3218,9 +3493,11 @@ class MeshOperations:
             ``"Refuse"``: Refuse the edit.
             ``"Drop"``: Edit anyway.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('FlipEdges', {'edges': edges, 'until': until, 'passes': passes, 'on_refusal': on_refusal, 'seams': seams}, None, id)
+        return self._apply('FlipEdges', {'edges': edges, 'until': until, 'passes': passes, 'on_refusal': on_refusal, 'seams': seams}, None, id, progress)
 
     def split_edges(
         self,
@@ -3229,6 +3506,7 @@ class MeshOperations:
         at: float | Ron | None = None,
         on_refusal: Literal['Error', 'Skip'] | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Inserts a vertex on each edge and joins it to the opposite corners of the triangles beside the edge.
 
@@ -3248,9 +3526,11 @@ class MeshOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('SplitEdges', {'edges': edges, 'at': at, 'on_refusal': on_refusal}, None, id)
+        return self._apply('SplitEdges', {'edges': edges, 'at': at, 'on_refusal': on_refusal}, None, id, progress)
 
     def collapse_edges(
         self,
@@ -3259,6 +3539,7 @@ class MeshOperations:
         at: float | Ron | None = None,
         on_refusal: Literal['Error', 'Skip'] | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Collapses edges, so that the two ends of each edge become one vertex.
 
@@ -3292,9 +3573,11 @@ class MeshOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('CollapseEdges', {'edges': edges, 'at': at, 'on_refusal': on_refusal}, None, id)
+        return self._apply('CollapseEdges', {'edges': edges, 'at': at, 'on_refusal': on_refusal}, None, id, progress)
 
     def dissolve_edges(
         self,
@@ -3303,6 +3586,7 @@ class MeshOperations:
         on_refusal: Literal['Error', 'Skip'] | Ron | None = None,
         seams: Literal['Refuse', 'Drop'] | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Removes edges and merges the faces beside them.
 
@@ -3326,9 +3610,11 @@ class MeshOperations:
             ``"Refuse"``: Refuse the edit.
             ``"Drop"``: Edit anyway.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('DissolveEdges', {'edges': edges, 'on_refusal': on_refusal, 'seams': seams}, None, id)
+        return self._apply('DissolveEdges', {'edges': edges, 'on_refusal': on_refusal, 'seams': seams}, None, id, progress)
 
     def bevel_edges(
         self,
@@ -3338,6 +3624,7 @@ class MeshOperations:
         fraction: float | Ron | None = None,
         on_refusal: Literal['Error', 'Skip'] | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Replaces edges with faces of constant width.
 
@@ -3373,9 +3660,11 @@ class MeshOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('BevelEdges', {'edges': edges, 'width': width, 'fraction': fraction, 'on_refusal': on_refusal}, None, id)
+        return self._apply('BevelEdges', {'edges': edges, 'width': width, 'fraction': fraction, 'on_refusal': on_refusal}, None, id, progress)
 
     def crease(
         self,
@@ -3384,6 +3673,7 @@ class MeshOperations:
         edges: Literal['All', 'Boundary'] | Choice | Ron | None = None,
         vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Makes edges and vertices sharp for subdivision.
 
@@ -3405,9 +3695,11 @@ class MeshOperations:
         :param vertices: The vertices to change. If omitted, no vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or
             a value of ``meshwright.sel``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('Crease', {'edges': edges, 'vertices': vertices, 'sharpness': sharpness}, None, id)
+        return self._apply('Crease', {'edges': edges, 'vertices': vertices, 'sharpness': sharpness}, None, id, progress)
 
     def poke_faces(
         self,
@@ -3416,6 +3708,7 @@ class MeshOperations:
         distance: float | Ron | None = None,
         on_refusal: Literal['Error', 'Skip'] | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Inserts a vertex at the center of each face and connects it to the corners of the face.
 
@@ -3440,9 +3733,11 @@ class MeshOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('PokeFaces', {'faces': faces, 'distance': distance, 'on_refusal': on_refusal}, None, id)
+        return self._apply('PokeFaces', {'faces': faces, 'distance': distance, 'on_refusal': on_refusal}, None, id, progress)
 
     def split_faces(
         self,
@@ -3450,6 +3745,7 @@ class MeshOperations:
         *,
         on_refusal: Literal['Error', 'Skip'] | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Cuts each face in two with an edge between two of its corners.
 
@@ -3469,9 +3765,11 @@ class MeshOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('SplitFaces', {'between': between, 'on_refusal': on_refusal}, None, id)
+        return self._apply('SplitFaces', {'between': between, 'on_refusal': on_refusal}, None, id, progress)
 
     def delete_faces(
         self,
@@ -3480,6 +3778,7 @@ class MeshOperations:
         on_refusal: Literal['Error', 'Skip'] | Ron | None = None,
         keep_vertices: bool | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Removes faces and leaves holes.
 
@@ -3502,9 +3801,11 @@ class MeshOperations:
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param keep_vertices: Whether to keep vertices that are left without an edge. Defaults to ``False``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('DeleteFaces', {'faces': faces, 'on_refusal': on_refusal, 'keep_vertices': keep_vertices}, None, id)
+        return self._apply('DeleteFaces', {'faces': faces, 'on_refusal': on_refusal, 'keep_vertices': keep_vertices}, None, id, progress)
 
     def extrude_faces(
         self,
@@ -3515,6 +3816,7 @@ class MeshOperations:
         rotate: Sequence[Mapping[str, Any]] | NDArray[Any] | Ron | None = None,
         tag: str | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Moves faces out of the surface and connects them to their old rim with side faces.
 
@@ -3553,9 +3855,11 @@ class MeshOperations:
         :param tag: The name of a tag for the moved faces and their side faces. Faces that already have the tag keep it.
             If omitted, no faces are tagged.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('ExtrudeFaces', {'faces': faces, 'by': by, 'scale': scale, 'rotate': rotate, 'tag': tag}, None, id)
+        return self._apply('ExtrudeFaces', {'faces': faces, 'by': by, 'scale': scale, 'rotate': rotate, 'tag': tag}, None, id, progress)
 
     def inset_faces(
         self,
@@ -3564,6 +3868,7 @@ class MeshOperations:
         *,
         on_refusal: Literal['Error', 'Skip'] | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Shrinks faces and surrounds each face with a ring of faces.
 
@@ -3588,9 +3893,11 @@ class MeshOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('InsetFaces', {'faces': faces, 'fraction': fraction, 'on_refusal': on_refusal}, None, id)
+        return self._apply('InsetFaces', {'faces': faces, 'fraction': fraction, 'on_refusal': on_refusal}, None, id, progress)
 
     def bevel_faces(
         self,
@@ -3600,6 +3907,7 @@ class MeshOperations:
         *,
         on_refusal: Literal['Error', 'Skip'] | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Shrinks and raises faces, and surrounds each face with a ring of faces.
 
@@ -3627,9 +3935,11 @@ class MeshOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('BevelFaces', {'faces': faces, 'fraction': fraction, 'distance': distance, 'on_refusal': on_refusal}, None, id)
+        return self._apply('BevelFaces', {'faces': faces, 'fraction': fraction, 'distance': distance, 'on_refusal': on_refusal}, None, id, progress)
 
     def dissolve_vertices(
         self,
@@ -3638,6 +3948,7 @@ class MeshOperations:
         on_refusal: Literal['Error', 'Skip'] | Ron | None = None,
         seams: Literal['Refuse', 'Drop'] | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Removes vertices and merges the faces around them.
 
@@ -3663,9 +3974,11 @@ class MeshOperations:
             ``"Refuse"``: Refuse the edit.
             ``"Drop"``: Edit anyway.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('DissolveVertices', {'vertices': vertices, 'on_refusal': on_refusal, 'seams': seams}, None, id)
+        return self._apply('DissolveVertices', {'vertices': vertices, 'on_refusal': on_refusal, 'seams': seams}, None, id, progress)
 
     def bevel_vertices(
         self,
@@ -3674,6 +3987,7 @@ class MeshOperations:
         *,
         on_refusal: Literal['Error', 'Skip'] | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Replaces vertices with faces.
 
@@ -3702,15 +4016,18 @@ class MeshOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('BevelVertices', {'vertices': vertices, 'fraction': fraction, 'on_refusal': on_refusal}, None, id)
+        return self._apply('BevelVertices', {'vertices': vertices, 'fraction': fraction, 'on_refusal': on_refusal}, None, id, progress)
 
     def vertex_normals(
         self,
         *,
         weight: Literal['Area', 'Angle', 'Uniform'] | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Computes a unit normal for every vertex, from the faces around it.
 
@@ -3725,15 +4042,18 @@ class MeshOperations:
             ``"Angle"``: The angle of the face at the vertex, at most 180 degrees.
             ``"Uniform"``: The same weight for all faces.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change. Its ``attributes["normal"]`` has the normals.
         """
-        return self._apply('VertexNormals', {'weight': weight}, None, id)
+        return self._apply('VertexNormals', {'weight': weight}, None, id, progress)
 
     def tangents(
         self,
         *,
         uv: str | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Computes tangents for normal maps with the ``MikkTSpace`` algorithm, which many other tools also use.
 
@@ -3749,9 +4069,11 @@ class MeshOperations:
 
         :param uv: The name of the texture coordinates of the normal map. Defaults to ``uv``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('Tangents', {'uv': uv}, None, id)
+        return self._apply('Tangents', {'uv': uv}, None, id, progress)
 
     def fill_holes(
         self,
@@ -3761,6 +4083,7 @@ class MeshOperations:
         with_: Literal['Triangles', 'Face'] | Ron | None = None,
         on_refusal: Literal['Error', 'Skip'] | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Covers holes with faces.
 
@@ -3790,9 +4113,11 @@ class MeshOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('FillHoles', {'around': around, 'max_edges': max_edges, 'with': with_, 'on_refusal': on_refusal}, None, id)
+        return self._apply('FillHoles', {'around': around, 'max_edges': max_edges, 'with': with_, 'on_refusal': on_refusal}, None, id, progress)
 
     def bridge_loops(
         self,
@@ -3800,6 +4125,7 @@ class MeshOperations:
         second: int | Ron,
         *,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Joins two holes with a band of faces.
 
@@ -3821,9 +4147,11 @@ class MeshOperations:
         :param first: The id of a vertex on the first hole.
         :param second: The id of the vertex on the second hole that is joined to ``first``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('BridgeLoops', {'first': first, 'second': second}, None, id)
+        return self._apply('BridgeLoops', {'first': first, 'second': second}, None, id, progress)
 
     def stitch(
         self,
@@ -3831,6 +4159,7 @@ class MeshOperations:
         *,
         on_refusal: Literal['Error', 'Skip'] | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Joins boundary edges that coincide.
 
@@ -3856,9 +4185,11 @@ class MeshOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('Stitch', {'distance': distance, 'on_refusal': on_refusal}, None, id)
+        return self._apply('Stitch', {'distance': distance, 'on_refusal': on_refusal}, None, id, progress)
 
     def cut(
         self,
@@ -3866,6 +4197,7 @@ class MeshOperations:
         *,
         on_refusal: Literal['Error', 'Skip'] | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Opens the mesh along edges.
 
@@ -3886,9 +4218,11 @@ class MeshOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('Cut', {'edges': edges, 'on_refusal': on_refusal}, None, id)
+        return self._apply('Cut', {'edges': edges, 'on_refusal': on_refusal}, None, id, progress)
 
     def tag_vertices(
         self,
@@ -3896,6 +4230,7 @@ class MeshOperations:
         vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Ron,
         *,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Tags the selected vertices and removes the tag from all other vertices. In later steps, ``sel.Tagged("rim")``
         selects the vertices with the tag ``rim``.
@@ -3911,9 +4246,11 @@ class MeshOperations:
         :param vertices: The vertices to tag. An empty selection gives an empty tag. ``"All"``, ``"Boundary"``,
             ``"Isolated"``, or a value of ``meshwright.sel``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change. Its ``tag("vertex", name)`` is an array of Booleans.
         """
-        return self._apply('TagVertices', {'name': name, 'vertices': vertices}, None, id)
+        return self._apply('TagVertices', {'name': name, 'vertices': vertices}, None, id, progress)
 
     def tag_edges(
         self,
@@ -3921,6 +4258,7 @@ class MeshOperations:
         edges: Literal['All', 'Boundary'] | Choice | Ron,
         *,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Tags the selected edges and removes the tag from all other edges. In later steps, ``sel.Tagged("rim")``
         selects the edges with the tag ``rim``.
@@ -3935,9 +4273,11 @@ class MeshOperations:
         :param edges: The edges to tag. An empty selection gives an empty tag. ``"All"``, ``"Boundary"``, or a value of
             ``meshwright.sel``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change. Its ``tag("edge", name)`` is an array of Booleans.
         """
-        return self._apply('TagEdges', {'name': name, 'edges': edges}, None, id)
+        return self._apply('TagEdges', {'name': name, 'edges': edges}, None, id, progress)
 
     def tag_faces(
         self,
@@ -3945,6 +4285,7 @@ class MeshOperations:
         faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Ron,
         *,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Tags the selected faces and removes the tag from all other faces. In later steps, ``sel.Tagged("rim")``
         selects the faces with the tag ``rim``.
@@ -3959,9 +4300,11 @@ class MeshOperations:
         :param faces: The faces to tag. An empty selection gives an empty tag. ``"All"``, ``"Boundary"``,
             ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change. Its ``tag("face", name)`` is an array of Booleans.
         """
-        return self._apply('TagFaces', {'name': name, 'faces': faces}, None, id)
+        return self._apply('TagFaces', {'name': name, 'faces': faces}, None, id, progress)
 
     def loop_subdivide(
         self,
@@ -3975,6 +4318,7 @@ class MeshOperations:
         to_limit: bool | Ron | None = None,
         faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Splits every triangle into four and smooths the surface, for a number of levels.
 
@@ -4022,9 +4366,11 @@ class MeshOperations:
             the ids of new elements, see ``subdivision::refine_faces``. ``"All"``, ``"Boundary"``,
             ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('LoopSubdivide', {'levels': levels, 'until': until, 'weights': weights, 'boundary': boundary, 'creasing': creasing, 'face_varying': face_varying, 'to_limit': to_limit, 'faces': faces}, None, id)
+        return self._apply('LoopSubdivide', {'levels': levels, 'until': until, 'weights': weights, 'boundary': boundary, 'creasing': creasing, 'face_varying': face_varying, 'to_limit': to_limit, 'faces': faces}, None, id, progress)
 
     def catmull_clark(
         self,
@@ -4037,6 +4383,7 @@ class MeshOperations:
         to_limit: bool | Ron | None = None,
         faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Splits every face into quads and smooths the surface, for a number of levels.
 
@@ -4082,9 +4429,11 @@ class MeshOperations:
             elements, see ``subdivision::refine_faces``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value
             of ``meshwright.sel``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('CatmullClark', {'levels': levels, 'until': until, 'boundary': boundary, 'creasing': creasing, 'face_varying': face_varying, 'to_limit': to_limit, 'faces': faces}, None, id)
+        return self._apply('CatmullClark', {'levels': levels, 'until': until, 'boundary': boundary, 'creasing': creasing, 'face_varying': face_varying, 'to_limit': to_limit, 'faces': faces}, None, id, progress)
 
     def midpoint(
         self,
@@ -4094,6 +4443,7 @@ class MeshOperations:
         into: Literal['Triangles', 'Quads'] | Ron | None = None,
         faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Splits every face into smaller faces without moving vertices, for a number of levels.
 
@@ -4123,9 +4473,11 @@ class MeshOperations:
             vertices on common edges as corners. For the ids of new elements, see ``subdivision::refine_faces``.
             ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('Midpoint', {'levels': levels, 'until': until, 'into': into, 'faces': faces}, None, id)
+        return self._apply('Midpoint', {'levels': levels, 'until': until, 'into': into, 'faces': faces}, None, id, progress)
 
     def butterfly(
         self,
@@ -4133,6 +4485,7 @@ class MeshOperations:
         levels: int | Ron | None = None,
         until: Choice | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Splits every triangle into four and smooths the surface without moving the old vertices, for a number of
         levels.
@@ -4154,9 +4507,11 @@ class MeshOperations:
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
                 than ``below``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('Butterfly', {'levels': levels, 'until': until}, None, id)
+        return self._apply('Butterfly', {'levels': levels, 'until': until}, None, id, progress)
 
     def sqrt3(
         self,
@@ -4164,6 +4519,7 @@ class MeshOperations:
         levels: int | Ron | None = None,
         until: Choice | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Splits every triangle into three, flips the old edges, and smooths the surface, for a number of levels.
 
@@ -4188,9 +4544,11 @@ class MeshOperations:
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
                 than ``below``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('Sqrt3', {'levels': levels, 'until': until}, None, id)
+        return self._apply('Sqrt3', {'levels': levels, 'until': until}, None, id, progress)
 
     def doo_sabin(
         self,
@@ -4198,6 +4556,7 @@ class MeshOperations:
         levels: int | Ron | None = None,
         until: Choice | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Replaces every edge and every vertex with a face and shrinks the old faces, for a number of levels.
 
@@ -4222,9 +4581,11 @@ class MeshOperations:
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
                 than ``below``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('DooSabin', {'levels': levels, 'until': until}, None, id)
+        return self._apply('DooSabin', {'levels': levels, 'until': until}, None, id, progress)
 
     def bisect(
         self,
@@ -4234,6 +4595,7 @@ class MeshOperations:
         keep: Literal['Both', 'Front', 'Back'] | Ron | None = None,
         tag: str | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Cuts meshes along a plane.
 
@@ -4262,9 +4624,11 @@ class MeshOperations:
         :param tag: The name of a tag for the edges on the plane. Edges that already have the tag keep it. If omitted,
             no edges are tagged.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('Bisect', {'point': point, 'normal': normal, 'keep': keep, 'tag': tag}, None, id)
+        return self._apply('Bisect', {'point': point, 'normal': normal, 'keep': keep, 'tag': tag}, None, id, progress)
 
     def symmetrize(
         self,
@@ -4273,6 +4637,7 @@ class MeshOperations:
         point: Sequence[float] | NDArray[Any] | Ron | None = None,
         from_: Literal['Front', 'Back'] | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Replaces one half of a mesh with the mirror image of the other half.
 
@@ -4294,9 +4659,11 @@ class MeshOperations:
             ``"Front"``: The side that the normal points to.
             ``"Back"``: The side that the normal points away from.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('Symmetrize', {'point': point, 'normal': normal, 'from': from_}, None, id)
+        return self._apply('Symmetrize', {'point': point, 'normal': normal, 'from': from_}, None, id, progress)
 
     def simplify(
         self,
@@ -4309,6 +4676,7 @@ class MeshOperations:
         intersections: Literal['Allow', 'Refuse'] | Ron | None = None,
         on_refusal: Literal['Error', 'Skip'] | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Removes triangles from meshes, and changes the surface as little as possible.
 
@@ -4360,9 +4728,11 @@ class MeshOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('Simplify', {'faces': faces, 'ratio': ratio, 'error': error, 'features': features, 'pin': pin, 'intersections': intersections, 'on_refusal': on_refusal}, None, id)
+        return self._apply('Simplify', {'faces': faces, 'ratio': ratio, 'error': error, 'features': features, 'pin': pin, 'intersections': intersections, 'on_refusal': on_refusal}, None, id, progress)
 
     def remesh(
         self,
@@ -4375,6 +4745,7 @@ class MeshOperations:
         passes: int | Ron | None = None,
         on_refusal: Literal['Error', 'Skip'] | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Replaces all triangles with nearly equilateral triangles of a given size, on the same surface.
 
@@ -4429,9 +4800,11 @@ class MeshOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('Remesh', {'length': length, 'curvature': curvature, 'features': features, 'error': error, 'pin': pin, 'passes': passes, 'on_refusal': on_refusal}, None, id)
+        return self._apply('Remesh', {'length': length, 'curvature': curvature, 'features': features, 'error': error, 'pin': pin, 'passes': passes, 'on_refusal': on_refusal}, None, id, progress)
 
     def smooth(
         self,
@@ -4443,6 +4816,7 @@ class MeshOperations:
         boundary: Literal['Fixed', 'Free'] | Ron | None = None,
         keep_volume: bool | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Moves vertices so that noise disappears.
 
@@ -4479,9 +4853,11 @@ class MeshOperations:
         :param keep_volume: Whether the moved vertices are finally shifted along their normals, all by the same
             distance, until the mesh has its original volume. The mesh must be closed. Defaults to ``False``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('Smooth', {'by': by, 'passes': passes, 'vertices': vertices, 'pin': pin, 'boundary': boundary, 'keep_volume': keep_volume}, None, id)
+        return self._apply('Smooth', {'by': by, 'passes': passes, 'vertices': vertices, 'pin': pin, 'boundary': boundary, 'keep_volume': keep_volume}, None, id, progress)
 
     def transfer(
         self,
@@ -4490,6 +4866,7 @@ class MeshOperations:
         *,
         within: float | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Copies attributes from the nearest points of another object.
 
@@ -4515,9 +4892,11 @@ class MeshOperations:
         :param attributes: The names of the attributes, for example ``["uv", "color"]``.
         :param within: The largest distance from the source, in scene units. If omitted, any distance.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('Transfer', {'from': from_, 'attributes': attributes, 'within': within}, None, id)
+        return self._apply('Transfer', {'from': from_, 'attributes': attributes, 'within': within}, None, id, progress)
 
     def move_vertices(
         self,
@@ -4526,6 +4905,7 @@ class MeshOperations:
         *,
         falloff: float | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Moves vertices.
 
@@ -4552,9 +4932,11 @@ class MeshOperations:
         :param falloff: The distance from the selected vertices at which the movement has fallen to 0, in scene units.
             If omitted, only the selected vertices move.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('MoveVertices', {'vertices': vertices, 'by': by, 'falloff': falloff}, None, id)
+        return self._apply('MoveVertices', {'vertices': vertices, 'by': by, 'falloff': falloff}, None, id, progress)
 
     def displace(
         self,
@@ -4563,6 +4945,7 @@ class MeshOperations:
         *,
         vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Moves vertices along their normals, by amounts that vary over the surface.
 
@@ -4586,9 +4969,11 @@ class MeshOperations:
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('Displace', {'by': by, 'distance': distance, 'vertices': vertices}, None, id)
+        return self._apply('Displace', {'by': by, 'distance': distance, 'vertices': vertices}, None, id, progress)
 
     def bend(
         self,
@@ -4601,6 +4986,7 @@ class MeshOperations:
         to: float | Ron | None = None,
         vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Bends a mesh, so that an axis becomes an arc of a circle.
 
@@ -4633,9 +5019,11 @@ class MeshOperations:
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('Bend', {'axis': axis, 'angle': angle, 'towards': towards, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, None, id)
+        return self._apply('Bend', {'axis': axis, 'angle': angle, 'towards': towards, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, None, id, progress)
 
     def twist(
         self,
@@ -4647,6 +5035,7 @@ class MeshOperations:
         to: float | Ron | None = None,
         vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Rotates vertices around an axis, by an angle that grows along the axis.
 
@@ -4673,9 +5062,11 @@ class MeshOperations:
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('Twist', {'axis': axis, 'angle': angle, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, None, id)
+        return self._apply('Twist', {'axis': axis, 'angle': angle, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, None, id, progress)
 
     def taper(
         self,
@@ -4687,6 +5078,7 @@ class MeshOperations:
         to: float | Ron | None = None,
         vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Scales vertices towards or away from an axis, by a factor that changes along the axis.
 
@@ -4712,9 +5104,11 @@ class MeshOperations:
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('Taper', {'axis': axis, 'factor': factor, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, None, id)
+        return self._apply('Taper', {'axis': axis, 'factor': factor, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, None, id, progress)
 
     def lattice(
         self,
@@ -4725,6 +5119,7 @@ class MeshOperations:
         max: Sequence[float] | NDArray[Any] | Ron | None = None,
         vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Deforms vertices with a box of control points.
 
@@ -4748,9 +5143,11 @@ class MeshOperations:
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('Lattice', {'size': size, 'moves': moves, 'min': min, 'max': max, 'vertices': vertices}, None, id)
+        return self._apply('Lattice', {'size': size, 'moves': moves, 'min': min, 'max': max, 'vertices': vertices}, None, id, progress)
 
     def project(
         self,
@@ -4761,6 +5158,7 @@ class MeshOperations:
         pin: Literal['All', 'Boundary', 'Isolated'] | Choice | Ron | None = None,
         distance: float | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Moves vertices onto the surface of another object (shrinkwrap).
 
@@ -4785,9 +5183,11 @@ class MeshOperations:
             value of ``meshwright.sel``.
         :param distance: The largest distance that a vertex moves, in scene units. If omitted, any distance.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('Project', {'onto': onto, 'along': along, 'vertices': vertices, 'pin': pin, 'distance': distance}, None, id)
+        return self._apply('Project', {'onto': onto, 'along': along, 'vertices': vertices, 'pin': pin, 'distance': distance}, None, id, progress)
 
     def measure(
         self,
@@ -4796,6 +5196,7 @@ class MeshOperations:
         name: str | Ron | None = None,
         missing: float | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Stores a quantity, such as a curvature or a distance, as an attribute of vertices or faces.
 
@@ -4838,10 +5239,12 @@ class MeshOperations:
             without faces. The report counts these elements. If omitted, 0 for quantities that can be negative, and -1
             for all others.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change. Its ``attributes["mean_curvature"]``, or another name, has
             the values as an array.
         """
-        return self._apply('Measure', {'of': of, 'name': name, 'missing': missing}, None, id)
+        return self._apply('Measure', {'of': of, 'name': name, 'missing': missing}, None, id, progress)
 
     def unwrap(
         self,
@@ -4854,6 +5257,7 @@ class MeshOperations:
         uv: str | Ron | None = None,
         on_refusal: Literal['Error', 'Skip'] | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Computes texture coordinates without overlaps.
 
@@ -4888,10 +5292,12 @@ class MeshOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change. Its ``attributes["uv"]`` has the coordinates of each corner,
             and ``corners`` its vertex.
         """
-        return self._apply('Unwrap', {'seams': seams, 'max_angle': max_angle, 'max_stretch': max_stretch, 'page': page, 'padding': padding, 'uv': uv, 'on_refusal': on_refusal}, None, id)
+        return self._apply('Unwrap', {'seams': seams, 'max_angle': max_angle, 'max_stretch': max_stretch, 'page': page, 'padding': padding, 'uv': uv, 'on_refusal': on_refusal}, None, id, progress)
 
     def pack_uvs(
         self,
@@ -4900,6 +5306,7 @@ class MeshOperations:
         page: int | Ron | None = None,
         padding: int | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Moves, rotates and scales charts of texture coordinates so that they do not overlap and have the same scale.
 
@@ -4917,9 +5324,11 @@ class MeshOperations:
         :param padding: The number of empty texels around each chart. The distance between two charts is at least twice
             this number. Defaults to 2.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('PackUvs', {'uv': uv, 'page': page, 'padding': padding}, None, id)
+        return self._apply('PackUvs', {'uv': uv, 'page': page, 'padding': padding}, None, id, progress)
 
     def picture(
         self,
@@ -4937,6 +5346,7 @@ class MeshOperations:
         turntable: Mapping[str, Any] | Ron | None = None,
         images: str | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Draws the scene into an image file.
 
@@ -4947,8 +5357,7 @@ class MeshOperations:
         Example: ``mesh.picture(path="a.png", size=(64, 48), highlight=sel.Edges(sel.Sharp(above=30)), color_by={"of":
         "Valence"}, style={"wireframe": {}})``
 
-        :param path: The file. The path is relative to the output folder. ``{name.stem}`` is replaced by the name,
-            without extension, of the file in the recipe parameter ``name``.
+        :param path: The file. A relative path is relative to the working directory.
         :param size: The width and the height of each view in pixels.
         :param camera: The camera.
             ``choice.Fit(..)``: Looks from a side, at the distance from which the picture shows the whole scene.
@@ -4999,9 +5408,11 @@ class MeshOperations:
         :param images: The folder of images that are not next to their model, relative to the folder of the recipe. If
             omitted, the folder of the recipe. Missing images are not drawn, and the report lists them.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('Picture', {'path': path, 'size': size, 'camera': camera, 'views': views, 'columns': columns, 'style': style, 'highlight': highlight, 'highlight_width': highlight_width, 'marks': marks, 'color_by': color_by, 'turntable': turntable, 'images': images}, None, id)
+        return self._apply('Picture', {'path': path, 'size': size, 'camera': camera, 'views': views, 'columns': columns, 'style': style, 'highlight': highlight, 'highlight_width': highlight_width, 'marks': marks, 'color_by': color_by, 'turntable': turntable, 'images': images}, None, id, progress)
 
     def curve_figure(
         self,
@@ -5016,6 +5427,7 @@ class MeshOperations:
         labels: bool | Ron | None = None,
         legend: bool | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Draws Bezier curves, and de Casteljau's construction of their points, into an image file.
 
@@ -5028,8 +5440,7 @@ class MeshOperations:
 
         Example: ``mesh.curve_figure(path="figure.svg", t=[0.25, 0.5])``
 
-        :param path: The file. The path is relative to the output folder. ``{name.stem}`` is replaced by the name,
-            without extension, of the file in the recipe parameter ``name``.
+        :param path: The file. A relative path is relative to the working directory.
         :param t: The parameters of the constructed points, from 0 (start) to 1 (end). If empty, only the curves and
             their control polygons are drawn.
         :param by_level: Whether each level of the algorithm has its own panel. If false, one panel shows all levels.
@@ -5043,9 +5454,11 @@ class MeshOperations:
         :param labels: Whether points are labeled with their names. Defaults to ``True``.
         :param legend: Whether there is a legend below the panels. Defaults to ``True``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('CurveFigure', {'path': path, 't': t, 'by_level': by_level, 'before': before, 'width': width, 'columns': columns, 'scale': scale, 'labels': labels, 'legend': legend}, None, id)
+        return self._apply('CurveFigure', {'path': path, 't': t, 'by_level': by_level, 'before': before, 'width': width, 'columns': columns, 'scale': scale, 'labels': labels, 'legend': legend}, None, id, progress)
 
     def half_edge_figure(
         self,
@@ -5055,6 +5468,7 @@ class MeshOperations:
         width: int | Ron | None = None,
         scale: int | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Draws the half-edges of some faces of a mesh into an image file.
 
@@ -5070,16 +5484,17 @@ class MeshOperations:
 
         Example: ``mesh.half_edge_figure(path="figure.svg")``
 
-        :param path: The file. The path is relative to the output folder. ``{name.stem}`` is replaced by the name,
-            without extension, of the file in the recipe parameter ``name``.
+        :param path: The file. A relative path is relative to the working directory.
         :param faces: The faces to draw, at most 200. Defaults to ``"All"``. ``"All"``, ``"Boundary"``,
             ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
         :param width: The width of the figure in SVG pixels. Defaults to ``640``.
         :param scale: The number of PNG pixels per SVG pixel. Has no effect on ``.svg`` files. Defaults to ``2``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('HalfEdgeFigure', {'path': path, 'faces': faces, 'width': width, 'scale': scale}, None, id)
+        return self._apply('HalfEdgeFigure', {'path': path, 'faces': faces, 'width': width, 'scale': scale}, None, id, progress)
 
     def uv_picture(
         self,
@@ -5091,6 +5506,7 @@ class MeshOperations:
         width: int | Ron | None = None,
         scale: int | Ron | None = None,
         id: str | None = None,
+        progress: bool | Progress | None = None,
     ) -> Self:
         """Draws the charts of the texture coordinates of a mesh into an image file.
 
@@ -5101,8 +5517,7 @@ class MeshOperations:
 
         Example: ``mesh.uv_picture(path="uv.svg")``
 
-        :param path: The file. The path is relative to the output folder. ``{name.stem}`` is replaced by the name,
-            without extension, of the file in the recipe parameter ``name``.
+        :param path: The file. A relative path is relative to the working directory.
         :param uv: The name of the texture coordinates. Defaults to ``uv``.
         :param fill: What the colors inside charts show. Defaults to ``"Charts"``.
             ``"None"``: Nothing.
@@ -5112,6 +5527,8 @@ class MeshOperations:
         :param width: The width of the figure in SVG pixels. Defaults to ``640``.
         :param scale: The number of PNG pixels per SVG pixel. Has no effect on ``.svg`` files. Defaults to ``2``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
+            for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
-        return self._apply('UvPicture', {'path': path, 'uv': uv, 'fill': fill, 'edges': edges, 'width': width, 'scale': scale}, None, id)
+        return self._apply('UvPicture', {'path': path, 'uv': uv, 'fill': fill, 'edges': edges, 'width': width, 'scale': scale}, None, id, progress)

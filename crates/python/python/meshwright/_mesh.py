@@ -348,7 +348,7 @@ class Mesh(MeshConversions, MeshOperations):
 
         >>> import meshwright as mw
         >>> box = mw.Scene().cube(name="box", size=2).mesh()
-        >>> box.area, box.volume, box.bounds.tolist()
+        >>> box.area, round(box.volume, 9), box.bounds.tolist()
         (24.0, 8.0, [[-1.0, -1.0, -1.0], [1.0, 1.0, 1.0]])
         """
         return self._core.area()

@@ -255,7 +255,7 @@ class Recipe(SceneOperations):
         """Checks the recipe without running a step: types, ranges, files, memory. Returns the warnings.
 
         >>> import meshwright as mw
-        >>> r = mw.recipe().cube(name="box").loop_subdivide(levels=mw.arg("levels", int, default=1))
+        >>> r = mw.recipe().icosahedron().loop_subdivide(levels=mw.arg("levels", int, default=1))
         >>> r.check(levels=2), r.check({"levels": 2})
         ((), ())
 

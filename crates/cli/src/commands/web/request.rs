@@ -34,7 +34,7 @@ pub(super) enum Refusal {
     /// The request is for another host. A page of another host could otherwise read the files, if its name is made to
     /// point to this computer.
     Host,
-    /// There is no such file in the folder.
+    /// The folder does not contain the file.
     NotFound,
     /// The request is neither `GET` nor `HEAD`.
     Method,

@@ -31,24 +31,40 @@ pub fn consume<P: Send, R: Send>(
     items: impl IntoIterator<Item = P>,
     work: impl Fn(usize, P) -> R + Sync,
 ) -> Vec<R> {
-    let slots = items.into_iter().map(|item| Mutex::new((Some(item), None)));
-    let slots: Vec<_> = slots.collect();
-    each(slots.len(), &|i| {
-        let mut slot = slots[i].lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(item) = slot.0.take() {
-            slot.1 = Some(work(i, item));
-        }
-    });
-    let results = slots
+    let items: Vec<_> = items
         .into_iter()
-        .map(|slot| slot.into_inner().unwrap_or_else(PoisonError::into_inner).1);
-    results.flatten().collect()
+        .map(|item| Mutex::new(Some(item)))
+        .collect();
+    map(items.len(), |i| {
+        let item = items[i]
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .take();
+        work(i, item.expect("each item is taken once"))
+    })
 }
 
 /// Returns the result of `make` for each number below `n`. Each call is scheduled separately; see [`collect`] for short
 /// calls.
 pub fn map<R: Send>(n: usize, make: impl Fn(usize) -> R + Sync) -> Vec<R> {
-    consume(0..n, |_, i| make(i))
+    results(n, &make)
+}
+
+// The functions that take a function pointer are compiled once for each type of results or elements, and not once for each
+// closure.
+
+fn results<R: Send>(n: usize, make: &(dyn Fn(usize) -> R + Sync)) -> Vec<R> {
+    let mut results: Vec<Mutex<Option<R>>> = Vec::with_capacity(n);
+    results.resize_with(n, Mutex::default);
+    each(n, &|i| {
+        let result = make(i);
+        *results[i].lock().unwrap_or_else(PoisonError::into_inner) = Some(result);
+    });
+    let mut made = Vec::with_capacity(n);
+    for result in results {
+        made.extend(result.into_inner().unwrap_or_else(PoisonError::into_inner));
+    }
+    made
 }
 
 /// Divides the numbers below `n` into blocks of [`BLOCK`] numbers, and returns the result of `make` for each block.
@@ -60,8 +76,16 @@ pub fn blocks<R: Send>(n: usize, make: impl Fn(Range<usize>) -> R + Sync) -> Vec
 
 /// Calls `work` with each block of `out` and the index of its first element.
 pub fn fill<T: Send>(out: &mut [T], work: impl Fn(usize, &mut [T]) + Sync) {
+    fill_blocks(out, &work);
+}
+
+fn fill_blocks<T: Send>(out: &mut [T], work: &(dyn Fn(usize, &mut [T]) + Sync)) {
     let block = block_for(out.len());
-    consume(out.chunks_mut(block), |i, out| work(i * block, out));
+    let blocks: Vec<_> = out.chunks_mut(block).map(Mutex::new).collect();
+    each(blocks.len(), &|i| {
+        let mut out = blocks[i].lock().unwrap_or_else(PoisonError::into_inner);
+        work(i * block, &mut out);
+    });
 }
 
 /// Returns the value for each number below `n`.

@@ -43,6 +43,7 @@
 
 mod attribute_name;
 mod cancellable_store;
+mod compiled_once;
 mod context;
 mod edit;
 mod error;

@@ -5,6 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{EdgeSelection, FaceSelection, Select, VertexSelection};
+use crate::compiled_once::compiled_once;
 use crate::{Context, OpError};
 
 /// A selection of vertices, edges or faces.
@@ -12,8 +13,8 @@ use crate::{Context, OpError};
 /// Recipes may omit the outer name if the selection exists for only one kind of element:
 /// `Sharp(above: 30)` is short for `Edges(Sharp(above: 30))`, but `Boundary` exists for all kinds.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
-#[serde(deny_unknown_fields)]
-#[schemars(extend("x-shorthand" = true))]
+#[serde(deny_unknown_fields, remote = "Self")]
+#[schemars(!remote, extend("x-shorthand" = true))]
 pub enum Elements {
     /// A selection of vertices.
     Vertices(VertexSelection),
@@ -22,6 +23,8 @@ pub enum Elements {
     /// A selection of faces.
     Faces(FaceSelection),
 }
+
+compiled_once!(Elements);
 
 /// The kind of elements of a selection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -22,7 +22,8 @@ macro_rules! selection {
         #[derive(
             Clone, Debug, Default, serde::Deserialize, schemars::JsonSchema, PartialEq, serde::Serialize,
         )]
-        #[serde(deny_unknown_fields)]
+        #[serde(deny_unknown_fields, remote = "Self")]
+        #[schemars(!remote)]
         pub enum $name {
             #[doc = concat!("All ", $elements, ".")]
             #[default]
@@ -99,6 +100,8 @@ macro_rules! selection {
                 of: Box<Self>,
             },
         }
+
+        $crate::compiled_once::compiled_once!($name);
 
         impl $name {
             fn shared(&self) -> super::Shared<'_, Self> {

@@ -1,0 +1,40 @@
+//! Serialization of large types that many crates use.
+
+/// Implements `Deserialize` and `Serialize` for a type whose derives have `#[serde(remote = "Self")]`.
+///
+/// Derived code is generic over the format, so it would be compiled again in every crate with a step that has a field of
+/// this type. These implementations call it through trait objects, and it is compiled once, in this crate.
+macro_rules! compiled_once {
+    ($name:ident) => {
+        impl<'de> serde::Deserialize<'de> for $name {
+            fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                fn derived<'de>(
+                    deserializer: &mut dyn erased_serde::Deserializer<'de>,
+                ) -> Result<$name, erased_serde::Error> {
+                    $name::deserialize(deserializer)
+                }
+                let mut erased = <dyn erased_serde::Deserializer>::erase(deserializer);
+                derived(&mut erased).map_err(serde::de::Error::custom)
+            }
+        }
+
+        impl serde::Serialize for $name {
+            fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                struct Derived<'a>(&'a $name);
+
+                impl serde::Serialize for Derived<'_> {
+                    fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+                        $name::serialize(self.0, to)
+                    }
+                }
+
+                fn erased<'a>(derived: &'a Derived<'_>) -> &'a dyn erased_serde::Serialize {
+                    derived
+                }
+                erased_serde::serialize(erased(&Derived(self)), serializer)
+            }
+        }
+    };
+}
+
+pub(crate) use compiled_once;

@@ -55,8 +55,9 @@ impl Connectivity {
 
 /// A half-edge mesh of polygons in space, with attributes.
 ///
-/// Two meshes are equal if all their arrays are equal, including the entries of dead elements.
-#[derive(Clone, Debug, Default)]
+/// Two meshes are equal if all their arrays are equal, including the entries of dead elements. A clone has no open
+/// journal: its edits are not recorded until [`Mesh::begin`] is called on the clone.
+#[derive(Debug, Default)]
 pub struct Mesh {
     pub(crate) connectivity: Connectivity,
     pub(crate) positions: Vec<DVec3>,
@@ -65,6 +66,18 @@ pub struct Mesh {
     pub(crate) dead: [Marks; 4],
     /// The values that edits have overwritten since [`Mesh::begin`]; `None` if no journal is open.
     pub(crate) journal: Option<Box<Journal>>,
+}
+
+impl Clone for Mesh {
+    fn clone(&self) -> Self {
+        Self {
+            connectivity: self.connectivity.clone(),
+            positions: self.positions.clone(),
+            attributes: self.attributes.clone(),
+            dead: self.dead.clone(),
+            journal: None,
+        }
+    }
 }
 
 impl PartialEq for Mesh {

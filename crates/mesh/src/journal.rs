@@ -49,7 +49,7 @@ impl Change {
 const JOURNAL_ALLOWANCE: usize = 1 << 16;
 
 /// The open journal of a mesh.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub(crate) struct Journal {
     recorded: Change,
     levels: Vec<Level>,

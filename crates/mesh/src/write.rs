@@ -113,33 +113,6 @@ impl Mesh {
         self.edit_values(to, |column| column.average(from, to));
     }
 
-    /// Returns, for each column of the domain of `from`, the weighted mean of the values of `from`.
-    pub(crate) fn means<I: Id>(&self, from: [I; 3], weights: [f64; 3]) -> Vec<Values> {
-        let mean = |column: &Column| {
-            column.values.blend(1, |_, add| {
-                for (i, weight) in from.into_iter().zip(weights) {
-                    add(i.index(), weight);
-                }
-            })
-        };
-        self.attributes.of(I::DOMAIN).iter().map(mean).collect()
-    }
-
-    /// Sets the interpolated values of element `to` to `means`, which has one value for each column. Columns whose rule
-    /// does not interpolate stay as they are.
-    pub(crate) fn set_means<I: Id>(&mut self, to: I, means: &[Values]) {
-        let columns = self.attributes.of_mut(I::DOMAIN);
-        if columns.is_empty() {
-            return;
-        }
-        if let Some(journal) = &mut self.journal {
-            journal.record_values(to, columns);
-        }
-        for (column, mean) in columns.iter_mut().zip(means) {
-            column.set_mean(to, mean);
-        }
-    }
-
     /// Merges the values of edge `from` into edge `to`, when the two become one edge. The larger number is kept, and a
     /// tag is set if either edge had it. Columns of other types stay as they are.
     pub(crate) fn merge_values(&mut self, from: EdgeId, to: EdgeId) {

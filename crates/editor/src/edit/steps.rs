@@ -202,22 +202,6 @@ impl Editor {
         self.edit(edits, label, Some(cursor))
     }
 
-    /// Sets a field around the operation of a step, such as `id`, `note` or `on`, as RON. `None` removes it.
-    ///
-    /// # Errors
-    ///
-    /// [`CommandError::Text`] if the step does not exist.
-    pub fn set_step_field(
-        &mut self,
-        step: usize,
-        field: &str,
-        value: Option<&str>,
-    ) -> Result<(), CommandError> {
-        let edits = text::set_envelope_field(self.text(), &self.outline, step, field, value)?;
-        let cursor = self.cursor();
-        self.edit(edits, "change a step", Some(cursor))
-    }
-
     /// Adds expectations at the end of the recipe.
     ///
     /// # Errors

@@ -102,43 +102,6 @@ impl Mesh {
         self.collapse(e, t, point)
     }
 
-    /// Collapses an edge like [`collapse_edge`](Self::collapse_edge), to any point. The interpolated attributes of the
-    /// vertex and of all its corners are the weighted means of the attributes at three `corners`. Use this function if
-    /// the point lies in a face beside the edge; on a seam, use [`collapse_edge_to`](Self::collapse_edge_to).
-    ///
-    /// # Errors
-    ///
-    /// Returns the errors of [`collapse_edge_to`](Self::collapse_edge_to). The weights are not checked.
-    ///
-    /// # Panics
-    ///
-    /// Panics if one of the `corners` does not exist.
-    pub fn collapse_edge_in(
-        &mut self,
-        e: EdgeId,
-        point: DVec3,
-        corners: [HalfEdgeId; 3],
-        weights: [f64; 3],
-    ) -> Result<VertexId, EditError> {
-        self.check_edge(e)?;
-        check_finite(&[point])?;
-        self.check_collapse(e)?;
-        self.drop_columns_by_rule();
-        let vertices = corners.map(|h| self.origin(h));
-        let of_vertex = self.means(vertices, weights);
-        let of_corners = self.means(corners, weights);
-        let v = self.collapse(e, 0.5, point)?;
-        self.set_means(v, &of_vertex);
-        if !of_corners.is_empty() {
-            let has_face = |h: &HalfEdgeId| self.face(*h).is_some();
-            let around: Vec<HalfEdgeId> = self.vertex_half_edges(v).filter(has_face).collect();
-            for h in around {
-                self.set_means(h, &of_corners);
-            }
-        }
-        Ok(v)
-    }
-
     fn collapse(&mut self, e: EdgeId, t: f64, point: DVec3) -> Result<VertexId, EditError> {
         check_finite(&[point])?;
         self.check_collapse(e)?;

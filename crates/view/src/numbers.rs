@@ -263,12 +263,16 @@ impl Quantity {
             Self::MinAngle => [0.0, if high > 60.0 { 90.0 } else { 60.0 }],
             Self::DihedralAngle => [0.0, if high > 90.0 { 180.0 } else { 90.0 }],
             Self::DistanceTo(_) => [0.0, high],
-            // The range is symmetric about 0 and excludes outliers, because curvatures are very large at a few sharp
-            // corners.
+            // The range is symmetric about 0 and excludes the largest values, because curvatures are very large at a
+            // few sharp corners and rims, which often have the most vertices. A flat surface with sharp edges is 0 almost
+            // everywhere; then fewer values are excluded.
             Self::MeanCurvature | Self::GaussianCurvature => {
-                let n_outliers = values.len() / 50;
-                let (low, high) = (values[n_outliers], values[values.len() - 1 - n_outliers]);
-                let max = low.abs().max(high.abs());
+                let max = [8, 50, usize::MAX].map(|part| {
+                    let n_outliers = values.len() / part;
+                    let (low, high) = (values[n_outliers], values[values.len() - 1 - n_outliers]);
+                    low.abs().max(high.abs())
+                });
+                let max = max.into_iter().find(|&max| max > 0.0).unwrap_or_default();
                 [-max, max]
             }
             _ => [low, high],

@@ -1,7 +1,7 @@
 //! The list of all keys.
 
 use editor::Action;
-use eframe::egui::{self, Context, Id, Key, RichText, Ui};
+use eframe::egui::{self, Context, Id, Key, RichText, ScrollArea, Ui};
 
 use crate::app::Parts;
 use crate::theme::Colors;
@@ -36,7 +36,9 @@ pub(crate) fn ui(ctx: &Context, parts: &mut Parts) {
         return;
     }
     let modal = egui::Modal::new(Id::unique("help")).frame(modal_frame(ctx)).show(ctx, |ui| {
-        ui.set_width(760.0);
+        // All keys fit on a window of 1280 x 800; on a smaller one, the list is scrolled below its title.
+        let window = ctx.content_rect().size();
+        ui.set_width((window.x - 120.0).clamp(300.0, 1000.0));
         ui.horizontal(|ui| {
             ui.heading("Keys and mouse");
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
@@ -47,22 +49,24 @@ pub(crate) fn ui(ctx: &Context, parts: &mut Parts) {
         });
         ui.label(RichText::new("Everything you do becomes a step of the recipe at the left. Undo goes back in the history of the recipe.").weak());
         ui.separator();
-        ui.columns(3, |columns| {
-            let mut lengths = [0; 3];
-            for (task, actions) in Action::groups() {
-                let rows = actions.map(|action| (parts.keys.of(action).join(", "), action.doc()));
-                let mut rows: Vec<(String, &str)> = rows.collect();
-                if task == LOOK {
-                    rows.extend(SIDES.map(|(keys, doc)| (keys.to_owned(), doc)));
+        ScrollArea::vertical().max_height(window.y - 180.0).show(ui, |ui| {
+            ui.columns(3, |columns| {
+                let mut lengths = [0; 3];
+                for (task, actions) in Action::groups() {
+                    let rows = actions.map(|action| (parts.keys.of(action).join(", "), action.doc()));
+                    let mut rows: Vec<(String, &str)> = rows.collect();
+                    if task == LOOK {
+                        rows.extend(SIDES.map(|(keys, doc)| (keys.to_owned(), doc)));
+                    }
+                    // Each task goes to the shortest column.
+                    let shortest = (0..3).min_by_key(|&i| lengths[i]).unwrap_or_default();
+                    lengths[shortest] += rows.len() + 2;
+                    group(&mut columns[shortest], task, &rows);
                 }
-                // Each task goes to the shortest column.
                 let shortest = (0..3).min_by_key(|&i| lengths[i]).unwrap_or_default();
-                lengths[shortest] += rows.len() + 2;
-                group(&mut columns[shortest], task, &rows);
-            }
-            let shortest = (0..3).min_by_key(|&i| lengths[i]).unwrap_or_default();
-            let mouse: Vec<_> = MOUSE.iter().map(|&(keys, doc)| (keys.to_owned(), doc)).collect();
-            group(&mut columns[shortest], "Mouse", &mouse);
+                let mouse: Vec<_> = MOUSE.iter().map(|&(keys, doc)| (keys.to_owned(), doc)).collect();
+                group(&mut columns[shortest], "Mouse", &mouse);
+            });
         });
     });
     if modal.should_close() || ctx.input(|input| input.key_pressed(Key::Escape)) {

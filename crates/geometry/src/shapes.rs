@@ -3,7 +3,7 @@
 //! All shapes except [`square`] are centered at the origin. Faces are counter-clockwise when seen from outside,
 //! and faces of flat shapes when seen from above (from +z).
 
-use mesh::{DVec3, Mesh, VertexId};
+use mesh::{DVec3, Mesh, VertexId, parallel};
 
 /// Makes the square from (0, 0, 0) to (1, 1, 0): one face.
 pub fn square() -> Mesh {
@@ -133,15 +133,13 @@ pub fn icosahedron() -> Mesh {
 /// Panics if the mesh would need more ids than there are.
 pub fn grid(columns: u32, rows: u32) -> Mesh {
     let corner = DVec3::new(f64::from(columns), f64::from(rows), 0.0) / 2.0;
-    let positions = (0..=rows)
-        .flat_map(|y| {
-            (0..=columns).map(move |x| DVec3::new(f64::from(x), f64::from(y), 0.0) - corner)
-        })
-        .collect();
-    let polygons: Vec<[u32; 4]> = (0..rows)
-        .flat_map(|y| (0..columns).map(move |x| y * (columns + 1) + x))
-        .map(|i| [i, i + 1, i + columns + 2, i + columns + 1])
-        .collect();
+    let positions = cells(columns + 1, rows + 1, |x, y| {
+        DVec3::new(f64::from(x), f64::from(y), 0.0) - corner
+    });
+    let polygons = cells(columns, rows, |x, y| {
+        let i = y * (columns + 1) + x;
+        [i, i + 1, i + columns + 2, i + columns + 1]
+    });
     of(positions, &polygons)
 }
 
@@ -157,21 +155,17 @@ pub fn torus(around: u32, across: u32, major: f64, minor: f64) -> Mesh {
         around >= 3 && across >= 3,
         "a torus needs at least 3 x 3 faces"
     );
-    let positions = (0..around)
-        .flat_map(|i| {
-            let (x, y) = turn(i, around);
-            (0..across).map(move |j| {
-                let (out, up) = turn(j, across);
-                let r = major + minor * out;
-                DVec3::new(r * x, r * y, minor * up)
-            })
-        })
-        .collect();
+    let across_turns: Vec<_> = (0..across).map(|j| turn(j, across)).collect();
+    let around_turns: Vec<_> = (0..around).map(|i| turn(i, around)).collect();
+    let positions = cells(across, around, |j, i| {
+        let ((out, up), (x, y)) = (across_turns[j as usize], around_turns[i as usize]);
+        let r = major + minor * out;
+        DVec3::new(r * x, r * y, minor * up)
+    });
     let id = |i: u32, j: u32| (i % around) * across + j % across;
-    let polygons: Vec<[u32; 4]> = (0..around)
-        .flat_map(|i| (0..across).map(move |j| (i, j)))
-        .map(|(i, j)| [id(i, j), id(i + 1, j), id(i + 1, j + 1), id(i, j + 1)])
-        .collect();
+    let polygons = cells(across, around, |j, i| {
+        [id(i, j), id(i + 1, j), id(i + 1, j + 1), id(i, j + 1)]
+    });
     of(positions, &polygons)
 }
 
@@ -250,6 +244,16 @@ pub fn fans(mesh: &Mesh) -> Mesh {
         triangles.extend(corners[1..].windows(2).map(|w| [corners[0], w[0], w[1]]));
     }
     of(mesh.positions().to_vec(), &triangles)
+}
+
+/// Returns a value for each cell of a table, row by row. `value` gets the column and the row.
+fn cells<T: Send>(columns: u32, rows: u32, value: impl Fn(u32, u32) -> T + Sync) -> Vec<T> {
+    let n = columns as usize * rows as usize;
+    let number = |i: usize| u32::try_from(i).expect("a column or a row");
+    parallel::collect(n, |i| {
+        let columns = columns as usize;
+        value(number(i % columns), number(i / columns))
+    })
 }
 
 /// Returns the point of the unit circle after `i` of `n` equal steps.

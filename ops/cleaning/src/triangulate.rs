@@ -88,6 +88,9 @@ impl MeshOperation for Triangulate {
         cx.advance("triangulate", 1, 3)?;
         let duplicates = duplicates::avoid(mesh, &mut cuts);
         cx.advance("triangulate", 2, 3)?;
+        // Half-edges have three ids and a source, and each of these arrays is extended once.
+        let n_half_edges = mesh.n_half_edges() + 2 * diagonals;
+        mesh::require_memory(24 * n_half_edges + 24 * mesh.n_vertices());
         mesh.replace(assemble::assemble(mesh, &cuts, diagonals));
 
         let fans = cuts.iter().filter(|cut| cut.is_fan()).count();

@@ -6,12 +6,14 @@ use crate::folder::Folder;
 #[test]
 fn every_run_ends_under_a_limit_of_memory() {
     let (mut succeeded, mut refused) = (0, 0);
-    for backtrace in [0, 1] {
-        for mebibytes in [80, 150, 250, 400, 4000] {
-            let folder = Folder::with_recipe(
-                r#"(recipe: 1, steps: [Torus(name: "a", around: 8, across: 6), Triangulate,
-                    LoopSubdivide(levels: 7), Save(path: "a.stl")])"#,
-            );
+    let subdivision =
+        r#"Torus(name: "a", around: 8, across: 6), Triangulate, LoopSubdivide(levels: 7)"#;
+    let simplification = "Torus(around: 500, across: 300), Triangulate, Simplify(ratio: 0.1)";
+    for steps in [subdivision, simplification] {
+        for (mebibytes, backtrace) in [(80, 0), (150, 1), (250, 0), (400, 1), (4000, 0)] {
+            let folder = Folder::with_recipe(&format!(
+                r#"(recipe: 1, steps: [{steps}, Save(path: "a.stl")])"#
+            ));
             let ended = folder.shell(&format!(
                 "ulimit -v $(({mebibytes} * 1024)); RUST_BACKTRACE={backtrace} \
                  exec timeout -s KILL 100 \"$0\" run recipe.ron --no-cache --threads 2"

@@ -199,6 +199,8 @@ pub fn build(
     corners: &[u32],
     non_manifold: NonManifold,
 ) -> Result<BuildOutput, BuildError> {
+    // The largest arrays that exist at the same time, beside the input.
+    crate::require_memory(32 * corners.len() + 16 * positions.len());
     let degenerate = check(&positions, offsets, corners)?;
     if degenerate.is_empty() {
         return build_clean(positions, offsets, corners, non_manifold);

@@ -8,6 +8,8 @@ macro_rules! compiled_once {
     ($name:ident) => {
         impl<'de> serde::Deserialize<'de> for $name {
             fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                // If this function were inlined into another crate, the derived code would be compiled there.
+                #[inline(never)]
                 fn derived<'de>(
                     deserializer: &mut dyn erased_serde::Deserializer<'de>,
                 ) -> Result<$name, erased_serde::Error> {
@@ -28,6 +30,7 @@ macro_rules! compiled_once {
                     }
                 }
 
+                #[inline(never)]
                 fn erased<'a>(derived: &'a Derived<'_>) -> &'a dyn erased_serde::Serialize {
                     derived
                 }

@@ -80,7 +80,7 @@ pub use plan::{
     MeshPlan, Plan, PlanContext, PlannedAttribute, PlannedGeometry, PlannedObject, Problem, Range,
 };
 pub use progress::{Cancelled, NoProgress, Progress};
-pub use registry::{DuplicateOperation, Entry, Registry, Step};
+pub use registry::{DuplicateOperation, Entry, Registry, Step, to_ron};
 pub use report::{Loss, ReadingChange, ReadingElements, Refused, Report};
 pub use selection::{
     EdgeSelection, ElementKind, Elements, FaceSelection, Region, Select, Selected, VertexSelection,

@@ -205,13 +205,17 @@ impl<T: Operation> Step for T {
     }
 
     fn canonical(&self) -> String {
-        canonical(self)
+        to_ron(self)
     }
 }
 
-/// Writes the parameters of an operation as RON. They are a trait object, so that the serializer is compiled only once.
-fn canonical(parameters: &dyn erased_serde::Serialize) -> String {
-    ron::to_string(parameters).expect("parameters are plain data")
+/// Returns a value as RON. The value is a trait object, so that the serializer is compiled only once.
+///
+/// # Panics
+///
+/// Panics if RON cannot represent the value. RON represents all parameters and expectations.
+pub fn to_ron(value: &dyn erased_serde::Serialize) -> String {
+    ron::to_string(value).expect("parameters are plain data")
 }
 
 /// Returns the loss of channels of animations. `before` is the number of channels before the step.

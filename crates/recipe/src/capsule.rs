@@ -73,10 +73,8 @@ fn line(step: &RecipeStep, value: &Value) -> String {
     if let Some(refused) = step.refused {
         fields.push(format!("refused: {refused:?}"));
     }
-    if step.on_loss != crate::OnLoss::default()
-        && let Ok(on_loss) = ron::to_string(&step.on_loss)
-    {
-        fields.push(format!("on_loss: {on_loss}"));
+    if step.on_loss != crate::OnLoss::default() {
+        fields.push(format!("on_loss: {}", op::to_ron(&step.on_loss)));
     }
     if fields.len() == 1 {
         return value.to_string();

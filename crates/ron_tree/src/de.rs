@@ -134,7 +134,7 @@ impl Value {
             ValueKind::Unit => &[],
             _ => return self.expected("named fields `(name: ..)`"),
         };
-        self.locate(visitor.visit_map(Pairs::new(fields, &[])))
+        self.locate(visitor.visit_map(Pairs::new(fields)))
     }
 }
 
@@ -277,7 +277,7 @@ impl<'de> Deserializer<'de> for &'de Value {
 
     fn deserialize_map<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value> {
         match &self.kind {
-            ValueKind::Map(entries) => self.locate(visitor.visit_map(Pairs::new(&[], entries))),
+            ValueKind::Map(entries) => self.locate(visitor.visit_map(Pairs::new(entries))),
             _ => self.expected("a map `{..}`"),
         }
     }
@@ -327,63 +327,70 @@ impl<'de> SeqAccess<'de> for &mut Items<'de> {
     }
 }
 
-/// The key of a map entry, or the name of a field or variant with its span.
-enum Key<'de> {
-    Name(&'de str, Span),
-    Value(&'de Value),
+/// Deserializes the name of a field or of a variant.
+fn read_name<'de, T: DeserializeSeed<'de>>(
+    name: &'de str,
+    span: Span,
+    seed: T,
+) -> Result<T::Value> {
+    let read = seed.deserialize(BorrowedStrDeserializer::<Error>::new(name));
+    read.map_err(|Error { message, .. }| Error {
+        message,
+        span: Some(span),
+    })
 }
 
-impl<'de> Key<'de> {
-    fn read<T: DeserializeSeed<'de>>(self, seed: T) -> Result<T::Value> {
-        match self {
-            Self::Value(key) => key.read(seed),
-            Self::Name(name, span) => {
-                let read = seed.deserialize(BorrowedStrDeserializer::<Error>::new(name));
-                read.map_err(|Error { message, .. }| Error {
-                    message,
-                    span: Some(span),
-                })
-            }
-        }
+/// A field of a struct, or an entry of a map. The two are different types, because a visitor of field names would
+/// otherwise be compiled for keys of any kind, which is the largest part of the code of a struct.
+trait Pair {
+    fn read_key<'de, K: DeserializeSeed<'de>>(&'de self, seed: K) -> Result<K::Value>;
+    fn value(&self) -> &Value;
+}
+
+impl Pair for Field {
+    fn read_key<'de, K: DeserializeSeed<'de>>(&'de self, seed: K) -> Result<K::Value> {
+        read_name(&self.name.text, self.name.span, seed)
+    }
+
+    fn value(&self) -> &Value {
+        &self.value
     }
 }
 
-/// The fields of a struct, or the entries of a map. One type is used for both, so that the deserialization of each
-/// parameter type is compiled only once.
-struct Pairs<'de> {
-    fields: slice::Iter<'de, Field>,
-    entries: slice::Iter<'de, (Value, Value)>,
+impl Pair for (Value, Value) {
+    fn read_key<'de, K: DeserializeSeed<'de>>(&'de self, seed: K) -> Result<K::Value> {
+        self.0.read(seed)
+    }
+
+    fn value(&self) -> &Value {
+        &self.1
+    }
+}
+
+/// The fields of a struct, or the entries of a map.
+struct Pairs<'de, P> {
+    pairs: slice::Iter<'de, P>,
     value: Option<&'de Value>,
 }
 
-impl<'de> Pairs<'de> {
-    fn new(fields: &'de [Field], entries: &'de [(Value, Value)]) -> Self {
+impl<'de, P> Pairs<'de, P> {
+    fn new(pairs: &'de [P]) -> Self {
         Self {
-            fields: fields.iter(),
-            entries: entries.iter(),
+            pairs: pairs.iter(),
             value: None,
         }
     }
-
-    fn next(&mut self) -> Option<(Key<'de>, &'de Value)> {
-        let field = self.fields.next();
-        let field = field.map(|f| (Key::Name(&f.name.text, f.name.span), &f.value));
-        field.or_else(|| {
-            let (key, value) = self.entries.next()?;
-            Some((Key::Value(key), value))
-        })
-    }
 }
 
-impl<'de> MapAccess<'de> for Pairs<'de> {
+impl<'de, P: Pair> MapAccess<'de> for Pairs<'de, P> {
     type Error = Error;
 
     fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Result<Option<K::Value>> {
-        let Some((key, value)) = self.next() else {
+        let Some(pair) = self.pairs.next() else {
             return Ok(None);
         };
-        self.value = Some(value);
-        key.read(seed).map(Some)
+        self.value = Some(pair.value());
+        pair.read_key(seed).map(Some)
     }
 
     fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Result<V::Value> {
@@ -391,7 +398,7 @@ impl<'de> MapAccess<'de> for Pairs<'de> {
     }
 
     fn size_hint(&self) -> Option<usize> {
-        Some(self.fields.len() + self.entries.len())
+        Some(self.pairs.len())
     }
 }
 
@@ -406,7 +413,7 @@ impl<'de> EnumAccess<'de> for Variant<'de> {
         let Some((name, span)) = self.0.name() else {
             return self.0.expected("a variant");
         };
-        let variant = Key::Name(name, span).read(seed)?;
+        let variant = read_name(name, span, seed)?;
         Ok((variant, self))
     }
 }

@@ -10,7 +10,7 @@ use mesh::Value;
 
 use super::document::get;
 use super::numbers::{kinds, number, one_of, type_name, whole};
-use super::views::Reader;
+use super::views::{Reader, Rows};
 use crate::fault::Fault;
 use mesh::parallel;
 
@@ -220,7 +220,7 @@ impl Reader<'_> {
     }
 
     /// Reads all elements from the view. If there is no view, all elements are `zero`. Then applies the sparse values.
-    fn elements<T: Copy + Zeroable + Send + Sync>(
+    fn elements<T: Copy + Zeroable + Send>(
         &self,
         index: usize,
         components: usize,
@@ -228,38 +228,76 @@ impl Reader<'_> {
         zero: T,
         value: impl Fn(&[u8]) -> T + Sync,
     ) -> Result<Vec<T>, Fault> {
+        let size = components * component.size();
+        self.blocks(index, size, zero, &|rows, elements| {
+            if rows.stride == size {
+                for (slot, bytes) in elements.iter_mut().zip(rows.bytes.chunks_exact(size)) {
+                    *slot = value(bytes);
+                }
+            } else {
+                for (slot, bytes) in elements.iter_mut().zip(rows.iter()) {
+                    *slot = value(bytes);
+                }
+            }
+        })
+    }
+
+    /// Reads all elements in blocks. `size` is the number of bytes of an element.
+    fn blocks<T: Copy + Zeroable + Send>(
+        &self,
+        index: usize,
+        size: usize,
+        zero: T,
+        read: &(dyn Fn(Rows, &mut [T]) + Sync),
+    ) -> Result<Vec<T>, Fault> {
+        let (rows, n) = self.dense(index, size, size_of::<T>())?;
+        let mut elements = match rows {
+            Some(rows) => {
+                let mut elements = mesh::zeroed::<T>(n);
+                parallel::fill(&mut elements, |first, elements| {
+                    read(rows.block(first, elements.len()), elements);
+                });
+                elements
+            }
+            None => vec![zero; n],
+        };
+        if let Some((targets, rows)) = self.sparse(index, size)? {
+            for (i, target) in targets.into_iter().enumerate() {
+                read(rows.block(i, 1), &mut elements[target as usize..][..1]);
+            }
+        }
+        Ok(elements)
+    }
+
+    /// Returns the rows of an accessor, unless it has no view, and the number of elements.
+    fn dense(
+        &self,
+        index: usize,
+        size: usize,
+        element_size: usize,
+    ) -> Result<(Option<Rows<'_>>, usize), Fault> {
         let accessor = &self.document.accessors[index];
         let here = format!("/accessors/{index}");
-        let size = components * component.size();
         let count = accessor.count.0;
-        let bytes = count.saturating_mul(size_of::<T>() as u64);
-        let mut elements = if let Some(view) = accessor.buffer_view {
+        let bytes = count.saturating_mul(element_size as u64);
+        let (rows, n) = if let Some(view) = accessor.buffer_view {
             let offset = accessor.byte_offset.unwrap_or_default().0;
             let rows = self.rows(view.value(), offset, count, size, &here)?;
-            self.budget.spend(bytes, &here)?;
-            let mut elements = mesh::zeroed::<T>(rows.count);
-            parallel::fill(&mut elements, |first, elements| {
-                let rows = rows.block(first, elements.len());
-                if rows.stride == size {
-                    for (slot, bytes) in elements.iter_mut().zip(rows.bytes.chunks_exact(size)) {
-                        *slot = value(bytes);
-                    }
-                } else {
-                    for (slot, bytes) in elements.iter_mut().zip(rows.iter()) {
-                        *slot = value(bytes);
-                    }
-                }
-            });
-            elements
+            (Some(rows), rows.count)
         } else {
-            let n = self.zeros(count, &here)?;
-            self.budget.spend(bytes, &here)?;
-            vec![zero; n]
+            (None, self.zeros(count, &here)?)
         };
+        self.budget.spend(bytes, &here)?;
+        Ok((rows, n))
+    }
+
+    /// Returns the indices of the elements that sparse values replace, and the rows of these values.
+    fn sparse(&self, index: usize, size: usize) -> Result<Option<(Vec<u32>, Rows<'_>)>, Fault> {
+        let accessor = &self.document.accessors[index];
         let Some(sparse) = &accessor.sparse else {
-            return Ok(elements);
+            return Ok(None);
         };
-        let here = format!("{here}/sparse");
+        let here = format!("/accessors/{index}/sparse");
         let Checked::Valid(IndexComponentType(index_type)) = sparse.indices.component_type else {
             let pointer = format!("{here}/indices/componentType");
             return Err(Fault::json(
@@ -273,18 +311,19 @@ impl Reader<'_> {
         let (indices, values) = (&sparse.indices, &sparse.values);
         let (at, view) = (format!("{here}/indices"), indices.buffer_view.value());
         let targets = self.rows(view, indices.byte_offset.0, n, index_type.size(), &at)?;
+        let targets: Vec<u32> = targets
+            .iter()
+            .map(|target| whole(target, index_type))
+            .collect();
+        let count = accessor.count.0;
+        if let Some(target) = targets.iter().find(|&&target| u64::from(target) >= count) {
+            let message =
+                format!("refers to element {target}, but the accessor has {count} elements");
+            return Err(Fault::json(at, message));
+        }
         let (at, view) = (format!("{here}/values"), values.buffer_view.value());
         let values = self.rows(view, values.byte_offset.0, n, size, &at)?;
-        for (target, bytes) in targets.iter().zip(values.iter()) {
-            let target = whole(target, index_type);
-            let slot = elements.get_mut(target as usize).ok_or_else(|| {
-                let message =
-                    format!("refers to element {target}, but the accessor has {count} elements");
-                Fault::json(format!("{here}/indices"), message)
-            })?;
-            *slot = value(bytes);
-        }
-        Ok(elements)
+        Ok(Some((targets, values)))
     }
 
     /// Checks the number of zeros that an accessor without data declares.

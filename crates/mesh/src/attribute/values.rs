@@ -2,7 +2,11 @@
 
 use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
 use glam::{DVec2, DVec3, DVec4};
-use rayon::prelude::*;
+
+use crate::parallel;
+
+/// In a list of sources: the new value is zero.
+const NO_SOURCE: usize = usize::MAX;
 
 /// The values of a column, one for each element of its domain.
 #[derive(Clone, Debug, PartialEq)]
@@ -100,18 +104,38 @@ impl Values {
     /// Returns `n` new values: value i is the old value at `source(i)`, or zero if `source(i)` is `None`.
     #[must_use]
     pub fn gather(&self, n: usize, source: impl Fn(usize) -> Option<usize> + Sync) -> Self {
+        self.gather_blocks(n, &|first, sources| {
+            for (i, slot) in (first..).zip(sources) {
+                *slot = source(i).unwrap_or(NO_SOURCE);
+            }
+        })
+    }
+
+    /// Gathers values of any type. This function is not generic, because it would be compiled again for each closure and
+    /// each type. `sources` is called with a number i and a list for the sources of value i and the values after it.
+    fn gather_blocks(&self, n: usize, sources: &(dyn Fn(usize, &mut [usize]) + Sync)) -> Self {
+        const SOURCES: usize = 128;
         fn run<T: Value>(
             old: &[T],
             n: usize,
-            source: impl Fn(usize) -> Option<usize> + Sync,
+            sources: &(dyn Fn(usize, &mut [usize]) + Sync),
         ) -> Values {
-            filled(n, |i, slot: &mut T| {
-                if let Some(s) = source(i) {
-                    *slot = old[s];
+            let mut new = crate::zeroed::<T>(n);
+            parallel::fill(&mut new, |first, new| {
+                let mut from = [0; SOURCES];
+                for (first, new) in (first..).step_by(SOURCES).zip(new.chunks_mut(SOURCES)) {
+                    let from = &mut from[..new.len()];
+                    sources(first, from);
+                    for (slot, &source) in new.iter_mut().zip(&*from) {
+                        if source != NO_SOURCE {
+                            *slot = old[source];
+                        }
+                    }
                 }
-            })
+            });
+            Value::wrap(new)
         }
-        each!(self, v => run(v, n, source))
+        each!(self, v => run(v, n, sources))
     }
 
     /// Returns `n` new values, each a weighted sum of old values: `weights(i, add)` calls
@@ -124,15 +148,27 @@ impl Values {
         n: usize,
         weights: impl Fn(usize, &mut dyn FnMut(usize, f64)) + Sync,
     ) -> Self {
+        self.blend_by(n, &weights)
+    }
+
+    fn blend_by(
+        &self,
+        n: usize,
+        weights: &(dyn Fn(usize, &mut dyn FnMut(usize, f64)) + Sync),
+    ) -> Self {
         fn sum<T: Value>(
             old: &[T],
             n: usize,
             add: impl Fn(T, T, f64) -> T + Sync,
-            weights: impl Fn(usize, &mut dyn FnMut(usize, f64)) + Sync,
+            weights: &(dyn Fn(usize, &mut dyn FnMut(usize, f64)) + Sync),
         ) -> Values {
-            filled(n, |i, slot: &mut T| {
-                weights(i, &mut |source, w| *slot = add(*slot, old[source], w));
-            })
+            let mut new = crate::zeroed::<T>(n);
+            parallel::fill(&mut new, |first, new| {
+                for (i, slot) in (first..).zip(new) {
+                    weights(i, &mut |source, w| *slot = add(*slot, old[source], w));
+                }
+            });
+            Value::wrap(new)
         }
         match self {
             Self::Float(v) => sum(v, n, |a, b, w| a + b * w, weights),
@@ -264,16 +300,6 @@ pub(crate) fn pop_value<T: CheckedBitPattern>(bytes: &mut Vec<u8>) -> T {
     let value = bytemuck::checked::pod_read_unaligned(&bytes[start..]);
     bytes.truncate(start);
     value
-}
-
-/// Creates `n` zero values and calls `fill` for each in parallel.
-fn filled<T: Value>(n: usize, fill: impl Fn(usize, &mut T) + Sync) -> Values {
-    let mut new = crate::zeroed(n);
-    new.par_iter_mut()
-        .with_min_len(crate::parallel::BLOCK)
-        .enumerate()
-        .for_each(|(i, slot)| fill(i, slot));
-    T::wrap(new)
 }
 
 #[cfg(test)]

@@ -493,7 +493,7 @@ impl Expectation {
 
 impl fmt::Display for Expectation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&ron::to_string(self).map_err(|_| fmt::Error)?)
+        f.write_str(&op::to_ron(self))
     }
 }
 

@@ -77,9 +77,9 @@ if [ -n "${compiler:-}" ]; then
         --export=__wasm_init_tls --export=__tls_size --export=__tls_align --export=__tls_base; do
         flags+=" -C link-arg=$argument"
     done
-    CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS=$flags CARGO_INCREMENTAL=0 CARGO_TARGET_DIR=$work/target-threads \
+    CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS=$flags CARGO_INCREMENTAL=0 CARGO_TARGET_DIR=$work/target \
         "${compiler[@]}" "${build[@]}"
-    package "$work/target-threads" "$work/threads"
+    package "$work/target" "$work/threads"
 else
     rm -rf "$work/threads"
     echo "the engine with threads is not built: the sources of the standard library are missing"

@@ -10,8 +10,8 @@ macro_rules! compiled_once {
             fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
                 // If this function were inlined into another crate, the derived code would be compiled there.
                 #[inline(never)]
-                fn derived<'de>(
-                    deserializer: &mut dyn erased_serde::Deserializer<'de>,
+                fn derived(
+                    deserializer: &mut dyn erased_serde::Deserializer<'_>,
                 ) -> Result<$name, erased_serde::Error> {
                     $name::deserialize(deserializer)
                 }

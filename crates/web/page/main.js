@@ -47,10 +47,19 @@ const reveal = (range, line) => {
 };
 const steps = new Steps(reveal);
 const parameters = new Parameters(() => (trusted ? runSoon() : checkSoon()), choosePreset);
-const stage = new Stage(engine, editor);
+/// Adds a step and runs the recipe, if its first run was allowed.
+function addStep(step) {
+    if (!editor.addStep(step)) {
+        notify("The recipe has no list of steps.");
+    } else if (trusted) {
+        run();
+    }
+}
+
+const stage = new Stage(engine, editor, addStep);
 const files = new Files(engine, {
     openRecipe: (text, name) => openRecipe(text, { title: name, trust: true }),
-    addStep: (step) => editor.addStep(step) || notify("The recipe has no list of steps."),
+    addStep,
     changed: () => { lastRun = undefined; check(true); },
 });
 const checkSoon = debounced(100, () => check());

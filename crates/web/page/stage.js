@@ -12,6 +12,7 @@ const MAX_FACES_WITH_EDGES = 5000;
 export class Stage {
     #engine;
     #editor;
+    #addStep;
     #picks = [];
     /// Whether the visitor has switched the edges of this recipe on or off.
     #choseEdges = false;
@@ -21,9 +22,11 @@ export class Stage {
     /// `null` if the browser has no WebGL.
     view = null;
 
-    constructor(engine, editor) {
+    /// `addStep` adds a step to the recipe and runs it.
+    constructor(engine, editor, addStep) {
         this.#engine = engine;
         this.#editor = editor;
+        this.#addStep = addStep;
         try {
             this.view = new View(byId("canvas"));
             this.view.onPick = (pick, more) => this.#pick(pick, more);
@@ -190,7 +193,7 @@ export class Stage {
         });
         byId("insert").addEventListener("click", () => this.#editor.insert(selection(this.#picks)));
         byId("add-step").addEventListener("change", ({ target }) => {
-            this.#editor.addStep(target.value);
+            this.#addStep(target.value);
             target.value = "";
         });
     }

@@ -21,9 +21,9 @@ export class View {
     #controls;
     #scene = new THREE.Scene();
     #content = new THREE.Group();
-    /// The meshes of the run before.
+    /// The meshes of the previous run.
     #earlier = new THREE.Group();
-    /// How much of the width shows the meshes of the run before, from 0 to 1.
+    /// How much of the width shows the meshes of the previous run, from 0 to 1.
     #split = 0;
     #marks = new Marks();
     #center = new THREE.Vector3();
@@ -103,12 +103,12 @@ export class View {
         return this.#style.up;
     }
 
-    /// Whether there are meshes of the run before, which `compare` shows.
+    /// Whether there are meshes of the previous run, which `compare` shows.
     get hasEarlier() {
         return this.#earlier.children.length > 0;
     }
 
-    /// Shows the meshes of the run before on the left, on this fraction of the width.
+    /// Shows the meshes of the previous run on the left, on this fraction of the width.
     compare(fraction) {
         this.#split = fraction;
         this.#draw();
@@ -229,7 +229,7 @@ export class View {
         return distance;
     }
 
-    /// Makes the meshes those of the run before, and moves them. Drops them if `keep` is false.
+    /// Makes the meshes those of the previous run, and moves them. Drops them if `keep` is false.
     #retire(keep, move) {
         for (const child of this.#earlier.children.flatMap((object) => object.children)) {
             child.geometry.dispose();

@@ -5,6 +5,9 @@ use glam::{DVec2, DVec3, DVec4};
 
 use crate::parallel;
 
+/// Calls a function with each source of a value and its weight.
+type Weights<'a> = dyn Fn(usize, &mut dyn FnMut(usize, f64)) + Sync + 'a;
+
 /// In a list of sources: the new value is zero.
 const NO_SOURCE: usize = usize::MAX;
 
@@ -151,16 +154,12 @@ impl Values {
         self.blend_by(n, &weights)
     }
 
-    fn blend_by(
-        &self,
-        n: usize,
-        weights: &(dyn Fn(usize, &mut dyn FnMut(usize, f64)) + Sync),
-    ) -> Self {
+    fn blend_by(&self, n: usize, weights: &Weights) -> Self {
         fn sum<T: Value>(
             old: &[T],
             n: usize,
             add: impl Fn(T, T, f64) -> T + Sync,
-            weights: &(dyn Fn(usize, &mut dyn FnMut(usize, f64)) + Sync),
+            weights: &Weights,
         ) -> Values {
             let mut new = crate::zeroed::<T>(n);
             parallel::fill(&mut new, |first, new| {

@@ -8,7 +8,6 @@
 //! is compared by address, or the [`Look`] changes. The picture depends only on the scene, the look, the overlay and
 //! the camera, not on earlier pictures.
 
-mod colors;
 mod device;
 mod geometry;
 mod grid;

@@ -9,7 +9,6 @@ use render::{Color, ColorMap, Image, Shading};
 use scene::Scene;
 use wgpu::util::DeviceExt;
 
-use super::colors::narrow_range;
 use super::geometry::{LineInstance, SurfaceLook, narrow};
 use super::grid::grid;
 use super::objects::{self, Key, Uploaded};
@@ -163,8 +162,7 @@ impl Painter {
                     None
                 }
             });
-        let mut colorings = numbers.unwrap_or_default();
-        narrow_range(&mut colorings, look);
+        let colorings = numbers.unwrap_or_default();
         self.legend = colorings
             .first()
             .zip(look.color_by.as_ref())

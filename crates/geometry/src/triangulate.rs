@@ -15,6 +15,8 @@
 //! Corner indices start at 0 and follow the face. The corners of a triangle are in ascending order, so a triangle
 //! has the orientation of the face.
 
+mod pieces;
+
 use earcut::{Earcut, Refiner};
 
 use mesh::{DVec3, FaceId, Mesh};
@@ -99,8 +101,9 @@ impl Cut {
 /// therefore cut at that corner.
 ///
 /// A larger face is projected along its normal and cut by ear clipping (Held, "FIST: Fast Industrial-Strength
-/// Triangulation of Polygons", 2001, as implemented by the crate `earcut`). Then diagonals are flipped until
-/// the result is a constrained Delaunay triangulation. Ear clipping can fail if the area of the face is zero or
+/// Triangulation of Polygons", 2001, as implemented by the crate `earcut`). A face with more than 4096 corners is
+/// first cut into pieces, so that the time does not grow with the square of the number of corners. Then diagonals are
+/// flipped until the result is a constrained Delaunay triangulation. Ear clipping can fail if the area of the face is zero or
 /// its sides cross. It is not tried for faces with more than ten million corners. In these cases the face
 /// becomes a fan around its vertex with the lowest id.
 ///
@@ -126,6 +129,12 @@ pub struct Cutter {
 impl Cutter {
     /// Returns how `f` is cut.
     pub fn cut(&mut self, mesh: &Mesh, f: FaceId) -> Cut {
+        self.cut_unless(&|| false, mesh, f)
+    }
+
+    /// Returns how `f` is cut. For a face with many corners, `is_cancelled` is called many times. When it returns `true`,
+    /// the cut is not completed: the face becomes a fan.
+    pub fn cut_unless(&mut self, is_cancelled: &dyn Fn() -> bool, mesh: &Mesh, f: FaceId) -> Cut {
         self.points.clear();
         let corners = mesh.face_vertices(f).map(|v| mesh.position(v));
         self.points.extend(corners);
@@ -138,7 +147,7 @@ impl Cutter {
         if let [a, b, c, d] = self.points[..] {
             return quad([a, b, c, d], lowest);
         }
-        let ears = self.ears();
+        let ears = self.ears(is_cancelled);
         let is_fan = ears.is_none();
         let triangles = ears.unwrap_or_else(|| fan(n, lowest));
         Cut::Polygon { triangles, is_fan }
@@ -170,7 +179,7 @@ impl Cutter {
 
     /// Triangulates the points by ear clipping, and improves the triangles by flips. Returns `None` if the result is
     /// not a triangulation.
-    fn ears(&mut self) -> Option<Vec<Triangle>> {
+    fn ears(&mut self, is_cancelled: &dyn Fn() -> bool) -> Option<Vec<Triangle>> {
         let n = self.points.len();
         let normal = doubled_area(&self.points).try_normalize()?;
         if n > MAX_CORNERS || doubled_area(&self.points).length() < TOLERANCE {
@@ -180,14 +189,11 @@ impl Cutter {
         self.flat.clear();
         let project = |p: &DVec3| [x.dot(*p), y.dot(*p)];
         self.flat.extend(self.points.iter().map(project));
-        self.earcut.earcut_slice(&self.flat, &[], &mut self.indices);
-        let mut triangles = to_triangles(&self.indices);
-        // Ear clipping skips corners that are collinear with their neighbors or coincide with them.
-        insert_skipped_corners(n, &mut triangles);
-        triangles.sort_unstable();
-        if !is_triangulation(n, &triangles) {
-            return None;
-        }
+        let mut clip = |points: &[[f64; 2]]| {
+            let is_stopped = points.len() >= pieces::LEAST && is_cancelled();
+            (!is_stopped).then(|| clip(&mut self.earcut, &mut self.indices, points))?
+        };
+        let triangles = pieces::triangulate(&self.flat, &mut clip).or_else(|| clip(&self.flat))?;
         self.indices.clear();
         self.indices.extend(triangles.iter().flatten());
         self.refiner.refine(&mut self.indices, &self.flat);
@@ -199,6 +205,20 @@ impl Cutter {
             triangles
         })
     }
+}
+
+/// Cuts a polygon by ear clipping. Returns `None` if the result is not a triangulation.
+fn clip(
+    earcut: &mut Earcut<f64>,
+    indices: &mut Vec<u32>,
+    points: &[[f64; 2]],
+) -> Option<Vec<Triangle>> {
+    earcut.earcut_slice(points, &[], indices);
+    let mut triangles = to_triangles(indices);
+    // Ear clipping skips corners that are collinear with their neighbors or coincide with them.
+    insert_skipped_corners(points.len(), &mut triangles);
+    triangles.sort_unstable();
+    is_triangulation(points.len(), &triangles).then_some(triangles)
 }
 
 /// Translates the points so that the first is at the origin, and scales them by a power of two to a size near
@@ -387,6 +407,14 @@ mod tests {
                 assert!(is_triangulation(n, &fan(n, corner)), "{n} {corner}");
             }
         }
+    }
+
+    #[test]
+    fn a_large_face_becomes_a_fan_when_its_cut_is_cancelled() {
+        let prism = crate::shapes::cylinder(5000, true);
+        let f = prism.faces().find(|&f| prism.degree(f) == 5000).unwrap();
+        let is_fan = |stop: bool| Cutter::default().cut_unless(&|| stop, &prism, f).is_fan();
+        assert!(is_fan(true) && !is_fan(false));
     }
 
     #[test]

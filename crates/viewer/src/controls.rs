@@ -210,7 +210,9 @@ fn color_combo(ui: &mut Ui, view: &mut ViewPane, scene: &scene::Scene) {
         .map_or_else(|| "Material".to_owned(), Quantity::title);
     let combo = ComboBox::from_id_salt("color")
         .selected_text(name)
-        .width(64.0)
+        // A long name would move the controls after it to a second row. The legend shows it whole.
+        .truncate()
+        .width(90.0)
         .show_ui(ui, |ui| {
             if ui.selectable_label(current.is_none(), "Material").clicked() {
                 view.look.set_color_by(None);

@@ -50,6 +50,8 @@ pub(crate) fn ui(ctx: &Context, parts: &mut Parts) {
         ui.label(RichText::new("Everything you do becomes a step of the recipe at the left. Undo goes back in the history of the recipe.").weak());
         ui.separator();
         ScrollArea::vertical().min_scrolled_height(window.y - 180.0).max_height(window.y - 180.0).show(ui, |ui| {
+            // Rows are as high as their text, not as buttons.
+            ui.spacing_mut().interact_size.y = 0.0;
             ui.columns(3, |columns| {
                 let mut lengths = [0; 3];
                 for (task, actions) in Action::groups() {

@@ -49,6 +49,8 @@ impl MeshOperation for Triangulate {
     const NAME: &'static str = "Triangulate";
     const SUMMARY: &'static str = "Cut polygons into triangles";
     const EXAMPLE: &'static str = "Triangulate()";
+    // Version 2 cuts faces with more than 4096 corners into pieces first, which can change equally good diagonals.
+    const VERSION: u32 = 2;
     const WORDS: &'static [&'static str] = &["triangles", "ears"];
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
@@ -67,13 +69,16 @@ impl MeshOperation for Triangulate {
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
         let chosen = self.faces.mask(mesh, cx)?;
         cx.advance("triangulate", 0, 3)?;
+        let progress = cx.progress();
+        let is_cancelled = || !progress.advance("triangulate", 0, 3);
         let mut cuts = parallel::collect(mesh.n_faces(), |_| Cut::Keep);
         parallel::fill(&mut cuts, |first, cuts| {
             let mut cutter = Cutter::default();
             for (f, cut) in (first..).zip(cuts).filter(|(f, _)| chosen[*f]) {
-                *cut = cutter.cut(mesh, mesh::FaceId::new(f));
+                *cut = cutter.cut_unless(&is_cancelled, mesh, mesh::FaceId::new(f));
             }
         });
+        cx.advance("triangulate", 0, 3)?;
         let diagonals = parallel::sum(cuts.len(), |f| cuts[f].n_diagonals());
         let n_cut = parallel::count(cuts.len(), |f| cuts[f].n_diagonals() > 0);
         if n_cut == 0 {

@@ -50,6 +50,8 @@ pub(super) fn note_left_out(json: &Value, document: &Document, notes: &mut Notes
         let unused = flags.iter().filter(|is_used| !**is_used).count();
         notes.left_out(code, unused, None, what);
     }
+    let what = "textures without a supported image left out";
+    notes.left_out("textures", used.without_image, None, what);
     for (name, count) in morph_attributes(json, &used.meshes) {
         let what = format!("attributes {name} of morph targets left out");
         notes.left_out("morphs", count, None, what);
@@ -66,6 +68,8 @@ struct Used {
     textures: Vec<bool>,
     samplers: Vec<bool>,
     images: Vec<bool>,
+    /// The number of textures of materials whose image does not exist or has an unknown kind.
+    without_image: usize,
 }
 
 impl Used {
@@ -77,6 +81,7 @@ impl Used {
             textures: vec![false; document.textures.len()],
             samplers: vec![false; document.samplers.len()],
             images: vec![false; document.images.len()],
+            without_image: 0,
         };
         let mut open = document.roots.clone();
         while let Some(i) = open.pop() {
@@ -112,10 +117,15 @@ impl Used {
 
     fn material(&mut self, document: &Document, material: &MaterialJson) {
         for info in material.textures() {
+            let Some(texture) = document.textures.get(info.index) else {
+                continue;
+            };
+            let image = texture.source.and_then(|image| document.images.get(image));
+            let is_read = image.is_some_and(|i| i.uri.is_some() || i.buffer_view.is_some());
+            self.without_image += usize::from(!is_read);
             if !mark(&mut self.textures, info.index) {
                 continue;
             }
-            let texture = &document.textures[info.index];
             // The sampler of a texture without an image is not read.
             let Some(image) = texture.source else {
                 continue;

@@ -16,15 +16,12 @@ use super::surface::{
 use super::views::Reader;
 use crate::fault::Fault;
 use crate::images::sniffed;
-use crate::note::Notes;
 
 /// Converts materials, and loads each image once.
 pub(super) struct Materials<'a> {
     reader: &'a Reader<'a>,
     images: BTreeMap<usize, Option<Image>>,
     known: BTreeMap<usize, Material>,
-    /// The number of textures without an image.
-    without_picture: usize,
 }
 
 impl<'a> Materials<'a> {
@@ -33,14 +30,7 @@ impl<'a> Materials<'a> {
             reader,
             images: BTreeMap::new(),
             known: BTreeMap::new(),
-            without_picture: 0,
         }
-    }
-
-    /// Adds notes about the content that was left out.
-    pub(super) fn note(self, notes: &mut Notes) {
-        let what = "textures without a supported image left out";
-        notes.left_out("textures", self.without_picture, None, what);
     }
 
     /// Converts material `i` of the document. The material must exist.
@@ -120,7 +110,6 @@ impl<'a> Materials<'a> {
             }
         };
         let Some(image) = image else {
-            self.without_picture += 1;
             return Ok(None);
         };
         let sampler = match texture.sampler {

@@ -117,7 +117,6 @@ fn objects(
             shape,
         });
     }
-    materials.note(notes);
     let mut graph = std::mem::take(&mut nodes.graph);
     if placements == Placements::Keep {
         rig.fill(&nodes, &mut graph, notes)?;

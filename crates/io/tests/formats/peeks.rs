@@ -302,9 +302,10 @@ fn images_of_gltf() {
         "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 }, "material": 1 }] }],
         "materials": [
             { "name": "unused", "pbrMetallicRoughness": { "baseColorTexture": { "index": 1 } } },
-            { "pbrMetallicRoughness": { "baseColorTexture": { "index": 0 } }, "normalTexture": { "index": 1 } }
+            { "pbrMetallicRoughness": { "baseColorTexture": { "index": 0 } }, "normalTexture": { "index": 1 },
+                "emissiveTexture": { "index": 2 } }
         ],
-        "textures": [{ "source": 0 }, { "source": 1 }],
+        "textures": [{ "source": 0 }, { "source": 1 }, {}],
         "images": [{ "uri": "red%20one.png" }, { "uri": "here.png" }],
         "accessors": [{ "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
             "min": [0, 0, 0], "max": [1, 1, 0] }],
@@ -323,6 +324,7 @@ fn images_of_gltf() {
         ],
         &[
             "1 material left out: not used by any triangles",
+            "1 texture without a supported image left out",
             "image `red one.png` left out: the file ./red one.png does not exist",
         ],
     );

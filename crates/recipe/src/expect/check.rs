@@ -160,9 +160,9 @@ impl Expectation {
                 let what = format_args!("selected {}", of.kind().word());
                 check_count(what, found, [*eq, *min, *max])
             }
-            Self::Valence { of, min, max } => subject.each_selected(of, |mesh, v| {
+            Self::Valence { of, eq, min, max } => subject.each_selected(of, |mesh, v| {
                 let valence = mesh.valence(v) as u64;
-                check_count(format_args!("edges at {v}"), valence, [None, *min, *max])
+                check_count(format_args!("edges at {v}"), valence, [*eq, *min, *max])
             }),
             Self::DihedralAngle {
                 of,

@@ -160,6 +160,8 @@ pub enum Expectation {
         /// Which vertices.
         #[serde(default)]
         of: VertexSelection,
+        /// Each valence is exactly this number.
+        eq: Option<u64>,
         /// The lowest valence is at least this number.
         min: Option<u64>,
         /// The highest valence is at most this number.
@@ -433,14 +435,14 @@ impl Expectation {
             | Self::BoundaryLoops { eq, min, max }
             | Self::SelfIntersections { eq, min, max }
             | Self::UvOverlap { eq, min, max, .. }
-            | Self::Count { eq, min, max, .. } => eq.is_none() && min.is_none() && max.is_none(),
+            | Self::Count { eq, min, max, .. }
+            | Self::Valence { eq, min, max, .. } => eq.is_none() && min.is_none() && max.is_none(),
             Self::EulerCharacteristic { eq, min, max } | Self::Genus { eq, min, max } => {
                 eq.is_none() && min.is_none() && max.is_none()
             }
             Self::Area { eq, min, max, .. } | Self::Volume { eq, min, max, .. } => {
                 eq.is_none() && min.is_none() && max.is_none()
             }
-            Self::Valence { min, max, .. } => min.is_none() && max.is_none(),
             Self::DihedralAngle {
                 min, max, reaches, ..
             } => min.is_none() && max.is_none() && reaches.is_none(),

@@ -67,8 +67,9 @@ impl CheckedMesh<'_> {
                 Elements::Edges(of) => self.locations(self.selected(of)),
                 Elements::Faces(of) => self.locations(self.selected(of)),
             },
-            Expectation::Valence { of, min, max } => {
-                self.out_of_bounds(of, |v| Some(mesh.valence(v) as u64), *min, *max)
+            Expectation::Valence { of, eq, min, max } => {
+                let valence = |v| Some(mesh.valence(v) as u64);
+                self.out_of_bounds(of, valence, eq.or(*min), eq.or(*max))
             }
             Expectation::DihedralAngle { of, min, max, .. } => {
                 let angle = |e| mesh.dihedral_angle(e).map(f64::to_degrees);

@@ -130,21 +130,44 @@ impl Checker {
     }
 }
 
-/// Returns the help text for a value that should be a struct, but seems to be the value of its first field.
+impl Schema<'_> {
+    /// Whether a number, a text, or the name of a variant is of the type of this schema.
+    pub(super) fn accepts(&self, value: &Value) -> bool {
+        let choice = self.choice();
+        match (&value.kind, &choice) {
+            (ValueKind::Name(name), Some(choice)) => choice.has(name),
+            (ValueKind::Call(call), Some(choice)) => choice.content(&call.name.text).is_some(),
+            (ValueKind::Number(_), None) => {
+                matches!(self.types()[..], ["integer" | "number", ..])
+            }
+            (ValueKind::String(_), None) => matches!(self.types()[..], ["string", ..]),
+            _ => false,
+        }
+    }
+}
+
+/// Returns the help text for a value that should be a struct, but seems to be the value of one of its fields: of the
+/// first that accepts the value.
 fn with_field_name(value: &Value, schema: &Schema) -> Option<String> {
-    let field = schema
-        .required()
-        .next()
-        .or_else(|| schema.fields().next())?;
     let inner = value.single().unwrap_or(value);
-    let text = match &inner.kind {
-        ValueKind::Name(name) => name.to_string(),
-        ValueKind::Call(call) => format!("{}(..)", call.name.text),
-        ValueKind::Number(Number::Int(text) | Number::Float(text)) => text.to_string(),
-        ValueKind::String(_) => "\"..\"".to_owned(),
-        _ => return None,
+    let accepts = |field: &&str| {
+        let field = schema.field(field);
+        field.is_some_and(|field| field.accepts(inner))
     };
-    Some(format!("write `({field}: {text})`"))
+    let all = || schema.required().chain(schema.fields());
+    let field = all().find(accepts).or_else(|| all().next())?;
+    Some(format!("write `({field}: {})`", short(inner)?))
+}
+
+/// Returns a value as it is quoted in a help text. `None` for a value that would be too long.
+pub(super) fn short(value: &Value) -> Option<String> {
+    match &value.kind {
+        ValueKind::Name(name) => Some(name.to_string()),
+        ValueKind::Call(call) => Some(format!("{}(..)", call.name.text)),
+        ValueKind::Number(Number::Int(text) | Number::Float(text)) => Some(text.to_string()),
+        ValueKind::String(_) => Some("\"..\"".to_owned()),
+        _ => None,
+    }
 }
 
 /// Describes how to write the missing fields, such as `` `count:` with a whole number ``.

@@ -1,5 +1,6 @@
 //! Checks values whose schema has alternatives, such as variants of enumerations.
 
+use super::fields::short;
 use super::schema::{Choice, Schema};
 use super::{Checker, Place, counted, listed, nearest, selections};
 use ron_tree::{Call, Span, Value, ValueKind};
@@ -80,7 +81,8 @@ impl Checker {
             }
             _ => {
                 let names: Vec<&str> = choice.names().collect();
-                let help = (names.len() > 6).then(|| variants_help(&names)).flatten();
+                let help = with_variant_name(value, choice)
+                    .or_else(|| (names.len() > 6).then(|| variants_help(&names)).flatten());
                 self.mismatch(value, &schema.expectation(), place, help);
             }
         }
@@ -180,4 +182,21 @@ fn variants_help(names: &[&str]) -> Option<String> {
     (1..=24)
         .contains(&names.len())
         .then(|| format!("variants: {}", listed(names.iter().copied())))
+}
+
+/// Returns the help text for a value that should be a variant, but is the content of one or two variants.
+fn with_variant_name(value: &Value, choice: &Choice) -> Option<String> {
+    let accepts = |name: &&str| {
+        let content = choice.content(name);
+        content.is_some_and(|content| content.is_one_value() && content.accepts(value))
+    };
+    let text = short(value)?;
+    let written = choice
+        .names()
+        .filter(accepts)
+        .map(|name| format!("`{name}({text})`"));
+    let written: Vec<String> = written.collect();
+    (1..=2)
+        .contains(&written.len())
+        .then(|| format!("write {}", written.join(" or ")))
 }

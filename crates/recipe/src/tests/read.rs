@@ -305,6 +305,27 @@ fn an_expectation_after_a_step_names_its_id() {
 }
 
 #[test]
+fn a_value_without_its_name_gets_help_with_the_name_that_takes_it() {
+    for (that, place, message, help) in [
+        (
+            "Valence(6)",
+            "(6)",
+            "expected named fields `(of: ..)` for `Valence`, found a value in brackets `(..)`",
+            "write `(eq: 6)`",
+        ),
+        (
+            "DistanceTo(other: \"b.obj\", below: 1)",
+            "\"b.obj\"",
+            "expected one of `Object`, `File` for `other`, found the string \"b.obj\"",
+            "write `Object(\"..\")` or `File(\"..\")`",
+        ),
+    ] {
+        let text = format!("(recipe: 1, steps: [Sheet(columns: 1)], expect: [{that}])");
+        has_one_error(&text, place, message, help);
+    }
+}
+
+#[test]
 fn on_is_only_for_expectations_about_objects() {
     for that in [
         "Digest(\"0a\")",

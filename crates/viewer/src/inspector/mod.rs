@@ -2,6 +2,7 @@
 
 mod draft;
 mod picked;
+mod pictures;
 
 use editor::{FieldKind, Panel, SelectionText};
 use eframe::egui::{self, Button, CollapsingHeader, Label, Margin, RichText, ScrollArea, Ui};
@@ -78,6 +79,7 @@ fn about(ui: &mut Ui, panel: &Panel) {
     CollapsingHeader::new(title)
         .id_salt(("about", &panel.operation))
         .show(ui, |ui| {
+            pictures::ui(ui, &panel.operation);
             weak(ui, &panel.doc);
             let example = RichText::new(&panel.example).monospace().size(11.5);
             ui.add(Label::new(example).wrap());

@@ -57,6 +57,8 @@ fn only_the_selected_elements_out_of_bounds_are_named() {
     );
     assert_eq!(places(&two, "EdgeLength(min: 1.5, max: 2.1)").len(), 6);
     assert_eq!(names(&cube(), "Valence(min: 4)").len(), 8);
+    assert_eq!(names(&cube(), "Valence(eq: 4)").len(), 8);
+    assert!(names(&cube(), "Valence(eq: 3)").is_empty());
     assert_eq!(names(&cube(), "Valence(of: Vertices([3]), max: 2)"), ["v3"]);
     assert_eq!(names(&cube(), "DihedralAngle(max: 80)").len(), 12);
     assert_eq!(

@@ -17,8 +17,12 @@ fn main() -> io::Result<()> {
     for folder in folders {
         let picture = |name: &str| {
             let path = folder.join(name);
-            let bytes = path.exists().then(|| format!("include_bytes!({path:?})"));
-            bytes.map_or("None".to_owned(), |bytes| format!("Some({bytes})"))
+            let text = path.to_string_lossy();
+            if path.exists() {
+                format!("Some(include_bytes!({text:?}))")
+            } else {
+                "None".to_owned()
+            }
         };
         if let Some(name) = folder.file_name().filter(|_| folder.is_dir()) {
             let name = camel_case(&name.to_string_lossy());

@@ -63,8 +63,8 @@ pub(crate) enum Command {
     Edit(EditArgs),
     /// Serve the page for browsers on this computer
     ///
-    /// Sends the headers with which browsers let the page use threads. Other computers cannot connect. Ctrl-C ends the
-    /// server.
+    /// The server sends the headers that a browser requires before a page can use threads. Other computers cannot
+    /// connect. Ctrl-C ends the server.
     Web(WebArgs),
     /// Write a small commented recipe to start from
     New(NewArgs),

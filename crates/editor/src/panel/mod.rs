@@ -20,7 +20,7 @@ pub struct Panel {
     pub operation: String,
     /// One line: what the operation does.
     pub summary: String,
-    /// The description of the operation.
+    /// The description of the operation. Each paragraph is one line.
     pub doc: String,
     /// An example step.
     pub example: String,
@@ -77,10 +77,7 @@ impl Panel {
         Self {
             operation: entry.name.to_owned(),
             summary: entry.summary.to_owned(),
-            doc: schema["description"]
-                .as_str()
-                .unwrap_or_default()
-                .to_owned(),
+            doc: unwrapped(schema["description"].as_str().unwrap_or_default()),
             example: entry.example.to_owned(),
             fields: panel_fields(&schema, &schema, 0),
             order: Vec::new(),
@@ -175,6 +172,20 @@ impl Panel {
             .map_or(name, |field| &field.name)
             .to_owned()
     }
+}
+
+/// Joins the lines of each paragraph. Items of lists and rows of tables stay lines of their own.
+fn unwrapped(doc: &str) -> String {
+    let mut text = String::with_capacity(doc.len());
+    for line in doc.lines() {
+        let starts_anew = line.is_empty() || line.starts_with(['-', '|']);
+        if !text.is_empty() {
+            let continues = !starts_anew && !text.ends_with('\n');
+            text.push(if continues { ' ' } else { '\n' });
+        }
+        text += line.trim_start();
+    }
+    text
 }
 
 /// Returns the fields of a struct. References in its schema are looked up in `root`.

@@ -12,6 +12,18 @@ fn plain(text: &str) -> String {
 }
 
 #[test]
+fn each_paragraph_and_item_of_a_description_is_one_line() {
+    let registry = ops_all::registry();
+    let panel = Panel::new(registry.get("CollapseEdges").unwrap());
+    let lines: Vec<&str> = panel.doc.lines().collect();
+    let starts = |line: &&&str| line.starts_with("- `");
+    assert!(lines.iter().filter(starts).count() >= 5, "{}", panel.doc);
+    let ends_well = |line: &str| line.is_empty() || line.ends_with(['.', ':', ';', ',']);
+    assert!(lines.iter().all(|line| ends_well(line)), "{}", panel.doc);
+    assert!(lines.contains(&""));
+}
+
+#[test]
 fn every_example_is_written_by_the_panel_of_its_operation() {
     let registry = ops_all::registry();
     for entry in registry.entries() {

@@ -198,6 +198,23 @@ fn the_palette_finds_operations_and_the_help_lists_all_keys() {
 }
 
 #[test]
+fn the_panel_shows_pictures_of_an_example_before_and_after_the_operation() {
+    let Some(mut window) = Window::open("cube.ron", CUBE) else {
+        return;
+    };
+    window.press(Key::L);
+    let pictures = |window: &Window| {
+        let of = ["before", "after"].map(|when| format!("An example {when} LoopSubdivide"));
+        of.map(|label| window.harness.query_by_label(&label).is_some())
+    };
+    assert_eq!(pictures(&window), [false, false]);
+    window.harness.get_by_label("About this operation").click();
+    window.settle();
+    assert_eq!(pictures(&window), [true, true]);
+    window.check_picture("about");
+}
+
+#[test]
 fn an_unsaved_text_is_offered_after_a_crash() {
     let Some(mut window) = Window::open("cube.ron", CUBE) else {
         return;

@@ -545,6 +545,7 @@ def UvStretch(*, max: float | Arg | Ron, uv: str | Arg | Ron | None = None) -> C
 def Valence(
     *,
     of: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
+    eq: int | Arg | Ron | None = None,
     min: int | Arg | Ron | None = None,
     max: int | Arg | Ron | None = None,
 ) -> Choice:
@@ -554,10 +555,11 @@ def Valence(
 
     :param of: Which vertices. Defaults to ``"All"``. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of
         ``meshwright.sel``.
+    :param eq: Each valence is exactly this number.
     :param min: The lowest valence is at least this number.
     :param max: The highest valence is at most this number.
     """
-    return Choice('Valence', of=of, min=min, max=max)
+    return Choice('Valence', of=of, eq=eq, min=min, max=max)
 
 
 

@@ -201,7 +201,7 @@ mod tests {
 
     #[test]
     fn polygons_that_are_slow_to_clip_are_cut_into_small_pieces() {
-        for polygon in [comb(20_000), spiral(20_000), star(20_000)] {
+        for polygon in [comb(20_000), spiral(20_000)] {
             let mut sizes = Vec::new();
             triangulate(&polygon, &mut |points| {
                 sizes.push(points.len());

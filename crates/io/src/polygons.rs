@@ -5,8 +5,8 @@ use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 use glam::{DAffine3, DMat3, DVec3, DVec4};
 use mesh::{
-    Attribute, Attributes, BuildError, BuildOutput, CORNER_NORMAL, CORNER_TANGENT, Column, Domain,
-    Elements, HalfEdgeId, Id, Mesh, Rule, Value, Values, VertexId, joint_name, morph_name,
+    Attribute, Attributes, BuildError, BuildOutput, CORNER_TANGENT, Column, Domain, Elements,
+    HalfEdgeId, Id, Mesh, Rule, Value, Values, VertexId, joint_name, morph_name,
 };
 use scene::{Material, Pose, transform_tangent};
 
@@ -113,13 +113,13 @@ impl Polygons {
         self.change_tangents(|_| &to_scene.matrix3);
         let normal_matrix = to_scene.matrix3.inverse().transpose();
         let mut lost = 0;
-        if let Some(mut column) = self.attributes.remove(Domain::Corner, CORNER_NORMAL.name) {
+        for mut column in self.take_normals() {
             if normal_matrix.is_finite() {
                 let normals = DVec3::of_mut(&mut column.values).unwrap_or_default();
                 parallel::change(normals, |n| *n = (normal_matrix * *n).normalize_or_zero());
                 self.attributes.insert(Domain::Corner, column);
             } else {
-                lost = column.values.len();
+                lost += column.values.len();
             }
         }
         if to_scene.matrix3.determinant() < 0.0 {
@@ -159,7 +159,7 @@ impl Polygons {
         }
         self.change_deltas(|v| maps[v].matrix3);
         self.change_tangents(|v| &maps[v].matrix3);
-        if let Some(mut column) = self.attributes.remove(Domain::Corner, CORNER_NORMAL.name) {
+        for mut column in self.take_normals() {
             let normals = DVec3::of_mut(&mut column.values).unwrap_or_default();
             for (n, &v) in normals.iter_mut().zip(&self.corners) {
                 let DMat3 {
@@ -179,6 +179,15 @@ impl Polygons {
             self.reverse_faces();
         }
         0
+    }
+
+    /// Removes and returns the attributes of corners that have normals.
+    fn take_normals(&mut self) -> Vec<Column> {
+        let columns = self.attributes.of(Domain::Corner).iter();
+        let normals = columns.filter(|column| column.rule == Rule::Normal);
+        let names: Vec<String> = normals.map(|column| column.name.clone()).collect();
+        let take = |name: &String| self.attributes.remove(Domain::Corner, name);
+        names.iter().filter_map(take).collect()
     }
 
     /// Transforms the tangents of corners by the matrix of each vertex.

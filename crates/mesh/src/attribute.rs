@@ -18,7 +18,9 @@ use glam::{DVec2, DVec3, DVec4};
 use crate::{EdgeId, FaceId, HalfEdgeId, VertexId};
 
 pub use columns::{Attributes, Column, Sources};
-pub use rig::{joint_name, joint_of, morph_name, morph_of};
+pub use rig::{
+    is_rig_name, joint_name, joint_of, morph_name, morph_normal_name, morph_normal_of, morph_of,
+};
 pub(crate) use values::pop_value;
 pub use values::{Value, Values};
 

@@ -1,6 +1,6 @@
 //! Names of attributes that a step creates.
 
-use mesh::{joint_of, morph_of};
+use mesh::is_rig_name;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -51,8 +51,7 @@ impl TryFrom<String> for AttributeName {
         if name.is_empty() || name.trim() != name {
             return Err(BadAttributeName::Whitespace(name));
         }
-        let is_rig = joint_of(&name).is_some() || morph_of(&name).is_some();
-        if is_rig || RESERVED.contains(&name.as_str()) {
+        if is_rig_name(&name) || RESERVED.contains(&name.as_str()) {
             return Err(BadAttributeName::Reserved(name));
         }
         Ok(Self(name))
@@ -71,7 +70,16 @@ mod tests {
 
     #[test]
     fn invalid_and_reserved_names_are_refused() {
-        for name in ["", " a", "a ", "uv", "normal", "joint:3", "morph:0"] {
+        for name in [
+            "",
+            " a",
+            "a ",
+            "uv",
+            "normal",
+            "joint:3",
+            "morph:0",
+            "morph_normal:0",
+        ] {
             assert!(AttributeName::try_from(name.to_owned()).is_err(), "{name}");
         }
         let name: AttributeName = ron::from_str("\"wall\"").unwrap();

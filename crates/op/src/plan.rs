@@ -6,7 +6,8 @@ use std::sync::Arc;
 
 use indexmap::IndexSet;
 use mesh::{
-    CORNER_NORMAL, CORNER_TANGENT, DVec3, Domain, Rule, TANGENT, VERTEX_NORMAL, joint_of, morph_of,
+    CORNER_NORMAL, CORNER_TANGENT, DVec3, Domain, Rule, TANGENT, VERTEX_NORMAL, joint_of,
+    morph_normal_of, morph_of,
 };
 use scene::{Geometry, Graph, Scene};
 
@@ -256,12 +257,13 @@ impl MeshPlan {
             .retain(|a| a.domain != domain || a.name != name);
     }
 
-    /// Removes the normals and tangents of vertices and corners. Operations that change the shape use this method.
+    /// Removes the normals and tangents of vertices and corners, and the normals of morph targets. Operations that change the shape use this method.
     pub fn drop_normals(&mut self) {
         self.drop_attribute(Domain::Vertex, VERTEX_NORMAL.name);
         self.drop_attribute(Domain::Corner, CORNER_NORMAL.name);
         self.drop_attribute(Domain::Vertex, TANGENT.name);
         self.drop_attribute(Domain::Corner, CORNER_TANGENT.name);
+        (self.attributes).retain(|attribute| morph_normal_of(&attribute.name).is_none());
     }
 
     /// Whether one of the known attributes has weights of joints.

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use engine::BUDGET;
-use mesh::{DVec3, Domain, Elements, Mesh, VertexId, joint_of, morph_of};
+use mesh::{DVec3, Domain, Elements, Mesh, VertexId, is_rig_name};
 use mesh_io::{Note, NoteKind};
 use op::ErrorLocation;
 use ops_pictures::Picture;
@@ -234,7 +234,7 @@ fn mesh_facts(object: &Object, mesh: &Mesh, placed: &Placed) -> Vec<(&'static st
         degrees.resize(degrees.len().max(n + 1), 0);
         degrees[n] += 1;
     }
-    let is_listed = |name: &str| joint_of(name).is_none() && morph_of(name).is_none();
+    let is_listed = |name: &str| !is_rig_name(name);
     let attributes: Vec<String> = mesh
         .attributes()
         .iter()

@@ -1,12 +1,12 @@
 //! Reads the attributes that deform a mesh: joints with weights, and morph targets.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use glam::{DVec3, DVec4};
 use gltf_json::accessor::{ComponentType, Type};
 use gltf_json::mesh::{Primitive, Semantic};
 use gltf_json::validation::Checked;
-use mesh::{Column, Rule, Value, joint_name, morph_name};
+use mesh::{Column, Rule, Value, joint_name, morph_name, morph_normal_name};
 
 use super::rig_json::Deformers;
 use super::views::Reader;
@@ -62,12 +62,8 @@ pub(super) fn joints(
         reader.expect_components(weights, &weights_at, &numbers)?;
         let read = |accessor, at: &str| {
             let values = reader.vectors(accessor, at, &[Type::Vec4], 0.0, DVec4::from_array)?;
-            if values.len() == n {
-                return Ok(values);
-            }
-            let found = values.len();
-            let message = format!("expected {n} elements, one for each position, found {found}");
-            Err(Fault::json(at.to_owned(), message))
+            expect_len(values.len(), n, at)?;
+            Ok(values)
         };
         let (joints, weights) = (read(joints, &joints_at)?, read(weights, &weights_at)?);
         sets.push((joints, weights, joints_at, weights_at));
@@ -188,12 +184,7 @@ pub(super) fn morphs(
                 let kinds = &[Type::Vec3];
                 let deltas =
                     reader.vectors(accessor.value(), &at, kinds, 0.0, DVec3::from_array)?;
-                if deltas.len() != n {
-                    let found = deltas.len();
-                    let message =
-                        format!("expected {n} elements, one for each position, found {found}");
-                    return Err(Fault::json(at, message));
-                }
+                expect_len(deltas.len(), n, &at)?;
                 deltas
             }
         };
@@ -208,4 +199,75 @@ pub(super) fn morphs(
         repairs.change(deformers.targets - targets.len(), what);
     }
     Ok(columns)
+}
+
+/// Whether the primitive has normals.
+pub(super) fn has_normals(primitive: &Primitive) -> bool {
+    let normals = Checked::Valid(Semantic::Normals);
+    primitive.attributes.contains_key(&normals)
+}
+
+/// Returns the morph targets that change the normals of a primitive, in ascending order.
+pub(super) fn targets_with_normals(primitives: &[Primitive]) -> Vec<usize> {
+    let primitives = primitives.iter().filter(|primitive| has_normals(primitive));
+    let targets = primitives.flat_map(|primitive| primitive.targets.iter().flatten().enumerate());
+    let changed = targets.filter(|(_, target)| target.normals.is_some());
+    let changed: BTreeSet<usize> = changed.map(|(t, _)| t).collect();
+    changed.into_iter().collect()
+}
+
+/// Reads the normals that each of the given morph targets gives with the weight 1, into one column of `n` values for
+/// each target. `normals` are the normals of the primitive. Without normals, the columns are zero.
+///
+/// # Errors
+///
+/// If an accessor is invalid. `here` is the location of the primitive.
+pub(super) fn morph_normals(
+    reader: &Reader,
+    primitive: &Primitive,
+    wanted: &[usize],
+    normals: Option<&[DVec3]>,
+    n: usize,
+    here: &str,
+    repairs: &mut Repairs,
+) -> Result<Vec<Column>, Fault> {
+    let targets = primitive.targets.as_deref().unwrap_or_default();
+    let bytes = (wanted.len() as u64).saturating_mul(n as u64 * 24);
+    if !reader.budget.has(2 * bytes) {
+        let what = format!(
+            "normals of morph targets left out: they need {bytes} bytes, too many for a file of this size"
+        );
+        *repairs.left_out.entry(what).or_default() += wanted.len();
+        return Ok(Vec::new());
+    }
+    let mut columns = Vec::new();
+    for &t in wanted {
+        let mut values = normals.map_or_else(|| mesh::zeroed(n), <[DVec3]>::to_vec);
+        let accessor = targets.get(t).and_then(|target| target.normals.as_ref());
+        if let Some(accessor) = accessor.filter(|_| normals.is_some()) {
+            let at = format!("{here}/targets/{t}/NORMAL");
+            let kinds = &[Type::Vec3];
+            let deltas = reader.vectors(accessor.value(), &at, kinds, 0.0, DVec3::from_array)?;
+            expect_len(deltas.len(), n, &at)?;
+            let sums = values.iter_mut().zip(deltas);
+            sums.for_each(|(normal, delta)| *normal += delta);
+        }
+        columns.push(Column {
+            name: morph_normal_name(t),
+            rule: Rule::Normal,
+            values: DVec3::wrap(values),
+        });
+    }
+    Ok(columns)
+}
+
+/// # Errors
+///
+/// If an accessor does not have an element for each position.
+pub(super) fn expect_len(found: usize, n: usize, at: &str) -> Result<(), Fault> {
+    if found == n {
+        return Ok(());
+    }
+    let message = format!("expected {n} elements, one for each position, found {found}");
+    Err(Fault::json(at.to_owned(), message))
 }

@@ -150,12 +150,13 @@ fn morph_attributes(json: &Value, is_used: &[bool]) -> BTreeMap<String, usize> {
     let mut counts = BTreeMap::new();
     let meshes = elements(json, "meshes").zip(is_used);
     let meshes = meshes.filter_map(|(mesh, is_used)| is_used.then_some(mesh));
-    let targets = meshes
-        .flat_map(|mesh| elements(mesh, "primitives"))
-        .flat_map(|primitive| elements(primitive, "targets"));
-    for name in targets.filter_map(Value::as_object).flat_map(|t| t.keys()) {
-        if name != "POSITION" {
-            *counts.entry(name.clone()).or_default() += 1;
+    for primitive in meshes.flat_map(|mesh| elements(mesh, "primitives")) {
+        let has_normals = primitive.pointer("/attributes/NORMAL").is_some();
+        let targets = elements(primitive, "targets").filter_map(Value::as_object);
+        for name in targets.flat_map(|target| target.keys()) {
+            if name != "POSITION" && !(name == "NORMAL" && has_normals) {
+                *counts.entry(name.clone()).or_default() += 1;
+            }
         }
     }
     counts

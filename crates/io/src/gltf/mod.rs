@@ -27,8 +27,9 @@
 //! | `_NAME` | vertex or corner attribute `NAME` with 1 to 4 floats |
 //! | `JOINTS_n`, `WEIGHTS_n` | for each used joint, a vertex attribute [`mesh::joint_name`] with its weights |
 //! | `POSITION` of a morph target | a vertex attribute [`mesh::morph_name`] with the deltas |
+//! | `NORMAL` of a morph target | a vertex or corner attribute [`mesh::morph_normal_name`] with the sums of the normals and their changes |
 //! | skins, animations | kept in the graph; the numbers are rounded to 32 bits |
-//! | `COLOR_1`, other attributes of morph targets than `POSITION` | left out, with a note |
+//! | `COLOR_1`, other attributes of morph targets | left out, with a note |
 //! | `material` | face attribute `material`, and materials of the object |
 //! | textures, samplers, images | textures of the materials, with their names: the path of an image file, or the bytes of an image |
 //! | `extras` of materials | kept in the material unchanged |

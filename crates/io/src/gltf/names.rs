@@ -35,7 +35,7 @@ fn custom_name(name: &str) -> String {
 /// Whether a name is reserved for a predefined attribute of a mesh.
 fn is_reserved(name: &str) -> bool {
     let known = "normal color tangent material smoothing crease position";
-    let is_rig = mesh::joint_of(name).is_some() || mesh::morph_of(name).is_some();
+    let is_rig = mesh::is_rig_name(name);
     name.is_empty() || is_rig || known.split(' ').any(|one| one == name) || uv_set(name).is_some()
 }
 

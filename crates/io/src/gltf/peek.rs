@@ -11,6 +11,7 @@ use mesh::Domain;
 use scene::Graph;
 
 use super::budget::Budget;
+use super::deform::targets_with_normals;
 use super::document::Document;
 use super::materials::{image_paths, material_name};
 use super::names::attribute_name;
@@ -110,7 +111,9 @@ fn peek_mesh(
     let mut known = BTreeSet::new();
     let mut left_out: BTreeMap<String, usize> = BTreeMap::new();
     let (mut points, mut lines) = (0, 0);
-    for (i, primitive) in reader.document.meshes[index].primitives.iter().enumerate() {
+    let primitives = &reader.document.meshes[index].primitives;
+    names.extend((targets_with_normals(primitives).into_iter()).map(mesh::morph_normal_name));
+    for (i, primitive) in primitives.iter().enumerate() {
         let here = format!("/meshes/{index}/primitives/{i}");
         match primitive.mode {
             Checked::Valid(Mode::Points) => points += 1,

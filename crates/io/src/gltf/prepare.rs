@@ -41,8 +41,8 @@ impl<'a> PreparedObject<'a> {
         options: &WriteOptions,
         losses: &mut Losses,
     ) -> Result<Self, Unwritable> {
-        let streams = streams(mesh, losses);
         let deformation = Deformation::new(object, mesh, graph, options.weight_sets, losses);
+        let streams = streams(mesh, |target| deformation.has_deltas(target), losses);
         let mut split = split(mesh, &streams);
         if split.n >= u32::MAX as usize {
             let (max, n) = (u32::MAX, split.n);

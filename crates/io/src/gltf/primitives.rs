@@ -12,7 +12,7 @@ use mesh::{
     Attributes, CORNER_NORMAL, CORNER_TANGENT, Column, Domain, Rule, VERTEX_SHARPNESS, Value,
 };
 
-use super::deform::{Repairs, joints, morphs};
+use super::deform::{Repairs, expect_len, joints, morph_normals, morphs, targets_with_normals};
 use super::document::get;
 use super::names::attribute_name;
 use super::rig_json::Deformers;
@@ -54,7 +54,9 @@ pub(super) fn triangles(
     let mut known = BTreeMap::new();
     let mut left_out = LeftOut::default();
     let mut has_materials = false;
-    for (i, primitive) in reader.document.meshes[index].primitives.iter().enumerate() {
+    let primitives = &reader.document.meshes[index].primitives;
+    let changed_normals = targets_with_normals(primitives);
+    for (i, primitive) in primitives.iter().enumerate() {
         let here = format!("/meshes/{index}/primitives/{i}");
         let Checked::Valid(mode) = primitive.mode else {
             let message = "expected a number from 0 to 6";
@@ -77,6 +79,7 @@ pub(super) fn triangles(
                 reader,
                 primitive,
                 deformers,
+                &changed_normals,
                 &here,
                 &mut left_out,
             )?),
@@ -142,12 +145,13 @@ impl Triangles {
         ((VERTEX + deformers) * n + (CORNER + values) * self.corners.len()) as u64
     }
 
-    /// Appends the vertices of a primitive. Returns the index of the first vertex, and the number of vertices.
+    /// Appends the vertices of a primitive. `changed_normals` are the morph targets of the mesh that change normals. Returns the index of the first vertex, and the number of vertices.
     fn push_vertices(
         &mut self,
         reader: &Reader,
         primitive: &Primitive,
         deformers: Deformers,
+        changed_normals: &[usize],
         here: &str,
         left_out: &mut LeftOut,
     ) -> Result<(u32, u32), Fault> {
@@ -195,12 +199,7 @@ impl Triangles {
                 left_out.attribute(&semantic.to_string());
                 continue;
             };
-            let found = column.values.len();
-            if found != n {
-                let message =
-                    format!("expected {n} elements, one for each position, found {found}");
-                return Err(Fault::json(at, message));
-            }
+            expect_len(column.values.len(), n, &at)?;
             let before = self.attributes.column(Domain::Corner, &column.name);
             let kind = |column: &Column| column.values.type_name();
             if own.column(Domain::Corner, &column.name).is_some() {
@@ -224,6 +223,19 @@ impl Triangles {
         for column in joints.into_iter().chain(morphs) {
             own.insert(Domain::Vertex, column);
         }
+        let normals = own.column(Domain::Corner, CORNER_NORMAL.name);
+        let normals = normals.and_then(|column| DVec3::of(&column.values));
+        for column in morph_normals(
+            reader,
+            primitive,
+            changed_normals,
+            normals,
+            n,
+            here,
+            repairs,
+        )? {
+            own.insert(Domain::Corner, column);
+        }
         let all = |attributes: &Attributes| attributes.of(Domain::Vertex).len();
         let bytes = (all(&own) + all(&self.attributes)) as u64 * 24 * (base + n) as u64;
         if base > 0 && all(&own) > 0 && !reader.budget.has(bytes) {
@@ -231,16 +243,7 @@ impl Triangles {
                 "the joint weights and the morph targets of all primitives need too much memory";
             return Err(Fault::json(here.to_owned(), what));
         }
-        // If only other primitives have an attribute, the values of the attribute are zero at the new vertices.
-        for column in self.attributes.of(Domain::Corner) {
-            if own.column(Domain::Corner, &column.name).is_none() {
-                let zeros = n * column.values.bytes_per_value();
-                reader
-                    .budget
-                    .spend(MISSING_ATTRIBUTE_CHARGE + zeros as u64, here)?;
-                left_out.partial += 1;
-            }
-        }
+        left_out.partial += self.spend_missing(reader, &own, n, here)?;
         if base == 0 && self.attributes == Attributes::default() {
             self.attributes = own;
         } else {
@@ -251,6 +254,30 @@ impl Triangles {
             self.attributes.append(lens(base), &own, lens(n));
         }
         Ok((first, count))
+    }
+
+    /// Returns the number of attributes that only other primitives have. Their values are zero at the `n` new vertices,
+    /// which have the attributes `own`.
+    ///
+    /// # Errors
+    ///
+    /// If the zeros need too much memory.
+    fn spend_missing(
+        &self,
+        reader: &Reader,
+        own: &Attributes,
+        n: usize,
+        here: &str,
+    ) -> Result<usize, Fault> {
+        let columns = self.attributes.of(Domain::Corner).iter();
+        let missing = columns.filter(|c| own.column(Domain::Corner, &c.name).is_none());
+        let mut count = 0;
+        for column in missing {
+            let zeros = (n * column.values.bytes_per_value()) as u64;
+            (reader.budget).spend(MISSING_ATTRIBUTE_CHARGE + zeros, here)?;
+            count += 1;
+        }
+        Ok(count)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Which attributes of a mesh a glTF file stores.
 
-use mesh::{Domain, Values, joint_of, morph_of};
+use mesh::{Domain, Values, joint_of, morph_name, morph_normal_of, morph_of};
 
 use super::names::{custom_semantic, uv_set};
 use crate::Storage;
@@ -16,11 +16,19 @@ pub(crate) fn storage(
     let kept_if = |is_kept| if is_kept { Kept } else { Lost };
     // Corner attributes take precedence over vertex attributes.
     let is_hidden = domain == Domain::Vertex && has(Domain::Corner, name);
+    let has_normals = || has(Domain::Corner, "normal") || has(Domain::Vertex, "normal");
     match (domain, name, values) {
         (Domain::Face, "material", Values::Int(_)) => Kept,
         // A file stores a few joints for each vertex, and can number the targets differently.
         (Domain::Vertex, _, Values::Float(_)) if joint_of(name).is_some() => Partial,
         (Domain::Vertex, _, Values::Vec3(_)) if morph_of(name).is_some() => Partial,
+        (Domain::Vertex | Domain::Corner, _, Values::Vec3(_))
+            if morph_normal_of(name).is_some() =>
+        {
+            let target = morph_normal_of(name).unwrap_or_default();
+            let has_deltas = has(Domain::Vertex, &morph_name(target));
+            kept_if(has_deltas && has_normals() && !is_hidden)
+        }
         (Domain::Edge | Domain::Face, ..) | (.., Values::Int(_) | Values::Tag(_)) => Lost,
         (_, "normal", Values::Vec3(_)) => kept_if(!is_hidden),
         // Numbers above 1 are lost.
@@ -31,10 +39,7 @@ pub(crate) fn storage(
                 Partial
             }
         }
-        (Domain::Corner, "tangent", Values::Vec4(_)) => {
-            let domains = [Domain::Corner, Domain::Vertex];
-            kept_if(domains.iter().any(|&domain| has(domain, "normal")))
-        }
+        (Domain::Corner, "tangent", Values::Vec4(_)) => kept_if(has_normals()),
         (Domain::Corner, _, Values::Vec2(_)) if uv_set(name).is_some() => {
             let lower = 0..uv_set(name).unwrap_or_default();
             let name_of = |set| match set {

@@ -3,7 +3,9 @@
 use glam::DVec3;
 use gltf_json::accessor::Type;
 use gltf_json::mesh::Semantic;
-use mesh::{Column, Domain, FaceId, HalfEdgeId, Mesh, Values, VertexId, joint_of, morph_of};
+use mesh::{
+    Column, Domain, FaceId, HalfEdgeId, Mesh, Values, VertexId, joint_of, morph_normal_of, morph_of,
+};
 
 use super::names::{custom_semantic, uv_set};
 use crate::Format;
@@ -15,22 +17,31 @@ use crate::writing::is_mark;
 pub(super) struct Stream<'a> {
     pub(super) semantic: Semantic,
     pub(super) kind: Type,
-    meaning: Meaning,
+    meaning: Meaning<'a>,
+    /// The morph target whose deltas these are; `None` for an attribute of the primitive.
+    pub(super) target: Option<usize>,
     pub(super) domain: Domain,
     pub(super) column: &'a Column,
 }
 
-#[derive(Clone, Copy, PartialEq)]
-enum Meaning {
+#[derive(Clone, Copy)]
+enum Meaning<'a> {
     Normal,
+    /// The difference from the normals in a column of this domain.
+    NormalDelta(Domain, &'a Column),
     Tangent,
     Uv,
     Color,
     Custom,
 }
 
-/// Returns the streams of a mesh. Adds losses for all other attributes.
-pub(super) fn streams<'a>(mesh: &'a Mesh, losses: &mut Losses) -> Vec<Stream<'a>> {
+/// Returns the streams of a mesh. Adds losses for all other attributes. `has_target` says whether a morph target is
+/// written.
+pub(super) fn streams<'a>(
+    mesh: &'a Mesh,
+    has_target: impl Fn(usize) -> bool,
+    losses: &mut Losses,
+) -> Vec<Stream<'a>> {
     let mut streams: Vec<Stream> = Vec::new();
     // In glTF, the indices of the sets of texture coordinates start at 0 and have no gaps.
     let is_uv = |set: u32| {
@@ -51,17 +62,20 @@ pub(super) fn streams<'a>(mesh: &'a Mesh, losses: &mut Losses) -> Vec<Stream<'a>
             }
         }
     }
-    // Readers ignore tangents without normals.
-    if !streams
-        .iter()
-        .any(|stream| stream.semantic == Semantic::Normals)
-    {
-        streams.retain(|stream| stream.semantic != Semantic::Tangents);
+    let mut normals = streams.iter();
+    let normals = normals.find(|stream| stream.semantic == Semantic::Normals);
+    let normals = normals.map(|stream| (stream.domain, stream.column));
+    match normals {
+        Some(normals) => streams.extend(normal_deltas(mesh, normals, has_target)),
+        // Readers ignore tangents without normals.
+        None => streams.retain(|stream| stream.semantic != Semantic::Tangents),
     }
     losses.add_columns(mesh, Format::Gltf, |domain, column| {
         let is_material = domain == Domain::Face && column.name == mesh::MATERIAL.name;
         is_deformer(domain, column)
             || is_mark(domain, column)
+            // If a morph target is not written, the loss of the target includes its normals.
+            || normals.is_some() && morph_normal_of(&column.name).is_some()
             || is_material && matches!(column.values, Values::Int(_))
             || streams
                 .iter()
@@ -69,6 +83,32 @@ pub(super) fn streams<'a>(mesh: &'a Mesh, losses: &mut Losses) -> Vec<Stream<'a>
     });
     streams.sort_by(|a, b| a.semantic.cmp(&b.semantic));
     streams
+}
+
+/// Returns the streams of the normals of morph targets. glTF stores the differences from the normals of the mesh.
+fn normal_deltas<'a>(
+    mesh: &'a Mesh,
+    (domain, normals): (Domain, &'a Column),
+    has_target: impl Fn(usize) -> bool,
+) -> Vec<Stream<'a>> {
+    let mut deltas: Vec<Stream> = Vec::new();
+    for own in [Domain::Corner, Domain::Vertex] {
+        for column in mesh.attributes().of(own) {
+            let target = morph_normal_of(&column.name).filter(|&target| has_target(target));
+            let is_new = deltas.iter().all(|other| other.target != target);
+            if target.is_some() && is_new && matches!(column.values, Values::Vec3(_)) {
+                deltas.push(Stream {
+                    semantic: Semantic::Normals,
+                    kind: Type::Vec3,
+                    meaning: Meaning::NormalDelta(domain, normals),
+                    target,
+                    domain: own,
+                    column,
+                });
+            }
+        }
+    }
+    deltas
 }
 
 /// Whether a column has the weights of a joint or the deltas of a morph target, both of which are written separately.
@@ -102,6 +142,7 @@ fn stream(domain: Domain, column: &Column, n_uvs: u32) -> Option<Stream<'_>> {
         semantic,
         kind,
         meaning,
+        target: None,
         domain,
         column,
     })
@@ -111,23 +152,18 @@ impl Stream<'_> {
     /// Returns the value at a corner, and whether it equals the value of the mesh. The value has as many components as
     /// the kind of the stream requires.
     pub(super) fn at(&self, mesh: &Mesh, v: VertexId, h: HalfEdgeId) -> ([f32; 4], bool) {
-        let i = match self.domain {
-            Domain::Vertex => v.index(),
-            _ => h.index(),
-        };
-        let value = match &self.column.values {
-            Values::Float(values) => [values[i], 0.0, 0.0, 0.0],
-            Values::Vec2(values) => [values[i].x, values[i].y, 0.0, 0.0],
-            Values::Vec3(values) => [values[i].x, values[i].y, values[i].z, 0.0],
-            Values::Vec4(values) => values[i].to_array(),
-            Values::Int(_) | Values::Tag(_) => [0.0; 4],
-        };
+        let value = value(self.domain, self.column, v, h);
         let [x, y, z, _] = value;
         match self.meaning {
-            Meaning::Normal => {
-                let unit = unit(DVec3::new(x, y, z));
-                let normal = unit.unwrap_or_else(|| face_normal(mesh, mesh.face(h)));
-                narrow([normal.x, normal.y, normal.z, 0.0], unit.is_some())
+            Meaning::Normal => normal(mesh, h, value),
+            Meaning::NormalDelta(domain, normals) => {
+                let to = DVec3::new(x, y, z);
+                if to == DVec3::ZERO || !to.is_finite() {
+                    return ([0.0; 4], false);
+                }
+                let (from, _) = normal(mesh, h, self::value(domain, normals, v, h));
+                let from = from.map(f64::from);
+                narrow([x - from[0], y - from[1], z - from[2], 0.0], true)
             }
             Meaning::Tangent => {
                 let w = value[3];
@@ -151,11 +187,36 @@ impl Stream<'_> {
     pub(super) fn change(&self) -> &'static str {
         match self.meaning {
             Meaning::Normal => "zero or not finite, so replaced by the normal of the face",
+            Meaning::NormalDelta(..) => {
+                "zero or not finite, so the target does not change the normal"
+            }
             Meaning::Tangent => "zero, not finite, or with an invalid sign, so changed",
             Meaning::Color => "outside the range from 0 to 1, so clamped",
             Meaning::Uv | Meaning::Custom => "not finite when rounded to 32 bits, so written as 0",
         }
     }
+}
+
+/// The value of a column at a corner. The other components are 0.
+fn value(domain: Domain, column: &Column, v: VertexId, h: HalfEdgeId) -> [f64; 4] {
+    let i = match domain {
+        Domain::Vertex => v.index(),
+        _ => h.index(),
+    };
+    match &column.values {
+        Values::Float(values) => [values[i], 0.0, 0.0, 0.0],
+        Values::Vec2(values) => [values[i].x, values[i].y, 0.0, 0.0],
+        Values::Vec3(values) => [values[i].x, values[i].y, values[i].z, 0.0],
+        Values::Vec4(values) => values[i].to_array(),
+        Values::Int(_) | Values::Tag(_) => [0.0; 4],
+    }
+}
+
+/// The normal that is written at a corner, and whether it has the direction of the normal of the mesh.
+fn normal(mesh: &Mesh, h: HalfEdgeId, [x, y, z, _]: [f64; 4]) -> ([f32; 4], bool) {
+    let unit = unit(DVec3::new(x, y, z));
+    let normal = unit.unwrap_or_else(|| face_normal(mesh, mesh.face(h)));
+    narrow([normal.x, normal.y, normal.z, 0.0], unit.is_some())
 }
 
 #[expect(

@@ -138,6 +138,11 @@ impl<'a> Deformation<'a> {
         }
     }
 
+    /// Whether the mesh has deltas of this morph target, and the target is written.
+    pub(super) fn has_deltas(&self, target: usize) -> bool {
+        self.morphs.get(target).is_some_and(Option::is_some)
+    }
+
     /// Whether the object has neither joints nor morph targets.
     pub(super) fn is_none(&self) -> bool {
         self.sets == 0 && self.morphs.is_empty()

@@ -232,7 +232,8 @@ impl<'a> Writer<'a> {
         self.accessors[positions]["min"] = min;
         self.accessors[positions]["max"] = max;
         attributes.insert(Semantic::Positions, positions);
-        for stream in &prepared.streams {
+        let streams = prepared.streams.iter();
+        for stream in streams.filter(|stream| stream.target.is_none()) {
             let quantized = self.quantizer.stream(prepared, stream);
             let accessor = if let Some(integers) = quantized {
                 self.integers(integers)
@@ -302,7 +303,14 @@ impl<'a> Writer<'a> {
             let Bounds { min, max } = bounds_of(split.n, delta);
             self.accessors[accessor]["min"] = json!(min);
             self.accessors[accessor]["max"] = json!(max);
-            targets.push(json!({ "POSITION": accessor }));
+            let mut attributes = json!({ "POSITION": accessor });
+            let streams = prepared.streams.iter();
+            for stream in streams.filter(|stream| stream.target == Some(target)) {
+                let fill = move |out: &mut [u8]| fill_stream(out, mesh, split, stream);
+                attributes[stream.semantic.to_string()] =
+                    self.floats(split.n, stream.kind, fill).into();
+            }
+            targets.push(attributes);
         }
         targets
     }

@@ -245,10 +245,10 @@ fn lost_parts() -> Vec<Part> {
             Outcome::Lost("images-unused"),
         ),
         (
-            "normals, tangents, texture coordinates and colors of morph targets",
+            "tangents, texture coordinates and colors of morph targets",
             |j| {
                 j["meshes"][0]["primitives"][0]["targets"] = json!([
-                    { "POSITION": 0, "NORMAL": 0, "TANGENT": 0, "TEXCOORD_0": 2, "COLOR_0": 0 },
+                    { "POSITION": 0, "TANGENT": 0, "TEXCOORD_0": 2, "COLOR_0": 0 },
                 ]);
             },
             Outcome::Lost("morphs"),

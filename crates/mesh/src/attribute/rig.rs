@@ -5,12 +5,17 @@
 //! [`Rule::Interpolate`](crate::Rule::Interpolate), so an edit that averages positions averages weights and deltas in
 //! the same way. For this purpose, each joint has a separate attribute, because a list of joints at each vertex could
 //! not be interpolated.
+//!
+//! The attribute `morph_normal:t` has the normals of the vertices or corners when morph target t has the weight 1. These
+//! are normals, not the differences from the normals of the mesh: like all normals, they follow the rule
+//! [`Rule::Normal`](crate::Rule::Normal).
 
 use super::{Attributes, Values};
 use crate::{DVec3, Domain};
 
 const JOINT: &str = "joint:";
 const MORPH: &str = "morph:";
+const MORPH_NORMAL: &str = "morph_normal:";
 
 /// Returns the name of the attribute with the weights of a joint, one `f64` for each vertex.
 pub fn joint_name(joint: usize) -> String {
@@ -22,6 +27,11 @@ pub fn morph_name(target: usize) -> String {
     format!("{MORPH}{target}")
 }
 
+/// Returns the name of the attribute with the normals of the mesh that a morph target gives with the weight 1.
+pub fn morph_normal_name(target: usize) -> String {
+    format!("{MORPH_NORMAL}{target}")
+}
+
 /// Returns the joint whose weights the attribute with this name stores; `None` if the name is not that of a joint.
 pub fn joint_of(name: &str) -> Option<usize> {
     number(name.strip_prefix(JOINT)?)
@@ -31,6 +41,18 @@ pub fn joint_of(name: &str) -> Option<usize> {
 /// morph target.
 pub fn morph_of(name: &str) -> Option<usize> {
     number(name.strip_prefix(MORPH)?)
+}
+
+/// Returns the morph target whose normals the attribute with this name stores; `None` if the name is not that of such
+/// normals.
+pub fn morph_normal_of(name: &str) -> Option<usize> {
+    number(name.strip_prefix(MORPH_NORMAL)?)
+}
+
+/// Whether this is the name of an attribute of a joint or a morph target.
+pub fn is_rig_name(name: &str) -> bool {
+    let numbers = [joint_of, morph_of, morph_normal_of];
+    numbers.iter().any(|number| number(name).is_some())
 }
 
 /// Parses a number that is written without leading zeros; `None` for any other text.
@@ -74,6 +96,7 @@ mod tests {
         for n in [0, 7, 10, 65535] {
             assert_eq!(joint_of(&joint_name(n)), Some(n));
             assert_eq!(morph_of(&morph_name(n)), Some(n));
+            assert_eq!(morph_normal_of(&morph_normal_name(n)), Some(n));
         }
         for name in [
             "joint:", "joint:01", "joint:+1", "joint:-1", "morph:0", "joint", "joint:a",
@@ -81,5 +104,6 @@ mod tests {
             assert_eq!(joint_of(name), None, "{name}");
         }
         assert_eq!(morph_of("morph:99999999999"), None);
+        assert_eq!(morph_of("morph_normal:1"), None);
     }
 }

@@ -45,7 +45,7 @@ impl Case {
             name: format!("{}{sample} on {fixture}", entry.name),
             operation: entry.name,
             step: entry
-                .parse(&ron_tree::parse(sample).value)
+                .deserialize(&ron_tree::parse(sample).value)
                 .expect("a different test checks that samples can be read"),
             scene: scene.clone(),
         }

@@ -131,7 +131,7 @@ fn extreme_numbers_give_valid_results_or_errors() {
     let registry = ops_all::registry();
     let mut failed = Vec::new();
     for (entry, sample) in samples(&registry) {
-        let can_be_read = |text: &str| entry.parse(&ron_tree::parse(text).value).is_ok();
+        let can_be_read = |text: &str| entry.deserialize(&ron_tree::parse(text).value).is_ok();
         // Each variant is tested on the first scene and on one other scene. The other scenes are used in turn.
         let others = scenes[1..].iter().cycle();
         for (text, other) in extreme_variants(sample, can_be_read).iter().zip(others) {

@@ -208,7 +208,7 @@ fn every_example_is_a_step_of_its_operation() {
         assert!(!parameters.contains('\n'), "an example is one line");
     }
     for (entry, parameters) in samples(&registry) {
-        if let Err(error) = entry.parse(&ron_tree::parse(parameters).value) {
+        if let Err(error) = entry.deserialize(&ron_tree::parse(parameters).value) {
             panic!("{}{parameters}: {error}", entry.name);
         }
     }

@@ -13,7 +13,7 @@ use store::Memory;
 fn planned(path: &str, scene: &Scene) -> (Vec<Problem>, Plan) {
     let registry = ops_all::registry();
     let save = registry.get("Save").expect("an operation");
-    let step = save.parse(&ron_tree::parse(&format!("(path: {path:?})")).value);
+    let step = save.deserialize(&ron_tree::parse(&format!("(path: {path:?})")).value);
     let files = Files::default();
     let cx = PlanContext {
         files: &files,

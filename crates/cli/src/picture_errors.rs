@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use op::{ErrorLocation, Progress};
-use recipe::{ActualValue, Failure, Listener, StepDone, shape::counted};
+use recipe::{ActualValue, Failure, Listener, StepDone, schema_check::counted};
 use render::{Image, difference};
 use scene::Scene;
 use view::draw_error_locations;

@@ -8,7 +8,7 @@ use anyhow::Context as _;
 use engine::Source;
 use mesh::{Domain, MATERIAL};
 use mesh_io::{Format, Loss, ReadOptions, WriteOptions, WriteReport};
-use recipe::shape::counted;
+use recipe::schema_check::counted;
 use ron_tree::MAX_BYTES;
 use scene::{Geometry, Scene};
 use store::{Disk, Memory, Store as _};

@@ -227,7 +227,7 @@ pub fn read_bytes(
     let mut notes = Notes::of(path);
     let mut assets = Assets::of(store, path);
     let mut objects = Vec::new();
-    let parsed = find(bytes, options, &mut assets, &mut notes)?;
+    let parsed = parse_format(bytes, options, &mut assets, &mut notes)?;
     for ParsedObject { name, shape } in parsed.objects {
         objects.push(match shape {
             Shape::Polygons(polygons) => {
@@ -274,7 +274,7 @@ pub fn read_polygons(
         placements: Placements::Bake,
         ..options.clone()
     };
-    let found = find(
+    let found = parse_format(
         gzip::unpacked(path, store.read(path)?, options.budget())?,
         &options,
         &mut assets,
@@ -316,7 +316,7 @@ enum Shape {
     Object(Box<Object>),
 }
 
-fn find(
+fn parse_format(
     bytes: Vec<u8>,
     options: &ReadOptions,
     assets: &mut Assets,

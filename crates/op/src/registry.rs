@@ -39,7 +39,7 @@ pub struct Entry {
     pub takes_on: bool,
     schema: fn() -> Schema,
     schema_in: fn(&mut SchemaGenerator) -> Schema,
-    parse: fn(&Value) -> Result<Box<dyn Step>, ron_tree::Error>,
+    deserialize: fn(&Value) -> Result<Box<dyn Step>, ron_tree::Error>,
 }
 
 impl fmt::Debug for Entry {
@@ -62,7 +62,7 @@ impl Entry {
             takes_on: T::TAKES_ON,
             schema: || schemars::schema_for!(T),
             schema_in: SchemaGenerator::subschema_for::<T>,
-            parse: |parameters| Ok(Box::new(T::deserialize(parameters)?)),
+            deserialize: |parameters| Ok(Box::new(T::deserialize(parameters)?)),
         }
     }
 
@@ -76,17 +76,17 @@ impl Entry {
         (self.schema_in)(generator).to_value()
     }
 
-    /// Reads a step `Name(levels: 2)` or only its parameters `(levels: 2)`. The name is not checked. `Name` without
+    /// Deserializes a step `Name(levels: 2)` or only its parameters `(levels: 2)`. The name is not checked. `Name` without
     /// parentheses is the same as `Name()`.
     ///
     /// # Errors
     ///
     /// If the parameters are not valid for this operation. The error contains the reason and the location.
-    pub fn parse(&self, step: &Value) -> Result<Box<dyn Step>, ron_tree::Error> {
+    pub fn deserialize(&self, step: &Value) -> Result<Box<dyn Step>, ron_tree::Error> {
         match &step.kind {
-            ValueKind::Call(call) => (self.parse)(&call.body),
-            ValueKind::Name(_) => (self.parse)(&Value::new(step.span, ValueKind::Unit)),
-            _ => (self.parse)(step),
+            ValueKind::Call(call) => (self.deserialize)(&call.body),
+            ValueKind::Name(_) => (self.deserialize)(&Value::new(step.span, ValueKind::Unit)),
+            _ => (self.deserialize)(step),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use serde_json::Value as Json;
 
-use crate::shape::Schema;
+use crate::schema_check::Schema;
 
 /// The documentation of a parameter.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -5,14 +5,16 @@
 //! text --read--> Recipe + diagnostics --check--> Forecast + diagnostics --run--> Outcome
 //! ```
 //!
-//! [`read`] turns text into operations of a [`Registry`](op::Registry) and reports every error at once. [`check`] plans
-//! all steps without computing geometry: it forecasts counts and memory, and checks files and names. [`run`] runs the
-//! steps. Outputs are written only if every step succeeds and every expectation holds.
+//! [`read`] turns text into operations of a [`Registry`](op::Registry) and reports every error at once. It checks each
+//! value against the schema of its type (module [`schema_check`]), and then deserializes the value. [`check`] plans all
+//! steps without computing geometry: it forecasts counts and memory, reports forecasts above the budget as errors, and
+//! checks files and names. [`run`] runs the steps. Outputs are written only if every step succeeds and every expectation
+//! holds.
 
 pub mod capsule;
 pub mod compare;
 pub mod expect;
-pub mod shape;
+pub mod schema_check;
 pub mod shrink;
 pub mod stamp;
 pub mod update;
@@ -50,8 +52,8 @@ pub use run::{
     Silent, StepCache, StepDone, StepError, StepResult, UnmetExpectation, run, run_from, run_step,
 };
 pub use schema::{Schemas, schema, step_kinds};
+pub use schema_check::did_you_mean;
 pub use select::{read_selection, read_step, resolve, with_case_of};
-pub use shape::did_you_mean;
 pub use source::Source;
 pub use stamp::Stamp;
 pub use substitute::substitute;

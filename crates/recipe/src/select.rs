@@ -13,7 +13,7 @@ use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 
 use crate::schema;
-use crate::shape;
+use crate::schema_check;
 use ron_tree::{Diagnostic, Value, ValueKind};
 
 /// Reads a selection in the syntax of recipes. The selection selects elements of `kind`. If `kind` is `None`, the
@@ -48,7 +48,7 @@ pub fn read_selection(
 pub fn read_step<T: DeserializeOwned + JsonSchema>(source: &str) -> Result<T, Vec<Diagnostic>> {
     let parsed = ron_tree::parse(source);
     let step = &parsed.value;
-    let checked = shape::check_step(step, &schema::of::<T>());
+    let checked = schema_check::check_step(step, &schema::of::<T>());
     let wrong = [parsed.diagnostics, checked.wrong.clone()].concat();
     if !wrong.is_empty() {
         return Err(wrong);
@@ -58,7 +58,8 @@ pub fn read_step<T: DeserializeOwned + JsonSchema>(source: &str) -> Result<T, Ve
         ValueKind::Call(call) => &call.body,
         _ => &*full,
     };
-    T::deserialize(parameters).map_err(|error| vec![shape::unread(step.span, error)])
+    T::deserialize(parameters)
+        .map_err(|error| vec![schema_check::deserialize_error(step.span, error)])
 }
 
 /// Returns `text` with the case of the name at its start corrected, if the name is a variant of `T`: `front` becomes
@@ -67,7 +68,7 @@ pub fn with_case_of<T: JsonSchema>(text: &str) -> String {
     let end = text.find(|c: char| !(c.is_alphanumeric() || c == '_'));
     let (name, rest) = text.split_at(end.unwrap_or(text.len()));
     let schema = schema::of::<T>();
-    let known = shape::Schema::root(&schema).variants();
+    let known = schema_check::Schema::root(&schema).variants();
     let found = known
         .into_iter()
         .find(|known| known.eq_ignore_ascii_case(name));
@@ -75,7 +76,7 @@ pub fn with_case_of<T: JsonSchema>(text: &str) -> String {
 }
 
 fn typed<T: DeserializeOwned + JsonSchema>(value: &Value) -> Result<T, Vec<Diagnostic>> {
-    shape::typed(value, &schema::of::<T>())
+    schema_check::typed(value, &schema::of::<T>())
 }
 
 /// Returns the elements of an object that a selection matches. `stream` seeds random choices. To get the same choices

@@ -3,7 +3,7 @@
 use op::Registry;
 
 use crate::recipe::Kind;
-use crate::shape::{listed, nearest};
+use crate::schema_check::{listed, nearest};
 
 /// Words for operations on solids that do not exist yet.
 const BOOLEANS: &[&str] = &[

@@ -13,8 +13,8 @@ use op::Registry;
 
 use crate::read::{VERSION, wrong_version};
 use crate::schema::{self, Schemas};
-pub use crate::shape::Rename;
-use crate::shape::{check_step, checked};
+pub use crate::schema_check::Rename;
+use crate::schema_check::{check_step, checked};
 use ron_tree::{Diagnostic, LineIndex, Value, ValueKind};
 
 /// A recipe with current names.

@@ -3,7 +3,7 @@
 use engine::Engine;
 use op::Range;
 use op::readable_bytes;
-use recipe::shape::counted;
+use recipe::schema_check::counted;
 use serde_json::json;
 
 use super::run::report_errors;

@@ -7,7 +7,7 @@ use mesh::{DVec3, Domain, Elements, Mesh, VertexId, is_rig_name};
 use mesh_io::{Note, NoteKind};
 use op::ErrorLocation;
 use ops_pictures::Picture;
-use recipe::shape::counted;
+use recipe::schema_check::counted;
 use scene::{Animation, Geometry, Graph, Instance, Object, Scene};
 use serde_json::json;
 

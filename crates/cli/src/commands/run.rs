@@ -3,7 +3,7 @@
 use ::cache::Cache;
 use anyhow::Context as _;
 use engine::{Engine, Loaded, Run};
-use recipe::{Outcome, shape::counted};
+use recipe::{Outcome, schema_check::counted};
 
 use crate::args::{Format, RunArgs};
 use crate::cache;

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use op::Registry;
 use recipe::upgrade::upgrade;
-use recipe::{Source, shape::counted};
+use recipe::{Source, schema_check::counted};
 
 use crate::args::UpgradeArgs;
 use crate::loading::recipes;

@@ -88,8 +88,8 @@ impl Command {
     }
 }
 
-/// Operations after which elements keep their numbers, so that the picked elements stay picked.
-const KEEPS_NUMBERS: &[&str] = &[
+/// Operations after which elements keep their ids, so that the picked elements stay picked.
+const KEEPS_IDS: &[&str] = &[
     "FlipEdges",
     "SplitEdges",
     "TagVertices",
@@ -268,8 +268,8 @@ impl Editor {
         let cursor = self.cursor() + steps.len();
         let edits = text::insert_steps(self.text(), &self.outline, self.cursor(), &steps)?;
         self.edit(edits, &command.operation, Some(cursor))?;
-        let keeps_numbers = KEEPS_NUMBERS.contains(&command.operation.as_str());
-        let picked = self.picked.take().filter(|_| keeps_numbers);
+        let keeps_ids = KEEPS_IDS.contains(&command.operation.as_str());
+        let picked = self.picked.take().filter(|_| keeps_ids);
         self.set_picked(picked);
         Ok(())
     }

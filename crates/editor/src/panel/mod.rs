@@ -133,7 +133,7 @@ impl Panel {
             return Vec::new();
         };
         let found = if parsed.diagnostics.is_empty() {
-            recipe::shape::check_shape(&call.body, &self.schema)
+            recipe::schema_check::check_schema(&call.body, &self.schema)
         } else {
             parsed.diagnostics.clone()
         };

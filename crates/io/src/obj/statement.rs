@@ -73,7 +73,7 @@ impl Parser<'_> {
                 self.normal(place, values, n)?;
             }
             b"f" | b"fo" => return self.face(place),
-            b"l" => return self.line(place),
+            b"l" => return self.polyline(place),
             b"p" => return self.points(place),
             b"g" => self.group(),
             b"o" => {
@@ -245,7 +245,7 @@ impl Parser<'_> {
         Ok(())
     }
 
-    fn line(&mut self, start: TextPosition) -> Result<(), Fault> {
+    fn polyline(&mut self, start: TextPosition) -> Result<(), Fault> {
         let before = self.part.line_corners.len();
         while let Some((place, word)) = self.cursor.argument() {
             let corner = self.corner(place, word)?;

@@ -12,7 +12,7 @@ use op::{Loss, MeshPlan, Plan, PlannedAttribute, PlannedGeometry, PlannedObject}
 
 use crate::expect::Expectation;
 use crate::recipe::{OnLoss, RecipeExpectation, RecipeStep};
-use crate::shape::did_you_mean;
+use crate::schema_check::did_you_mean;
 use ron_tree::{Diagnostic, Span, Value, ValueKind};
 
 /// The attributes that the steps checked so far have dropped.

@@ -10,7 +10,7 @@ use scene::Scene;
 
 use crate::expect::{OtherMesh, golden};
 use crate::recipe::{Recipe, RecipeExpectation, RecipeStep};
-use crate::shape::did_you_mean;
+use crate::schema_check::did_you_mean;
 use ron_tree::{Diagnostic, Span, field_span};
 
 use attributes::{Attributes, KnownAttributes, may_fail, meshes};

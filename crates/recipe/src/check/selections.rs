@@ -9,7 +9,7 @@ use ron_tree::{Call, Diagnostic, Span, Value, ValueKind};
 use super::attributes::meshes;
 use super::diagnostic;
 use crate::recipe::RecipeStep;
-use crate::shape::did_you_mean;
+use crate::schema_check::did_you_mean;
 
 /// An element, a material or an object that a selection names.
 enum Named<'v> {

@@ -4,7 +4,7 @@ use super::Reader;
 use crate::expect::Expectation;
 use crate::recipe::RecipeExpectation;
 use crate::schema;
-use crate::shape::{check_shape, did_you_mean};
+use crate::schema_check::{check_schema, did_you_mean};
 use ron_tree::{Span, Value, ValueKind};
 
 impl Reader<'_, '_> {
@@ -20,7 +20,7 @@ impl Reader<'_, '_> {
         if !matches!(value.kind, ValueKind::Struct(_) | ValueKind::Unit) {
             return (None, self.placed(&value, None).into_iter().collect());
         }
-        let wrong = check_shape(&value, &schema::expectation_envelope());
+        let wrong = check_schema(&value, &schema::expectation_envelope());
         self.diagnostics.extend(wrong);
         let after = value
             .field("after")

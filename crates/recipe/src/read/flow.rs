@@ -19,7 +19,7 @@ use super::{Draft, Reader, canonical, take_items};
 use crate::params::{Param, Rebase};
 use crate::recipe::{Kind, MAX_STEPS, Origin, Scope};
 use crate::schema;
-use crate::shape::{check_shape, check_step, did_you_mean};
+use crate::schema_check::{check_schema, check_step, did_you_mean};
 use crate::source::Source;
 use ron_tree::{Span, Value, ValueKind};
 
@@ -61,7 +61,7 @@ impl Reader<'_, '_> {
         }
         let before = self.diagnostics.len();
         let run = if is_envelope {
-            let wrong = check_shape(&value, schema::step_envelope());
+            let wrong = check_schema(&value, schema::step_envelope());
             self.diagnostics.extend(wrong);
             for field in ["on", "refused", "on_loss"] {
                 if let Some(found) = value.field(field) {

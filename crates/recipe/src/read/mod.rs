@@ -26,7 +26,7 @@ use crate::recipe::{
     MAX_STEPS, OnLoss, Parameter, Recipe, RecipeExpectation, RecipeStep, Scope, located,
 };
 use crate::schema::{self, Schemas};
-use crate::shape::{self, check_shape};
+use crate::schema_check::{self, check_schema};
 use crate::source::Source;
 use ron_tree::{Diagnostic, Span, Value, ValueKind};
 
@@ -229,7 +229,7 @@ impl<'s, 'a> Reader<'s, 'a> {
         if matches!(root.kind, ValueKind::Error) && !self.diagnostics.is_empty() {
             return nothing;
         }
-        let wrong = check_shape(&root, schema::envelope());
+        let wrong = check_schema(&root, schema::envelope());
         self.diagnostics.extend(wrong);
         self.about = root
             .field("about")
@@ -239,7 +239,7 @@ impl<'s, 'a> Reader<'s, 'a> {
             self.needs(needs);
         }
         if let Some(on_loss) = root.field("on_loss") {
-            // `check_shape` has reported an invalid value.
+            // `check_schema` has reported an invalid value.
             self.on_loss = OnLoss::deserialize(on_loss).unwrap_or_default();
         }
         self.declare(root.field("params"));
@@ -306,7 +306,7 @@ impl<'s, 'a> Reader<'s, 'a> {
 
     /// Checks a value against a schema and deserializes it.
     fn typed<T: DeserializeOwned>(&mut self, value: &Value, schema: &Json) -> Option<T> {
-        match shape::typed(value, schema) {
+        match schema_check::typed(value, schema) {
             Ok(typed) => Some(typed),
             Err(wrong) => {
                 self.diagnostics.extend(wrong);

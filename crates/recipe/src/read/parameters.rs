@@ -6,7 +6,7 @@ use super::{Reader, Values};
 use crate::params::{Param, Rebase};
 use crate::recipe::{Origin, Parameter};
 use crate::schema;
-use crate::shape::did_you_mean;
+use crate::schema_check::did_you_mean;
 use crate::substitute::substitute;
 use ron_tree::{Diagnostic, Span, Value, ValueKind};
 

@@ -8,7 +8,7 @@ use serde::Deserialize;
 use super::{Draft, Reader, flow};
 use crate::recipe::{MAX_STEPS, OnLoss, RecipeStep};
 use crate::schema;
-use crate::shape::{Rename, check_shape, check_step, unread};
+use crate::schema_check::{Rename, check_schema, check_step, deserialize_error};
 use crate::unknown_operation::suggest_operations;
 use ron_tree::{Diagnostic, Span, Value, ValueKind};
 
@@ -76,7 +76,7 @@ impl Reader<'_, '_> {
         let before = self.diagnostics.len();
         let mut run = &value;
         if is_envelope {
-            let wrong = check_shape(&value, schema::step_envelope());
+            let wrong = check_schema(&value, schema::step_envelope());
             self.diagnostics.extend(wrong);
             let Some(inner) = value.field("run") else {
                 return self.broken_step(value);
@@ -113,7 +113,7 @@ impl Reader<'_, '_> {
             let help = "the operation names its objects in its parameters, or creates new ones";
             self.error(on.span, format!("{} does not take `on`", entry.name), help);
         }
-        // `check_shape` has reported invalid values.
+        // `check_schema` has reported invalid values.
         let refused = envelope("refused").and_then(|reason| Refusal::deserialize(reason).ok());
         let on_loss = envelope("on_loss").and_then(|on_loss| OnLoss::deserialize(on_loss).ok());
         let note = envelope("note").and_then(Value::as_str);
@@ -137,13 +137,13 @@ impl Reader<'_, '_> {
             self.diagnostics.extend(checked.wrong);
             return None;
         }
-        let parsed = entry.parse(&checked.in_full(run));
+        let parsed = entry.deserialize(&checked.in_full(run));
         let renames = checked.renames_in_step(run, entry.name);
         self.diagnostics.extend(renames.iter().map(Rename::warning));
         match parsed {
             Ok(step) => Some(step.into()),
             Err(error) => {
-                let mut wrong = unread(run.span, error);
+                let mut wrong = deserialize_error(run.span, error);
                 wrong.message = format!("{}: {}", entry.name, wrong.message);
                 self.diagnostics.push(wrong);
                 None

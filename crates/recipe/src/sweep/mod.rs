@@ -29,7 +29,7 @@ use serde_json::json;
 use crate::read::wrong_version;
 use crate::recipe::Parameter;
 use crate::schema;
-use crate::shape::{self, check_shape, counted, did_you_mean};
+use crate::schema_check::{self, check_schema, counted, did_you_mean};
 use ron_tree::{Diagnostic, Span, Value, ValueKind};
 
 pub use metric::{Measured, Metric, Statistic};
@@ -126,7 +126,7 @@ pub fn read_sweep(source: &str) -> SweepReading {
     if matches!(root.kind, ValueKind::Error) && !diagnostics.is_empty() {
         return failed(diagnostics);
     }
-    diagnostics.extend(check_shape(&root, &envelope()));
+    diagnostics.extend(check_schema(&root, &envelope()));
     let keep = keep(&root, &mut diagnostics);
     let mut entries = |field: &str| entries(root.field(field), &mut diagnostics);
     let (over, zip, set) = (entries("over"), entries("zip"), entries("set"));
@@ -183,7 +183,7 @@ fn keep(root: &Value, diagnostics: &mut Vec<Diagnostic>) -> Vec<(Metric, Span)> 
     let schema = schema::of::<Metric>();
     let mut keep = Vec::new();
     for item in root.field("keep").and_then(Value::items).unwrap_or(&[]) {
-        match shape::typed(item, &schema) {
+        match schema_check::typed(item, &schema) {
             Ok(metric) => keep.push((metric, item.span)),
             Err(wrong) => diagnostics.extend(wrong),
         }

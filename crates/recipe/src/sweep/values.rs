@@ -8,7 +8,7 @@ use serde::Deserialize;
 use super::{MAX_CELLS, Setting};
 use crate::params::Param;
 use crate::schema;
-use crate::shape;
+use crate::schema_check;
 use ron_tree::{Diagnostic, Span, Value, ValueKind};
 
 /// A description of several values, such as a range, instead of a list of the values.
@@ -49,7 +49,7 @@ pub(super) fn settings(
         );
         return Err(vec![Diagnostic::error(value.span, message)]);
     }
-    let Values::Range { from, to, steps } = shape::typed(value, &schema::of::<Values>())?;
+    let Values::Range { from, to, steps } = schema_check::typed(value, &schema::of::<Values>())?;
     range(param, [from, to], steps, value.span)
 }
 

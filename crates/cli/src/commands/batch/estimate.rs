@@ -11,7 +11,7 @@
 use anyhow::ensure;
 use op::readable_bytes;
 use recipe::Forecast;
-use recipe::shape::counted;
+use recipe::schema_check::counted;
 use serde::Serialize;
 
 use super::plan::Batch;

@@ -31,7 +31,7 @@ use anyhow::ensure;
 use engine::Engine;
 use recipe::{
     Diagnostic, Grid, Measured, Metric, OtherMesh, Setting, Severity, Source, Sweep, read_sweep,
-    shape::counted,
+    schema_check::counted,
 };
 use scene::Scene;
 use serde_json::{Value as Json, json};

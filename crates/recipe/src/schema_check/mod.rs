@@ -41,7 +41,7 @@ use shorthand::Short;
 ///
 /// `schema` is a root schema: references in it are looked up in its `$defs`. Parts of the value that could not be read
 /// are skipped.
-pub fn check_shape(value: &Value, schema: &Json) -> Vec<Diagnostic> {
+pub fn check_schema(value: &Value, schema: &Json) -> Vec<Diagnostic> {
     checked(value, schema).wrong
 }
 
@@ -68,11 +68,11 @@ pub(crate) fn typed<T: DeserializeOwned>(
         return Err(checked.wrong);
     }
     let read = T::deserialize(&*checked.in_full(value));
-    read.map_err(|error| vec![unread(value.span, error)])
+    read.map_err(|error| vec![deserialize_error(value.span, error)])
 }
 
 /// Returns the error for a value that fits the schema but cannot be deserialized.
-pub(crate) fn unread(span: Span, error: ron_tree::Error) -> Diagnostic {
+pub(crate) fn deserialize_error(span: Span, error: ron_tree::Error) -> Diagnostic {
     Diagnostic::error(error.span.unwrap_or(span), error.message)
 }
 

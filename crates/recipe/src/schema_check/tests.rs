@@ -550,10 +550,10 @@ fn errors_name_the_parameter_that_the_value_comes_from() {
 fn trivial_and_recursive_schemas_are_handled() {
     let value = parse("(a: 1)").value;
 
-    assert_eq!(check_shape(&value, &serde_json::json!(true)), []);
-    assert_eq!(check_shape(&value, &serde_json::json!({"$ref": "#"})), []);
+    assert_eq!(check_schema(&value, &serde_json::json!(true)), []);
+    assert_eq!(check_schema(&value, &serde_json::json!({"$ref": "#"})), []);
     assert_eq!(
-        check_shape(
+        check_schema(
             &value,
             &serde_json::json!({"anyOf": [{"$ref": "#"}, {"$ref": "#"}]})
         ),

@@ -9,8 +9,8 @@ use super::listed;
 ///
 /// ```
 /// let operations = ["LoopSubdivide", "Load", "FlipEdges"];
-/// assert_eq!(recipe::shape::nearest("loop_subdivde", operations), ["LoopSubdivide"]);
-/// assert!(recipe::shape::nearest("Extrude", operations).is_empty());
+/// assert_eq!(recipe::schema_check::nearest("loop_subdivde", operations), ["LoopSubdivide"]);
+/// assert!(recipe::schema_check::nearest("Extrude", operations).is_empty());
 /// ```
 pub fn nearest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) -> Vec<&'c str> {
     // Only the start of a long name is compared, because the comparison is slow and known names are short.
@@ -63,8 +63,8 @@ fn min_distance(a: &str, b: &str) -> usize {
 ///
 /// ```
 /// let known = ["segments", "levels"];
-/// assert_eq!(recipe::shape::did_you_mean("level", known), "did you mean `levels`?");
-/// assert_eq!(recipe::shape::did_you_mean("x", known), "known: `segments`, `levels`");
+/// assert_eq!(recipe::schema_check::did_you_mean("level", known), "did you mean `levels`?");
+/// assert_eq!(recipe::schema_check::did_you_mean("x", known), "known: `segments`, `levels`");
 /// ```
 pub fn did_you_mean<'n>(name: &str, known: impl IntoIterator<Item = &'n str>) -> String {
     /// The maximum number of names that are listed.

@@ -19,9 +19,10 @@ pub enum MeasureOf {
     /// and negative where the surface is concave (Cohen-Steiner, Morvan, 2003).
     MeanCurvature,
     /// The Gaussian curvature at each vertex, in 1 / scene unit²: the angle defect divided by the area of the vertex
-    /// (Meyer, Desbrun, Schröder, Barr, 2003). It is 1 / r² on a sphere, 0 on a cylinder, and negative at saddles.
-    /// On the boundary, the defect is 180° instead of 360° minus the sum of the angles. There, it measures how the
-    /// boundary turns within the surface, so values on the boundary depend on the size of the faces.
+    /// (Meyer, Desbrun, Schröder, Barr, 2003). The angle defect is 360° minus the sum of the corner angles at the
+    /// vertex. The curvature is 1 / r² on a sphere of radius r, 0 on a cylinder, and negative at saddles. At a boundary
+    /// vertex, the angle defect is 180° minus the sum, which measures how the boundary turns. Values on the boundary
+    /// therefore depend on the size of the faces.
     GaussianCurvature,
     /// A principal curvature at each vertex, in 1 / scene unit: an eigenvalue of the curvature tensor of Cohen-Steiner
     /// and Morvan, 2003. On a cylinder of radius r, the two principal curvatures are 0 and 1 / r.

@@ -34,8 +34,9 @@ use crate::simplify::triangles_problem;
 ///   rounded.
 /// - Attributes: each vertex and corner gets the values of the original surface at its position. Values are never
 ///   interpolated across a line.
-/// - Vertex tags: a new vertex has a tag if all old vertices around its position had the tag. A tagged vertex keeps its
-///   exact position unless all corners of one of its triangles, or both of its neighbors on a line, also have the tag.
+/// - Vertex tags: a new vertex has a tag if all old vertices around its position had the tag. A tagged vertex can move
+///   only inside a tagged region: if all corners of one of its triangles, or both of its neighbors on a line, also have
+///   the tag. Other tagged vertices keep their exact positions.
 ///   Vertices with sharpness also keep their exact positions.
 ///
 /// The number of faces depends on the area of the mesh, which is not known before the run. Therefore `check` shows the

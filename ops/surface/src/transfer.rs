@@ -6,12 +6,17 @@
 //!    target    +--+-----+--+
 //! ```
 
+mod charts;
+mod origins;
+
 use std::collections::BTreeMap;
 
-use geometry::surface_index::{Nearest, SurfaceIndex, Triangle};
-use mesh::{Column, DVec3, Domain, FaceId, HalfEdgeId, Rule, Values};
+use geometry::surface_index::SurfaceIndex;
+use mesh::{Column, DVec3, Domain, HalfEdgeId, Rule, Values};
 use op::Refusal;
 use op::prelude::*;
+
+use origins::{Origin, Source};
 
 /// Copies attributes from the nearest points of another object.
 ///
@@ -21,10 +26,10 @@ use op::prelude::*;
 /// Values of faces are copied from the face of the nearest point. An existing attribute with the same type of values is
 /// overwritten; with a different type, the step fails. Without `on`, the step acts on all meshes except `from`.
 ///
-/// All corners of a face take their values from one chart of the source, that is, from faces that are connected without
-/// crossing a seam of the attribute, so no triangle is stretched across a seam of texture coordinates. Usually this is
-/// the chart that is nearest to the center of the face. A chart that is nearest to a corner is used instead if it is
-/// much nearer to the whole face, as where parts of the source intersect.
+/// All corners of a face take their values from one side of each seam, so no triangle is stretched across a seam of
+/// texture coordinates. Usually this is the side at the center of the face. If a chart at a corner is much nearer to the
+/// whole face than the chart at the center, its values are used instead. This happens where parts of the source
+/// intersect.
 ///
 /// Elements whose distance from the source exceeds `within` keep their values, or get zeros if the attribute is new. If
 /// a corner or the center of a face is that far away, this applies to all corners of the face. The report counts these
@@ -211,148 +216,6 @@ const fn plural(domain: Domain) -> &'static str {
         Domain::Edge => "edges",
         Domain::Face => "faces",
     }
-}
-
-/// The elements of the source and their weights, from which an element of the target takes its value.
-type Origin = Option<[(usize, f64); 3]>;
-
-/// The mesh with the attributes.
-struct Source<'a> {
-    mesh: &'a Mesh,
-    index: &'a SurfaceIndex,
-    within: f64,
-}
-
-impl Source<'_> {
-    fn near(&self, hit: &Nearest) -> Option<Triangle> {
-        (hit.distance <= self.within).then(|| self.index.triangle(hit.triangle))
-    }
-
-    fn of_vertex(&self, hit: &Nearest) -> Origin {
-        let triangle = self.near(hit)?;
-        let weights = triangle.barycentric(hit.point);
-        Some([0, 1, 2].map(|k| (triangle.vertices[k].index(), weights[k])))
-    }
-
-    fn of_face(&self, hit: &Nearest) -> Origin {
-        let face = self.near(hit)?.face.index();
-        Some([(face, 1.0), (face, 0.0), (face, 0.0)])
-    }
-
-    /// Returns the origins of all corners. `vertices` and `faces` are the nearest points of the vertices and of the
-    /// centers of the faces of the target.
-    fn of_corners(
-        &self,
-        target: &Mesh,
-        values: &Values,
-        vertices: &[Nearest],
-        faces: &[Nearest],
-        cx: &Context,
-    ) -> Result<Vec<Origin>, OpError> {
-        let (chart_of_face, charts) = charts(self.mesh, values);
-        // A chart needs an index only if a corner that takes its values from the chart is nearest to another chart.
-        let mut indices: Vec<Option<SurfaceIndex>> = charts.iter().map(|_| None).collect();
-        let mut origins = vec![None; target.domain_len(Domain::Corner)];
-        for (i, (f, center)) in target.faces().zip(faces).enumerate() {
-            if i % 1024 == 0 {
-                cx.advance("transfer corners", i as u64, faces.len() as u64)?;
-            }
-            let hit_of = |h: HalfEdgeId| &vertices[target.origin(h).index()];
-            let is_far = |h: HalfEdgeId| hit_of(h).distance > self.within;
-            let Some(middle) = self.near(center) else {
-                continue;
-            };
-            if target.face_half_edges(f).any(is_far) {
-                continue;
-            }
-            let chart_of = |hit: &Nearest| {
-                let face = self.index.triangle(hit.triangle).face;
-                chart_of_face[face.index()]
-            };
-            let mut candidates = vec![chart_of_face[middle.face.index()]];
-            for chart in target.face_half_edges(f).map(|h| chart_of(hit_of(h))) {
-                if !candidates.contains(&chart) {
-                    candidates.push(chart);
-                }
-            }
-            if candidates.len() > 1 {
-                for &chart in &candidates {
-                    if indices[chart].is_none() {
-                        let faces = charts[chart].iter().copied();
-                        indices[chart] = SurfaceIndex::of_faces(self.mesh, faces, cx.progress())?;
-                    }
-                }
-            }
-            let nearest = |chart: usize, p: DVec3| {
-                let index = indices[chart].as_ref()?;
-                Some((index, index.nearest(p, 0)))
-            };
-            // The largest distance of a corner or the center of the face from a chart.
-            let distance = |&chart: &usize| {
-                let corners = target.face_vertices(f).map(|v| target.position(v));
-                let points = corners.chain([target.face_center(f)]);
-                let found = points.filter_map(|p| nearest(chart, p));
-                found.fold(0.0, |largest: f64, (_, hit)| largest.max(hit.distance))
-            };
-            // The chart at the center, unless another chart is less than half as far away.
-            let mut chart = candidates[0];
-            if candidates.len() > 1 {
-                let mut least = 0.5 * distance(&chart);
-                for other in &candidates[1..] {
-                    if distance(other) < least {
-                        (chart, least) = (*other, distance(other));
-                    }
-                }
-            }
-            for h in target.face_half_edges(f) {
-                let hit = hit_of(h);
-                let in_chart = (chart_of(hit) != chart)
-                    .then(|| nearest(chart, target.position(target.origin(h))))
-                    .flatten();
-                let (triangle, point) = match in_chart {
-                    Some((index, hit)) => (index.triangle(hit.triangle), hit.point),
-                    None => (self.index.triangle(hit.triangle), hit.point),
-                };
-                let weights = triangle.barycentric(point);
-                origins[h.index()] =
-                    Some([0, 1, 2].map(|k| (triangle.corners[k].index(), weights[k])));
-            }
-        }
-        Ok(origins)
-    }
-}
-
-/// Returns the index of the chart of each face, by face index, and the faces of each chart. The faces of a chart are
-/// connected by edges at which the values of the corners are the same on both sides.
-fn charts(mesh: &Mesh, values: &Values) -> (Vec<usize>, Vec<Vec<FaceId>>) {
-    let mut chart_of_face = vec![usize::MAX; mesh.domain_len(Domain::Face)];
-    let mut charts: Vec<Vec<FaceId>> = Vec::new();
-    for first in mesh.faces() {
-        if chart_of_face[first.index()] != usize::MAX {
-            continue;
-        }
-        let number = charts.len();
-        chart_of_face[first.index()] = number;
-        let mut chart = vec![first];
-        let mut next = 0;
-        while let Some(&f) = chart.get(next) {
-            next += 1;
-            for h in mesh.face_half_edges(f) {
-                let twin = h.twin();
-                let same = |a: HalfEdgeId, b: HalfEdgeId| values.are_equal(a.index(), b.index());
-                if let Some(g) = mesh.face(twin)
-                    && chart_of_face[g.index()] == usize::MAX
-                    && same(h, mesh.next(twin))
-                    && same(mesh.next(h), twin)
-                {
-                    chart_of_face[g.index()] = number;
-                    chart.push(g);
-                }
-            }
-        }
-        charts.push(chart);
-    }
-    (chart_of_face, charts)
 }
 
 /// Returns the new column of the target: values of `column` at the origins, and the values of `old`, or zeros,

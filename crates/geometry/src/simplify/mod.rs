@@ -6,7 +6,8 @@
 //! by the square root of the area. Small details therefore count more than in the integral, which is not divided, and
 //! less than in the mean, which is divided by the area. For example, consider a model of a rocker arm that is reduced
 //! from 20,088 triangles to a tenth. The largest distance is 0.5 % of the diagonal with the integral as the cost, 0.3 %
-//! with the mean, and 0.3 % with this cost. The mean distance is 5 % smaller with this cost than with the mean.
+//! with the mean, and 0.3 % with this cost. The distance between the surfaces, averaged over
+//! the surface, is 5 % smaller with this cost than with the mean.
 //!
 //! A small part of the cost is the squared distance to the triangles themselves instead of their planes. This part
 //! keeps triangles round, similar to Trettner, Kobbelt, "Fast and Robust QEM Simplification of Large Meshes Using

@@ -35,6 +35,7 @@ pub use intersect::{self_intersecting_faces, triangles_intersect};
 pub use nearest::Nearest;
 pub use ray::RayHit;
 use slab::Slab;
+pub use triangle::triangle_distance;
 pub use winding::Winding;
 
 /// The triangles of a surface in a tree of boxes. The index copies the triangles, so later changes of the mesh do

@@ -2,6 +2,8 @@
 
 use mesh::DVec3;
 
+use super::triangles_intersect;
+
 /// Returns the point of the segment from `a` to `b` that is nearest to `p`; `a` if the segment is a point.
 pub(crate) fn nearest_on_segment(p: DVec3, a: DVec3, b: DVec3) -> DVec3 {
     let along = b - a;
@@ -73,6 +75,24 @@ pub(crate) fn nearest_on_triangle(p: DVec3, &[a, b, c]: &[DVec3; 3]) -> DVec3 {
     }
     let sum = va + vb + vc;
     a + ab * (vb / sum) + ac * (vc / sum)
+}
+
+/// Returns the distance between two triangles: 0 if they have a common point. If neither has, a corner of one triangle
+/// and a point of the other, or two sides, are nearest.
+pub fn triangle_distance(s: &[DVec3; 3], t: &[DVec3; 3]) -> f64 {
+    if triangles_intersect(s, t) {
+        return 0.0;
+    }
+    let corner = |p: &DVec3, t| p.distance(nearest_on_triangle(*p, t));
+    let corners = s
+        .iter()
+        .map(|p| corner(p, t))
+        .chain(t.iter().map(|p| corner(p, s)));
+    let sides = |&[a, b, c]: &[DVec3; 3]| [[a, b], [b, c], [c, a]];
+    let pairs = sides(s)
+        .into_iter()
+        .flat_map(|e| sides(t).map(|f| between_segments(e, f)));
+    corners.chain(pairs).fold(f64::INFINITY, f64::min)
 }
 
 /// Returns the barycentric coordinates of the point of a triangle that is nearest to `p`, by the same regions as
@@ -207,5 +227,30 @@ mod tests {
                 "{segment:?}: {found} {sampled}"
             );
         }
+    }
+
+    #[test]
+    fn the_distance_of_triangles_agrees_with_many_samples() {
+        let at = DVec3::new;
+        let fixed = [at(0.5, -1.0, 0.25), at(1.0, 1.5, 0.25), at(-0.5, 0.5, 0.75)];
+        let points: Vec<DVec3> = lattice().collect();
+        let mut n_apart = 0;
+        for t in points.windows(3).map(|w| [w[0], w[1], w[2]]) {
+            let found = triangle_distance(&fixed, &t);
+            let mut sampled = f64::INFINITY;
+            for i in 0..=60 {
+                for j in 0..=60 - i {
+                    let weights = [i, j, 60 - i - j].map(|k| f64::from(k) / 60.0);
+                    let p: DVec3 = (0..3).map(|k| weights[k] * fixed[k]).sum();
+                    sampled = sampled.min(p.distance(nearest_on_triangle(p, &t)));
+                }
+            }
+            n_apart += usize::from(found > 0.0);
+            assert!(
+                found <= sampled + 1e-12 && sampled < found + 0.03,
+                "{t:?}: {found} {sampled}"
+            );
+        }
+        assert!(n_apart > 0);
     }
 }

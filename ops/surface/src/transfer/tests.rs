@@ -1,6 +1,6 @@
 use super::*;
 use geometry::shapes;
-use mesh::{Attribute, COLOR, DVec2, DVec4, UV, VertexId};
+use mesh::{Attribute, COLOR, DVec2, DVec4, FaceId, UV, VertexId};
 use scene::Object;
 
 const GROUP: Attribute<FaceId, i32> = Attribute::new("group", Rule::Copy);
@@ -216,4 +216,83 @@ fn missing_and_unsuitable_attributes_are_refused() {
     refused(r#"(from: "scan", attributes: ["material"])"#, target());
     refused(r#"(from: "scan", attributes: [])"#, target());
     refused(r#"(from: "scam", attributes: ["uv"])"#, target());
+}
+
+/// A tube of `n` faces around and 3 faces high, with texture coordinates (angle / 2π, z) that have one seam. The first
+/// vertices are turned by `turn` faces.
+fn tube(n: u32, turn: f64) -> Mesh {
+    let mut points = Vec::new();
+    let mut faces = Vec::new();
+    for j in 0..4 {
+        for i in 0..n {
+            let angle = std::f64::consts::TAU * (f64::from(i) + turn) / f64::from(n);
+            points.push(DVec2::from_angle(angle).extend(4.0 * f64::from(j)));
+            let next = (i + 1) % n;
+            if j < 3 {
+                faces.push([j * n + i, j * n + next, (j + 1) * n + next, (j + 1) * n + i]);
+            }
+        }
+    }
+    let (mut mesh, _) = Mesh::from_polygons(points, &faces).unwrap();
+    let mut uvs = vec![DVec2::ZERO; mesh.domain_len(Domain::Corner)];
+    for (f, i) in mesh.faces().zip((0..n).cycle()) {
+        for (h, u) in mesh.face_half_edges(f).zip([i, i + 1, i + 1, i]) {
+            let z = mesh.position(mesh.origin(h)).z;
+            uvs[h.index()] = DVec2::new(f64::from(u) / f64::from(n), z);
+        }
+    }
+    mesh.set(UV, uvs);
+    mesh
+}
+
+fn transferred_uv(from: &Mesh, mut to: Mesh) -> Mesh {
+    to.remove_column(Domain::Corner, "uv");
+    let mut scene = Scene::new();
+    scene.insert(Object::mesh("scan", from.clone())).unwrap();
+    scene.insert(Object::mesh("low", to)).unwrap();
+    op::test::run(&step(r#"(from: "scan", attributes: ["uv"])"#), &mut scene).unwrap();
+    low(&scene).clone()
+}
+
+#[test]
+fn no_face_is_stretched_across_a_seam_inside_a_chart() {
+    let from = tube(48, 0.0);
+    for (n, turn) in [(48, 0.0), (48, 0.4), (12, 0.3), (7, 0.5), (200, 0.3)] {
+        let mesh = transferred_uv(&from, tube(n, turn));
+        let uvs = mesh.get(UV).unwrap();
+        let width = 1.0 / f64::from(n);
+        for f in mesh.faces() {
+            let us = mesh.face_half_edges(f).map(|h| uvs[h.index()].x);
+            let (low, high) = us.fold((1.0_f64, 0.0_f64), |(l, h), u| (l.min(u), h.max(u)));
+            assert!(high - low < 1.2 * width, "{n} {turn} {f}: {low} {high}");
+        }
+    }
+}
+
+#[test]
+fn seams_inside_a_chart_come_back_unchanged() {
+    let tube = tube(9, 0.0);
+    assert_eq!(transferred_uv(&tube, tube.clone()).get(UV), tube.get(UV));
+    // At the poles of a sphere, every face has its own coordinates.
+    let mut sphere = shapes::uv_sphere(12, 6);
+    let mut uvs = vec![DVec2::ZERO; sphere.domain_len(Domain::Corner)];
+    for f in sphere.faces() {
+        let middle = sphere.face_center(f);
+        let turns = |p: DVec3| p.truncate().to_angle() / std::f64::consts::TAU;
+        for h in sphere.face_half_edges(f) {
+            let p = sphere.position(sphere.origin(h));
+            let u = if p.truncate().length() < 1e-9 {
+                turns(middle)
+            } else {
+                turns(p)
+            };
+            let u = u + (turns(middle) - u).round();
+            uvs[h.index()] = DVec2::new(u, p.z);
+        }
+    }
+    sphere.set(UV, uvs);
+    assert_eq!(
+        transferred_uv(&sphere, sphere.clone()).get(UV),
+        sphere.get(UV)
+    );
 }

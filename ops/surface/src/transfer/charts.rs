@@ -1,0 +1,252 @@
+//! The charts of the source: its parts between seams.
+//!
+//! A chart can have seams inside it, such as the single seam of a cylinder. Near such a seam, a face of the target takes
+//! its values from one side of the seam:
+//!
+//! ```text
+//!    target    +-----------+           the center of the face is above side a, so both corners take
+//!    source    a-----a-----|b-----b    values from side a: the right corner those at the seam
+//! ```
+
+use std::cmp::Reverse;
+use std::collections::{BTreeSet, BinaryHeap};
+
+use geometry::surface_index::{SurfaceIndex, triangle_distance};
+use mesh::{DVec3, Domain, FaceId, HalfEdgeId, Mesh, Values};
+use op::{Cancelled, Progress};
+
+/// Corners are moved toward the center of their face by this fraction of the distance, so that the nearest face of a
+/// corner at a seam is on the side of its face.
+const INSET: f64 = 1e-6;
+
+/// Polygons with very many corners count as touching each other. Their distance would take too long.
+const MAX_PAIRS: usize = 4096;
+
+/// The charts of an attribute of corners. The faces of a chart are connected by edges at which the values of the corners
+/// are the same on both sides.
+pub(super) struct Charts<'a> {
+    mesh: &'a Mesh,
+    values: &'a Values,
+    /// The chart of each face, by face index.
+    pub(super) of_face: Vec<usize>,
+    faces: Vec<Vec<FaceId>>,
+    /// The index of each chart, which is built when it is first needed.
+    indices: Vec<Option<SurfaceIndex>>,
+    /// The faces beside seams inside a chart.
+    seams: Option<SurfaceIndex>,
+}
+
+/// The part of a chart from which the corners of one face take their values.
+pub(super) struct Side {
+    pub(super) faces: BTreeSet<FaceId>,
+    pub(super) index: SurfaceIndex,
+}
+
+impl<'a> Charts<'a> {
+    pub(super) fn new(
+        mesh: &'a Mesh,
+        values: &'a Values,
+        progress: &dyn Progress,
+    ) -> Result<Self, Cancelled> {
+        let mut charts = Self {
+            mesh,
+            values,
+            of_face: vec![usize::MAX; mesh.domain_len(Domain::Face)],
+            faces: Vec::new(),
+            indices: Vec::new(),
+            seams: None,
+        };
+        for first in mesh.faces() {
+            if charts.of_face[first.index()] == usize::MAX {
+                charts.add(first);
+            }
+        }
+        let is_beside_inner_seam = |&f: &FaceId| {
+            mesh.face_half_edges(f).any(|h| {
+                mesh.face(h.twin()).is_some_and(|g| {
+                    charts.of_face[f.index()] == charts.of_face[g.index()] && charts.is_seam(h)
+                })
+            })
+        };
+        let beside = mesh.faces().filter(is_beside_inner_seam);
+        charts.seams = SurfaceIndex::of_faces(mesh, beside, progress)?;
+        Ok(charts)
+    }
+
+    /// Adds the chart of a face.
+    fn add(&mut self, first: FaceId) {
+        let number = self.faces.len();
+        self.of_face[first.index()] = number;
+        let mut chart = vec![first];
+        let mut next = 0;
+        while let Some(&f) = chart.get(next) {
+            next += 1;
+            for h in self.mesh.face_half_edges(f) {
+                if let Some(g) = self.mesh.face(h.twin())
+                    && self.of_face[g.index()] == usize::MAX
+                    && !self.is_seam(h)
+                {
+                    self.of_face[g.index()] = number;
+                    chart.push(g);
+                }
+            }
+        }
+        self.faces.push(chart);
+        self.indices.push(None);
+    }
+
+    /// Whether values differ between the sides of the edge of `h`, which has two faces.
+    fn is_seam(&self, h: HalfEdgeId) -> bool {
+        let twin = h.twin();
+        let differ = |a: HalfEdgeId, b: HalfEdgeId| !self.values.are_equal(a.index(), b.index());
+        differ(h, self.mesh.next(twin)) || differ(self.mesh.next(h), twin)
+    }
+
+    pub(super) fn index(
+        &mut self,
+        chart: usize,
+        progress: &dyn Progress,
+    ) -> Result<&SurfaceIndex, Cancelled> {
+        if self.indices[chart].is_none() {
+            let faces = self.faces[chart].iter().copied();
+            self.indices[chart] = SurfaceIndex::of_faces(self.mesh, faces, progress)?;
+        }
+        Ok(self.indices[chart].as_ref().expect("a chart has faces"))
+    }
+
+    /// Returns the first of the charts, unless another chart is less than half as far away. The distance of a chart is
+    /// the largest distance of a corner or the center of the face from the chart.
+    pub(super) fn nearest(
+        &mut self,
+        candidates: &[usize],
+        target: &Mesh,
+        f: FaceId,
+        progress: &dyn Progress,
+    ) -> Result<usize, Cancelled> {
+        let (mut chart, mut least) = (candidates[0], f64::INFINITY);
+        if candidates.len() == 1 {
+            return Ok(chart);
+        }
+        for &candidate in candidates {
+            let index = self.index(candidate, progress)?;
+            let corners = target.face_vertices(f).map(|v| target.position(v));
+            let points = corners.chain([target.face_center(f)]);
+            let distances = points.map(|p| index.nearest(p, 0).distance);
+            let distance = distances.fold(0.0, f64::max);
+            if least == f64::INFINITY {
+                least = 0.5 * distance;
+            } else if distance < least {
+                (chart, least) = (candidate, distance);
+            }
+        }
+        Ok(chart)
+    }
+
+    /// Returns the faces of `chart` on the side of its seams at the center of the face `f` of the target; `None` if the
+    /// chart has no seam near this face. `farthest` is the largest distance of a corner or the center from the source.
+    ///
+    /// First finds the source under the face: the nearest faces that connect the center with all corners. Then returns
+    /// those that are connected with the center without crossing a seam.
+    pub(super) fn side_under(
+        &mut self,
+        chart: usize,
+        target: &Mesh,
+        f: FaceId,
+        farthest: f64,
+        progress: &dyn Progress,
+    ) -> Result<Option<Side>, Cancelled> {
+        let Some(seams) = &self.seams else {
+            return Ok(None);
+        };
+        let center = target.face_center(f);
+        let corners: Vec<DVec3> = target
+            .face_vertices(f)
+            .map(|v| target.position(v))
+            .collect();
+        let radius = corners
+            .iter()
+            .fold(0.0_f64, |r, p| r.max(p.distance(center)));
+        if seams.nearest(center, 0).distance > 2.0 * (radius + farthest) {
+            return Ok(None);
+        }
+        let corners: Vec<DVec3> = corners.iter().map(|p| p.lerp(center, INSET)).collect();
+        let index = self.index(chart, progress)?;
+        let face_of = |p: &DVec3| index.triangle(index.nearest(*p, 0).triangle).face;
+        let start = face_of(&center);
+        let goals: BTreeSet<FaceId> = corners.iter().map(face_of).collect();
+        let under = self.connecting(start, goals, &fan(&corners, center), radius + farthest);
+        let mut faces = BTreeSet::from([start]);
+        let mut open = vec![start];
+        while let Some(f) = open.pop() {
+            for h in self.mesh.face_half_edges(f) {
+                if let Some(g) = self.mesh.face(h.twin())
+                    && under.contains(&g)
+                    && !self.is_seam(h)
+                    && faces.insert(g)
+                {
+                    open.push(g);
+                }
+            }
+        }
+        let index = SurfaceIndex::of_faces(self.mesh, faces.iter().copied(), progress)?;
+        Ok(index.map(|index| Side { faces, index }))
+    }
+
+    /// Returns the faces within the smallest distance from `triangles` at which the faces connect `start` with all
+    /// `goals`, across seams too. The distance is at most `limit`; then some goals are not connected.
+    fn connecting(
+        &self,
+        start: FaceId,
+        mut goals: BTreeSet<FaceId>,
+        triangles: &[[DVec3; 3]],
+        limit: f64,
+    ) -> BTreeSet<FaceId> {
+        let distance = |f: FaceId| {
+            let corners: Vec<DVec3> = (self.mesh.face_vertices(f))
+                .map(|v| self.mesh.position(v))
+                .collect();
+            let parts = fan(&corners, self.mesh.face_center(f));
+            if parts.len() * triangles.len() > MAX_PAIRS {
+                return 0.0;
+            }
+            let pairs = parts
+                .iter()
+                .flat_map(|s| triangles.iter().map(move |t| (s, t)));
+            pairs.fold(f64::INFINITY, |d, (s, t)| d.min(triangle_distance(s, t)))
+        };
+        let mut reached = BTreeSet::new();
+        let mut seen = BTreeSet::from([start]);
+        // Distances are not negative, so their bits have the same order.
+        let mut open = BinaryHeap::from([Reverse((distance(start).to_bits(), start))]);
+        let mut largest = 0;
+        while let Some(Reverse((bits, f))) = open.pop() {
+            if bits > largest {
+                if goals.is_empty() || f64::from_bits(bits) > limit {
+                    break;
+                }
+                largest = bits;
+            }
+            reached.insert(f);
+            goals.remove(&f);
+            for h in self.mesh.face_half_edges(f) {
+                if let Some(g) = self.mesh.face(h.twin())
+                    && seen.insert(g)
+                {
+                    open.push(Reverse((distance(g).to_bits(), g)));
+                }
+            }
+        }
+        reached
+    }
+}
+
+/// Divides a polygon into triangles around its center. A triangle is not divided.
+fn fan(corners: &[DVec3], center: DVec3) -> Vec<[DVec3; 3]> {
+    if let &[a, b, c] = corners {
+        return vec![[a, b, c]];
+    }
+    let n = corners.len();
+    (0..n)
+        .map(|i| [corners[i], corners[(i + 1) % n], center])
+        .collect()
+}

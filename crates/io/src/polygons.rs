@@ -144,6 +144,10 @@ impl Polygons {
     pub(crate) fn apply_pose(&mut self, pose: &Pose, to_scene: &DAffine3) -> usize {
         let n = self.positions.len();
         pose.morph(&self.attributes, &mut self.positions);
+        let vertex_of = |corner: usize| self.corners[corner] as usize;
+        for (domain, column) in pose.morphed_normals(&self.attributes, vertex_of) {
+            self.attributes.insert(domain, column);
+        }
         let maps = pose.blended(&self.attributes, n);
         let joints = self.attributes.joints().into_iter();
         let joints: Vec<String> = joints.map(|(joint, _)| joint_name(joint)).collect();

@@ -1,12 +1,19 @@
 //! Deforming a mesh by the weights of its morph targets and by the joints of its skin.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3};
-use mesh::{Attributes, Mesh, parallel};
+use mesh::{
+    Attributes, Column, Domain, HalfEdgeId, Mesh, Rule, VERTEX_NORMAL, Value as _, morph_normal_of,
+    parallel,
+};
 
 use crate::placed::{LinearMap, mapped};
 use crate::{Graph, Node};
+
+/// A column of normals and its domain.
+type Normals<'a> = (Domain, &'a [DVec3]);
 
 /// How a node deforms its object.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -78,6 +85,72 @@ impl Pose {
         Some(parallel::collect(n, blend))
     }
 
+    /// Returns the normals of the mesh and of its morph targets in this pose, before joints move them. These columns
+    /// replace the columns of the same names in `attributes`. The list is empty if no normals change. All columns are of
+    /// corners if one of the old columns is of corners, and otherwise of vertices. `vertex_of` returns the vertex of a
+    /// corner.
+    ///
+    /// The new normal is the normalized sum of the old normal and the weighted differences between the normals of the
+    /// morph targets and the old normal, as in glTF 2.0, section 3.7.2.2. The differences themselves do not change. If
+    /// the sum is zero, the old normal stays.
+    pub fn morphed_normals(
+        &self,
+        attributes: &Attributes,
+        vertex_of: impl Fn(usize) -> usize + Sync,
+    ) -> Vec<(Domain, Column)> {
+        // Normals of corners take precedence over normals of vertices with the same name.
+        let mut columns: BTreeMap<&str, Normals> = BTreeMap::new();
+        for domain in [Domain::Vertex, Domain::Corner] {
+            for column in attributes.of(domain) {
+                if (column.name == VERTEX_NORMAL.name || morph_normal_of(&column.name).is_some())
+                    && let Some(values) = DVec3::of(&column.values)
+                {
+                    columns.insert(&column.name, (domain, values));
+                }
+            }
+        }
+        let Some(&own) = columns.get(VERTEX_NORMAL.name) else {
+            return Vec::new();
+        };
+        let mut targets: Vec<(f64, Normals)> = Vec::new();
+        for (name, normals) in &columns {
+            let weight = morph_normal_of(name).and_then(|target| self.weights.get(target));
+            if let Some(&weight) = weight
+                && weight != 0.0
+            {
+                targets.push((weight, *normals));
+            }
+        }
+        if targets.is_empty() {
+            return Vec::new();
+        }
+        let mut of_corners = columns
+            .values()
+            .filter(|(domain, _)| *domain == Domain::Corner);
+        let (domain, values) = of_corners.next().copied().unwrap_or(own);
+        let n = values.len();
+        let at = |(from, values): Normals, i: usize| {
+            values[if from == domain { i } else { vertex_of(i) }]
+        };
+        let changes: Vec<DVec3> = parallel::collect(n, |i| {
+            let normal = at(own, i);
+            let sum = targets.iter().fold(normal, |sum, (weight, target)| {
+                sum + *weight * (at(*target, i) - normal)
+            });
+            sum.try_normalize().map_or(DVec3::ZERO, |new| new - normal)
+        });
+        let column = |(name, normals): (&&str, &Normals)| {
+            let values = (0..n).map(|i| at(*normals, i) + changes[i]).collect();
+            let column = Column {
+                name: (*name).to_owned(),
+                rule: Rule::Normal,
+                values: DVec3::wrap(values),
+            };
+            (domain, column)
+        };
+        columns.iter().map(column).collect()
+    }
+
     /// Moves points by the weighted deltas of the morph targets.
     pub fn morph(&self, attributes: &Attributes, points: &mut [DVec3]) {
         for (target, deltas) in attributes.morphs() {
@@ -97,6 +170,11 @@ pub(crate) fn posed(mesh: &Mesh, pose: &Pose, to_scene: &DAffine3) -> Mesh {
     let mut morphed = mesh.clone();
     let attributes = mesh.attributes();
     pose.morph(attributes, morphed.positions_mut());
+    let vertex_of = |corner| mesh.origin(HalfEdgeId::new(corner)).index();
+    for (domain, column) in pose.morphed_normals(attributes, vertex_of) {
+        morphed.remove_column(Domain::Vertex, &column.name);
+        morphed.insert_column(domain, column);
+    }
     match pose.blended(attributes, mesh.n_vertices()) {
         None if *to_scene == DAffine3::IDENTITY => morphed,
         None => crate::transformed(&morphed, to_scene),

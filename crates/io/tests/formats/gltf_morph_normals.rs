@@ -214,3 +214,53 @@ fn a_wrong_number_of_changed_normals_is_an_error_that_says_where() {
         "{error}"
     );
 }
+
+/// A pose blends the normals of the mesh and the targets by their weights.
+#[test]
+fn a_pose_blends_the_normals_of_targets() {
+    let normals = [[0.6, 0.0, 0.8]; 6];
+    let mut changes = [[-0.6, 0.6, 0.0]; 6];
+    // With different changes at a seam, the blended normals are normals of corners.
+    for is_seam in [false, true] {
+        if is_seam {
+            changes[5] = [0.0, 0.8, -0.8];
+            changes[4] = [0.0, 0.0, 0.0];
+        }
+        let mut json = folded(normals, Some(changes));
+        json["meshes"][0]["weights"] = json!([0.5]);
+        let placed = scene(&json).placed().into_owned();
+        let baked = read_baked(&json).unwrap();
+        for mesh in [only_mesh(&placed), baked.objects[0].as_mesh().unwrap()] {
+            let vertex = mesh.get(VERTEX_NORMAL);
+            let corner = mesh.get(CORNER_NORMAL);
+            assert_eq!(corner.is_some(), is_seam);
+            for f in mesh.faces() {
+                for (i, h) in mesh.face_half_edges(f).enumerate() {
+                    let k = 3 * f.index() + i;
+                    let [own, change] =
+                        [normals, changes].map(|v| DVec3::from(v[k].map(f64::from)));
+                    let expected = (own + 0.5 * change).normalize();
+                    let v = mesh.origin(h).index();
+                    let found = corner.map_or_else(|| vertex.unwrap()[v], |c| c[h.index()]);
+                    assert!(
+                        found.distance(expected) < 1e-6,
+                        "{f} {i}: {found} {expected}"
+                    );
+                    // The target still differs from the mesh by the same vector.
+                    let target = mesh
+                        .attributes()
+                        .iter()
+                        .find(|(_, c)| c.name == morph_normal_name(0));
+                    let (domain, column) = target.unwrap();
+                    let at = if domain == Domain::Corner {
+                        h.index()
+                    } else {
+                        v
+                    };
+                    let target = DVec3::of(&column.values).unwrap()[at];
+                    assert!((target - found).distance(change) < 1e-6, "{target} {found}");
+                }
+            }
+        }
+    }
+}

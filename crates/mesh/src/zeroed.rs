@@ -6,10 +6,11 @@
 use bytemuck::Zeroable;
 
 /// Arrays of at least this many bytes request large pages. Smaller arrays would waste memory.
+#[cfg(any(target_os = "linux", test))]
 const LARGE: usize = 8 << 20;
 
-/// The system has no memory for a large array. [`zeroed`] and [`require_memory`] unwind with this value. Running out of memory is not
-/// a bug in the program: callers catch the value and report it as an error.
+/// The system has no memory for a large array. [`zeroed`] and [`require_memory`] unwind with this value. Running out
+/// of memory is not a bug in the program: callers catch the value and report it as an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the system has no memory for another {bytes} bytes")]
 pub struct OutOfMemory {

@@ -1,6 +1,6 @@
 //! The file system of the machine.
 
-use std::fs::{self, File, Permissions};
+use std::fs::{self, File};
 use std::io::{self, Read as _, Write};
 use std::path::{Path, PathBuf};
 
@@ -188,7 +188,7 @@ fn beside(path: &Path) -> io::Result<NamedTempFile> {
     // Temporary files are private to the user by default. This temporary file becomes a normal file, so it gets
     // normal permissions.
     #[cfg(unix)]
-    let open: Permissions = std::os::unix::fs::PermissionsExt::from_mode(0o666);
+    let open: fs::Permissions = std::os::unix::fs::PermissionsExt::from_mode(0o666);
     #[cfg(unix)]
     builder.permissions(open);
     builder
@@ -222,12 +222,12 @@ fn read_plain(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
     let expected = usize::try_from(meta.len().min(limit)).unwrap_or(usize::MAX);
     let mut bytes = Vec::new();
     bytes.try_reserve_exact(expected)?;
-    let mut file = File::open(path)?;
+    let file = File::open(path)?;
     #[cfg(unix)]
     if expected >= LARGE {
         drop(bytes);
         bytes = read_at_once(&file, expected)?;
-        io::Seek::seek(&mut file, io::SeekFrom::Start(expected as u64))?;
+        io::Seek::seek(&mut &file, io::SeekFrom::Start(expected as u64))?;
     }
     // Reads the rest: a whole small file, or bytes that were added to a large file after its size was determined.
     let rest = limit - bytes.len() as u64;

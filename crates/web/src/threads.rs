@@ -8,6 +8,8 @@
 //!
 //! Only in a build with atomic operations, which browsers run only if the page is isolated from other origins.
 
+#![expect(unreachable_pub, reason = "wasm-bindgen exports only public functions")]
+
 use std::sync::{Condvar, Mutex, PoisonError};
 
 use rayon::{ThreadBuilder, ThreadPoolBuilder};

@@ -6,7 +6,7 @@ use scene::Geometry;
 
 use super::Editor;
 use crate::keys::Action;
-use crate::panel::{FieldKind, Panel};
+use crate::panel::{FieldKind, Panel, PanelField};
 use crate::text::{self, TextError};
 
 /// An operation to insert after the cursor.
@@ -190,16 +190,10 @@ impl Editor {
             }
             panel.set(field, Some(value));
         }
-        let wanted = panel
-            .fields
-            .iter()
-            .find_map(|field| match field.kind.inner() {
-                FieldKind::Selection(kind) if field.value.is_none() => Some((field.clone(), *kind)),
-                _ => None,
-            });
         let mut before = None;
         let mut object = None;
-        if let Some((field, kind)) = wanted {
+        if let Some((field, kind)) = unset_selection(&panel) {
+            let field = field.clone();
             match &command.selection {
                 Some(selection) => {
                     let text =
@@ -314,6 +308,27 @@ impl Editor {
         self.preview_edits(edits)?;
         self.preview_steps = steps.len();
         Ok(())
+    }
+}
+
+/// Returns the first parameter that selects elements and has no value, and the kind of elements that it selects. A command
+/// gives it the selection of the picked elements.
+fn unset_selection(panel: &Panel) -> Option<(&PanelField, Option<ElementKind>)> {
+    panel
+        .fields
+        .iter()
+        .find_map(|field| match field.kind.inner() {
+            FieldKind::Selection(kind) if field.value.is_none() => Some((field, *kind)),
+            _ => None,
+        })
+}
+
+impl Panel {
+    /// Returns the parameter to which a command with this selection gives the picked elements, and its value as RON. `None`
+    /// if the operation has no such parameter, or if the picked elements do not fit.
+    pub fn picked_value(&self, selection: &SelectionText) -> Option<(String, String)> {
+        let (field, kind) = unset_selection(self)?;
+        Some((field.name.clone(), converted(selection, kind)?))
     }
 }
 

@@ -61,10 +61,16 @@ impl Draft {
         }
     }
 
-    /// Draws the parameters, and takes their changes.
+    /// Draws the parameters, and takes their changes. A parameter that takes the picked elements shows their selection.
     fn fields(&mut self, ui: &mut Ui, selection: Option<&SelectionText>) {
+        let picked = selection.and_then(|selection| self.panel.picked_value(selection));
         for i in 0..self.panel.fields.len() {
-            let of = self.panel.fields[i].clone();
+            let mut of = self.panel.fields[i].clone();
+            if let Some((name, value)) = &picked
+                && of.name == *name
+            {
+                of.value = Some(value.clone());
+            }
             let field = Field {
                 of: &of,
                 live: None,

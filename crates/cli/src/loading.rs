@@ -50,7 +50,7 @@ pub(crate) fn load_recipe(
         pipes::read_recipe()?
     } else {
         expect_kind(path, FileKind::Recipe)?;
-        engine.open(path).map_err(anyhow::Error::msg)?
+        engine.open(path)?
     };
     load_text(&source, values, out, checking, engine)
 }

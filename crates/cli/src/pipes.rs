@@ -40,7 +40,7 @@ pub(crate) fn read_recipe() -> anyhow::Result<Source> {
         .take(MAX_BYTES as u64 + 1)
         .read_to_end(&mut bytes);
     read.context("cannot read standard input")?;
-    Source::from_bytes(name, bytes).map_err(anyhow::Error::msg)
+    Ok(Source::from_bytes(name, bytes)?)
 }
 
 /// Refuses standard input for a command that cannot read from it.

@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use engine::stamp_line;
-use store::{Entry, Store};
+use recipe::SourceError;
+use store::{Entry, Store, StoreError};
 
 /// The maximum number of texts in the history.
 const MAX_HISTORY: usize = 10_000;
@@ -47,6 +48,17 @@ pub struct Conflict {
     pub theirs: Arc<str>,
 }
 
+/// Why a recipe is not saved.
+#[derive(Debug, thiserror::Error)]
+pub enum SaveError {
+    /// The file was changed by another program since it was read.
+    #[error("{} was changed by another program: keep your text or take theirs", .0.display())]
+    Conflict(PathBuf),
+    /// The file cannot be written.
+    #[error(transparent)]
+    Write(#[from] StoreError),
+}
+
 /// Something that happened to the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum FileChange {
@@ -86,8 +98,8 @@ impl Document {
     ///
     /// # Errors
     ///
-    /// A message with the path, if the file cannot be read, is too long, or is not UTF-8 text.
-    pub fn open(store: &dyn Store, path: &Path) -> Result<Self, String> {
+    /// [`SourceError`] if the file cannot be read, is too long, or is not UTF-8 text.
+    pub fn open(store: &dyn Store, path: &Path) -> Result<Self, SourceError> {
         let seen = store.entry(path);
         let text = recipe::Source::open_in(store, path)?.text;
         let mut document = Self::new(path, text.clone());
@@ -206,27 +218,22 @@ impl Document {
     ///
     /// # Errors
     ///
-    /// A message with the path, if the file cannot be written, or was changed by another program since it was read. In the
-    /// second case, [`conflict`](Self::conflict) has their text.
-    pub fn save(&mut self, store: &dyn Store) -> Result<(), String> {
+    /// [`SaveError`] if the file cannot be written, or was changed by another program since it was read. In the second case,
+    /// [`conflict`](Self::conflict) has their text.
+    pub fn save(&mut self, store: &dyn Store) -> Result<(), SaveError> {
         if self.has_file && self.follow(store) == Some(FileChange::Conflict) {
-            let path = self.path.display();
-            return Err(format!(
-                "{path} was changed by another program: keep your text or take theirs"
-            ));
+            return Err(SaveError::Conflict(self.path.clone()));
         }
-        self.save_as(store, &self.path.clone())
+        Ok(self.save_as(store, &self.path.clone())?)
     }
 
     /// Saves the text to a file, which becomes the file of the document. An existing file is replaced.
     ///
     /// # Errors
     ///
-    /// A message with the path, if the file cannot be written.
-    pub fn save_as(&mut self, store: &dyn Store, path: &Path) -> Result<(), String> {
-        store
-            .write(path, self.text().as_bytes())
-            .map_err(|error| error.to_string())?;
+    /// [`StoreError`] if the file cannot be written.
+    pub fn save_as(&mut self, store: &dyn Store, path: &Path) -> Result<(), StoreError> {
+        store.write(path, self.text().as_bytes())?;
         path.clone_into(&mut self.path);
         self.has_file = true;
         self.saved = Some(self.text().clone());
@@ -272,10 +279,10 @@ impl Document {
         }
         let theirs = match recipe::Source::open_in(store, &self.path) {
             Ok(source) => source.text,
-            Err(message) => {
+            Err(error) => {
                 // The file may be half-written: it is read again at the next look if it changes.
                 self.seen = seen;
-                return Some(FileChange::Unreadable(message));
+                return Some(FileChange::Unreadable(error.to_string()));
             }
         };
         self.seen = seen;

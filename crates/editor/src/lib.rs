@@ -36,7 +36,7 @@ mod select;
 mod text;
 
 pub use curve::{ControlPoint, control_points, pick_control_point};
-pub use document::{Conflict, Document, FileChange};
+pub use document::{Conflict, Document, FileChange, SaveError};
 pub use edit::{
     Command, CommandError, Editor, Movement, OpenError, SelectionText, Settings, Update, View,
 };

@@ -60,7 +60,7 @@ pub use loaded::{Loaded, Run};
 pub use memory::SceneMemory;
 pub use read::FileReader;
 pub use recipe::{
-    Diagnostic, Failure, Listener, Outcome, Settings, Silent, Source, StepDone, Values,
+    Diagnostic, Failure, Listener, Outcome, Settings, Silent, Source, SourceError, StepDone, Values,
 };
 pub use stop::{Stop, UnknownStep};
 pub use store::{Disk, Memory, Store};
@@ -126,8 +126,8 @@ impl<'r> Engine<'r> {
     ///
     /// # Errors
     ///
-    /// A message with the path, if the file cannot be read, is too long, or is not UTF-8 text.
-    pub fn open(&self, path: &Path) -> Result<Source, String> {
+    /// [`SourceError`] if the file cannot be read, is too long, or is not UTF-8 text.
+    pub fn open(&self, path: &Path) -> Result<Source, SourceError> {
         Source::open_in(&*self.store, path)
     }
 

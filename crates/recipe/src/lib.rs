@@ -54,7 +54,7 @@ pub use run::{
 pub use schema::{Schemas, schema, step_kinds};
 pub use schema_check::did_you_mean;
 pub use select::{read_selection, read_step, resolve, with_case_of};
-pub use source::Source;
+pub use source::{Source, SourceError};
 pub use stamp::Stamp;
 pub use substitute::substitute;
 pub use sweep::{

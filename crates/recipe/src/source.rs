@@ -4,7 +4,26 @@ use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
 use ron_tree::MAX_BYTES;
-use store::{Disk, Store};
+use store::{Disk, Store, StoreError};
+
+/// Why a file is not the text of a recipe.
+#[derive(Debug, thiserror::Error)]
+pub enum SourceError {
+    /// The file cannot be read.
+    #[error(transparent)]
+    Read(#[from] StoreError),
+    /// The text is longer than the maximum length of a recipe.
+    #[error("{}: the recipe is larger than {} MiB", .0.display(), MAX_BYTES >> 20)]
+    TooLong(PathBuf),
+    /// The bytes are not text.
+    #[error("{}:{line}: the recipe is not UTF-8 text", path.display())]
+    NotUtf8 {
+        /// The file.
+        path: PathBuf,
+        /// The first line that is not text, counted from 1.
+        line: usize,
+    },
+}
 
 /// A text with the path of its file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -29,7 +48,7 @@ impl Source {
     /// # Errors
     ///
     /// The errors of [`open_in`](Self::open_in).
-    pub fn open(path: &Path) -> Result<Self, String> {
+    pub fn open(path: &Path) -> Result<Self, SourceError> {
         Self::open_in(&Disk, path)
     }
 
@@ -37,29 +56,28 @@ impl Source {
     ///
     /// # Errors
     ///
-    /// A message with the path, if the file cannot be read, is too long, or is not UTF-8 text.
-    pub fn open_in(store: &dyn Store, path: &Path) -> Result<Self, String> {
-        let bytes = store.read_stream(path, MAX_BYTES as u64 + 1);
-        Self::from_bytes(path, bytes.map_err(|error| error.to_string())?)
+    /// [`SourceError`] if the file cannot be read, is too long, or is not UTF-8 text.
+    pub fn open_in(store: &dyn Store, path: &Path) -> Result<Self, SourceError> {
+        let bytes = store.read_stream(path, MAX_BYTES as u64 + 1)?;
+        Self::from_bytes(path, bytes)
     }
 
     /// Creates a source from the bytes of a text. The file `path` is not read.
     ///
     /// # Errors
     ///
-    /// A message with the path, if the text is too long or is not UTF-8 text.
-    pub fn from_bytes(path: &Path, bytes: Vec<u8>) -> Result<Self, String> {
-        let shown = path.display();
+    /// [`SourceError`] if the text is too long or is not UTF-8 text.
+    pub fn from_bytes(path: &Path, bytes: Vec<u8>) -> Result<Self, SourceError> {
         if bytes.len() > MAX_BYTES {
-            let mebibytes = MAX_BYTES >> 20;
-            return Err(format!(
-                "{shown}: the recipe is larger than {mebibytes} MiB"
-            ));
+            return Err(SourceError::TooLong(path.to_owned()));
         }
         let text = String::from_utf8(bytes).map_err(|error| {
             let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
             let line = String::from_utf8_lossy(before).matches('\n').count() + 1;
-            format!("{shown}:{line}: the recipe is not UTF-8 text")
+            SourceError::NotUtf8 {
+                path: path.to_owned(),
+                line,
+            }
         })?;
         Ok(Self::new(path, text))
     }
@@ -157,7 +175,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.ron");
         std::fs::write(&path, b"(\n\xff)").unwrap();
-        let error = Source::open(&path).unwrap_err();
+        let error = Source::open(&path).unwrap_err().to_string();
         assert!(
             error.ends_with("a.ron:2: the recipe is not UTF-8 text"),
             "{error}"
@@ -171,7 +189,7 @@ mod tests {
         let path = folder.path().join("a.ron");
         let file = std::fs::File::create(&path).unwrap();
         file.set_len(1 << 40).unwrap();
-        let error = Source::open(&path).unwrap_err();
+        let error = Source::open(&path).unwrap_err().to_string();
         assert!(
             error.ends_with("the recipe is larger than 64 MiB"),
             "{error}"

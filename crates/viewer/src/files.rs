@@ -1,5 +1,6 @@
 //! Saved files, recent files, and the offer to recover texts after a crash.
 
+use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 use editor::{Keys, Recovery};
@@ -102,13 +103,13 @@ pub(crate) fn save_to(parts: &mut Parts, path: &Path) {
     finish(parts, result, path);
 }
 
-fn finish(parts: &mut Parts, result: Result<(), String>, path: &Path) {
+fn finish(parts: &mut Parts, result: Result<(), impl Display>, path: &Path) {
     match result {
         Ok(()) => {
             parts.files.remember(path);
             parts.inform(format!("Saved {}", path.display()));
         }
-        Err(message) => parts.warn(message),
+        Err(error) => parts.warn(error.to_string()),
     }
 }
 

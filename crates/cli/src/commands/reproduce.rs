@@ -43,10 +43,9 @@ fn recipe_of(
     engine: &Engine,
 ) -> anyhow::Result<(Source, Run)> {
     let shown = file.display();
-    let open = |path: &Path| Source::open(path).map_err(anyhow::Error::msg);
     let run = stamp.and_then(|stamp| stamp.run.clone());
     if let Some(path) = &args.recipe {
-        return Ok((open(path)?, run.unwrap_or_default()));
+        return Ok((Source::open(path)?, run.unwrap_or_default()));
     }
     let stamp = stamp.with_context(|| {
         format!("{shown} does not record which recipe wrote it: name the recipe with --recipe")
@@ -60,14 +59,14 @@ fn recipe_of(
     candidates.sort_by_key(|path| (!is_named(path), path.clone()));
     let run = run.clone().unwrap_or_default();
     for path in &candidates {
-        if let Ok(source) = open(path)
+        if let Ok(source) = Source::open(path)
             && read(&source, &run, engine).recipe.digest() == stamp.recipe
         {
             return Ok((source, run));
         }
     }
     match candidates.into_iter().find(is_named) {
-        Some(path) => Ok((open(&path)?, run)),
+        Some(path) => Ok((Source::open(&path)?, run)),
         None => anyhow::bail!(
             "{shown} was written by the recipe {} with the digest {}; this recipe was not found below the working \
              directory: name it with --recipe",

@@ -34,7 +34,7 @@ pub(crate) fn run(args: &UpgradeArgs, registry: &Registry) -> anyhow::Result<boo
 
 /// Upgrades one recipe. With `only_check`, only lists the changes. Returns whether the recipe has outdated names.
 fn upgrade_recipe(path: &Path, only_check: bool, registry: &Registry) -> anyhow::Result<bool> {
-    let source = Source::open(path).map_err(anyhow::Error::msg)?;
+    let source = Source::open(path)?;
     let shown = path.display().to_string();
     let upgraded = match upgrade(&source.text, registry) {
         Ok(upgraded) => upgraded,

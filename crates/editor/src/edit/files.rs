@@ -5,8 +5,9 @@ use std::sync::Arc;
 
 use mesh_io::Format;
 use recipe::Rebase;
+use store::StoreError;
 
-use crate::document::Document;
+use crate::document::{Document, SaveError};
 use crate::journal::Recovery;
 use crate::run::RunState;
 use crate::text::Outline;
@@ -24,7 +25,7 @@ impl Editor {
             .extension()
             .is_some_and(|ending| ending.eq_ignore_ascii_case("ron"));
         let document = if is_recipe {
-            Document::open(&*self.store, path).map_err(OpenError::Unreadable)?
+            Document::open(&*self.store, path)?
         } else {
             self.document_of_model(path)?
         };
@@ -43,8 +44,7 @@ impl Editor {
             ));
         };
         if !self.store.is_file(path) {
-            let message = format!("cannot read {}: the file does not exist", path.display());
-            return Err(OpenError::Unreadable(message));
+            return Err(OpenError::Missing(path.to_owned()));
         }
         let load = format!("Load(path: {})", ron_tree::string_literal(file));
         let name = store::stem(path).to_owned();
@@ -89,7 +89,7 @@ impl Editor {
     /// # Errors
     ///
     /// The errors of [`Document::save`].
-    pub fn save(&mut self) -> Result<(), String> {
+    pub fn save(&mut self) -> Result<(), SaveError> {
         self.document.save(&*self.store)?;
         self.keep_journal();
         self.watch();
@@ -102,7 +102,7 @@ impl Editor {
     /// # Errors
     ///
     /// The errors of [`Document::save_as`].
-    pub fn save_as(&mut self, path: &Path) -> Result<(), String> {
+    pub fn save_as(&mut self, path: &Path) -> Result<(), StoreError> {
         let moved = self
             .with_moved_inputs(path)
             .filter(|text| text != self.text());

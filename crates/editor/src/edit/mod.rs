@@ -11,7 +11,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
-use engine::Source;
+use engine::{Source, SourceError};
 use op::Registry;
 use scene::Scene;
 use store::Store;
@@ -94,11 +94,14 @@ pub struct Editor {
 }
 
 /// Why a file cannot be opened.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, thiserror::Error)]
 pub enum OpenError {
-    /// The file cannot be read.
-    #[error("{0}")]
-    Unreadable(String),
+    /// The recipe cannot be read.
+    #[error(transparent)]
+    Recipe(#[from] SourceError),
+    /// The model does not exist.
+    #[error("cannot read {}: the file does not exist", .0.display())]
+    Missing(PathBuf),
     /// The file is of a kind that the editor does not open.
     #[error("{0} is not a recipe (.ron) or a model; models: {1}")]
     Kind(PathBuf, String),

@@ -60,6 +60,7 @@ fn unsaved_changes_and_a_changed_file_are_a_conflict() {
             editor
                 .save()
                 .unwrap_err()
+                .to_string()
                 .contains("changed by another program")
         );
         if keep {

@@ -261,7 +261,11 @@ impl Reader<'_, '_> {
                 Some(self.shared.sources.len() - 1)
             }
             Err(error) => {
-                self.error(span, error, similar_files(self.shared.store, path));
+                self.error(
+                    span,
+                    error.to_string(),
+                    similar_files(self.shared.store, path),
+                );
                 None
             }
         }

@@ -41,7 +41,7 @@ impl<'a> Batch<'a> {
     ) -> anyhow::Result<Option<Self>> {
         let path = args.recipe.as_deref().unwrap_or(Path::new(""));
         expect_kind(path, FileKind::Recipe)?;
-        let source = Source::open(path).map_err(anyhow::Error::msg)?;
+        let source = Source::open(path)?;
         // Loads the recipe with the default value of its path parameter. The file at this path can be missing.
         let loaded = load_text(
             &source,

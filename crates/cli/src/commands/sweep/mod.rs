@@ -149,14 +149,14 @@ impl Plan {
     /// Reads the sweep and its recipe, and checks that they match. If there are errors, prints them and returns `None`.
     fn read(args: &SweepArgs, engine: &Engine) -> anyhow::Result<Option<Self>> {
         expect_kind(&args.sweep, FileKind::Sweep)?;
-        let source = Source::open(&args.sweep).map_err(anyhow::Error::msg)?;
+        let source = Source::open(&args.sweep)?;
         let reading = read_sweep(&source.text);
         let mut diagnostics = reading.diagnostics;
         let mut plan = None;
         if let Some(sweep) = reading.sweep {
             let path = source.folder().join(&sweep.recipe);
             if path.is_file() {
-                let recipe = Source::open(&path).map_err(anyhow::Error::msg)?;
+                let recipe = Source::open(&path)?;
                 let out = args.keep_outputs.as_deref().unwrap_or(Path::new("out"));
                 let loaded = load_text(
                     &recipe,

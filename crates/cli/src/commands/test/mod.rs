@@ -173,7 +173,7 @@ fn read<'a>(
     let loaded = run_all(recipes.len(), limits, |i| {
         let found = &recipes[i];
         let out = out.map_or_else(|| "out".into(), |out| out.join(&found.own_folder));
-        let source = engine.open(&found.path).map_err(anyhow::Error::msg)?;
+        let source = engine.open(&found.path)?;
         load_text(&source, &ValueArgs::default(), &out, checking, engine)
     })?;
     let made = recipes.iter().zip(loaded);

@@ -34,7 +34,7 @@ impl Recipe {
         let loaded = run(py, None, |_| {
             let source = match text {
                 Some(text) => Source::new(path, text),
-                None => ENGINE.open(&path)?,
+                None => ENGINE.open(&path).map_err(|error| error.to_string())?,
             };
             let options = Options {
                 values: Values {

@@ -16,7 +16,8 @@
 
 use glam::DVec3;
 
-use crate::patch::{cubic, size};
+use crate::normal::size;
+use crate::patch::cubic;
 use crate::weights::Weights;
 use crate::{Counts, Faces, Patch};
 

@@ -35,8 +35,6 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::patch::size;
-
 /// The largest coefficient of the scaled normal that is treated as zero.
 ///
 /// The value is well above the rounding errors of the coefficients (1e-14), and above the coefficients at an
@@ -100,6 +98,11 @@ fn limit_along(c: &[[DVec3; 4]; 4], max_steps: DVec2, direction: DVec2) -> Optio
 /// Returns 1, x, x², x³.
 fn powers(x: f64) -> [f64; 4] {
     [1.0, x, x * x, x * x * x]
+}
+
+/// Returns the largest magnitude of a coordinate of `p`.
+pub(crate) fn size(p: DVec3) -> f64 {
+    p.abs().max_element()
 }
 
 #[cfg(test)]

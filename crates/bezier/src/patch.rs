@@ -17,7 +17,7 @@
 use glam::{DVec2, DVec3};
 
 use crate::BezierError;
-use crate::normal;
+use crate::normal::{self, size};
 use crate::weights::Weights;
 
 /// The largest magnitude of a coordinate of a [`Patch`].
@@ -137,11 +137,6 @@ impl Patch {
         let rows = self.points.map(|row| taylor(row, u));
         [0, 1, 2, 3].map(|i| taylor(rows.map(|coefficients| coefficients[i]), v))
     }
-}
-
-/// Returns the largest magnitude of a coordinate of `p`.
-pub(crate) fn size(p: DVec3) -> f64 {
-    p.abs().max_element()
 }
 
 /// Returns the point of a cubic.

@@ -7,7 +7,8 @@ use rayon::prelude::*;
 use crate::surface_index::triangle::nearest_on_triangle;
 
 use super::original::{Place, Track};
-use super::work::{LONG, SHORT, Work, cross, is_bent, is_turned, quality};
+use super::size::{LONG, SHORT};
+use super::work::{Work, cross, is_bent, is_turned, quality};
 use super::{Refused, WHAT};
 
 /// The lowest quality to which a collapse may reduce the quality of a triangle.

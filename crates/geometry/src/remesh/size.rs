@@ -7,8 +7,13 @@ use mesh::{DVec3, Domain, FaceId, VertexId};
 
 use super::Length;
 use super::original::{Original, Place};
-use super::work::LONG;
 use crate::{gaussian_curvatures, mean_curvatures};
+
+/// An edge longer than this multiple of its target length is split.
+pub(super) const LONG: f64 = 4.0 / 3.0;
+
+/// An edge shorter than this multiple of its target length is collapsed.
+pub(super) const SHORT: f64 = 4.0 / 5.0;
 
 /// How fast target lengths may grow along an edge, as a fraction of the length of the edge. The target lengths of
 /// neighboring triangles then differ by at most about this fraction.

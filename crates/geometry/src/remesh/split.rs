@@ -5,7 +5,8 @@ use progress::Progress;
 use rayon::prelude::*;
 
 use super::original::{Place, Track};
-use super::work::{LONG, Work, cross, is_turned};
+use super::size::LONG;
+use super::work::{Work, cross, is_turned};
 use super::{Refused, RemeshError, WHAT};
 
 impl Work<'_> {

@@ -6,12 +6,6 @@ use super::Counts;
 use super::original::{Original, Place, Track};
 use super::size::Sizes;
 
-/// An edge longer than this multiple of its target length is split.
-pub(super) const LONG: f64 = 4.0 / 3.0;
-
-/// An edge shorter than this multiple of its target length is collapsed.
-pub(super) const SHORT: f64 = 4.0 / 5.0;
-
 /// The smallest cosine of the angle by which one step may turn a triangle.
 pub(super) const TURN: f64 = 0.5;
 

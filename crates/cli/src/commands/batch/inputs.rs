@@ -141,9 +141,45 @@ fn split(pattern: &str) -> (&str, &str) {
     }
 }
 
+/// Returns every input with every set. Without inputs, the list has one entry for each set.
+pub(super) fn combined(inputs: Vec<Input>, sets: &[ParameterSet]) -> Vec<Input> {
+    let inputs = if inputs.is_empty() {
+        vec![Input::default()]
+    } else {
+        inputs
+    };
+    let with = |input: &Input, set: &ParameterSet| Input {
+        set: Some(set.clone()),
+        ..input.clone()
+    };
+    let each = inputs.iter();
+    each.flat_map(|input| sets.iter().map(|set| with(input, set)))
+        .collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn every_input_is_combined_with_every_set() {
+        let set = |number| ParameterSet {
+            number,
+            values: BTreeMap::new(),
+        };
+        let input = |path: &str| Input {
+            path: path.to_owned(),
+            ..Input::default()
+        };
+        let found = combined(vec![input("a"), input("b")], &[set(1), set(2)]);
+        let found: Vec<_> = found
+            .iter()
+            .map(|i| (i.path.as_str(), i.number()))
+            .collect();
+        assert_eq!(found, [("a", 1), ("a", 2), ("b", 1), ("b", 2)]);
+        let alone = combined(Vec::new(), &[set(1), set(2)]);
+        assert_eq!(alone.len(), 2);
+    }
 
     #[test]
     fn files_are_listed_in_the_order_of_their_patterns() {

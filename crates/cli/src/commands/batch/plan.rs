@@ -68,7 +68,7 @@ impl<'a> Batch<'a> {
                 param.as_deref() == Some(name) || set.iter().any(|(given, _)| given == name)
             };
             let sets = sets::read(path, parameters, is_given)?;
-            inputs = sets::combined(inputs, &sets);
+            inputs = inputs::combined(inputs, &sets);
         }
         let batch = Self {
             args,

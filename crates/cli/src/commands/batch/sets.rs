@@ -14,8 +14,6 @@ use anyhow::{Context as _, bail, ensure};
 use recipe::{Parameter, did_you_mean};
 use serde_json::Value as Json;
 
-use super::inputs::Input;
-
 /// Values of parameters, with which the recipe runs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct ParameterSet {
@@ -83,22 +81,6 @@ fn plain(value: &Json) -> Option<String> {
     })
 }
 
-/// Returns every input with every set. Without inputs, the list has one entry for each set.
-pub(super) fn combined(inputs: Vec<Input>, sets: &[ParameterSet]) -> Vec<Input> {
-    let inputs = if inputs.is_empty() {
-        vec![Input::default()]
-    } else {
-        inputs
-    };
-    let with = |input: &Input, set: &ParameterSet| Input {
-        set: Some(set.clone()),
-        ..input.clone()
-    };
-    let each = inputs.iter();
-    each.flat_map(|input| sets.iter().map(|set| with(input, set)))
-        .collect()
-}
-
 /// Returns the text for an input file and its parameter values: `cow.obj (levels = 2)`.
 pub(super) fn label(path: &str, values: &BTreeMap<String, String>) -> String {
     let values: Vec<String> = values.iter().map(|(n, v)| format!("{n} = {v}")).collect();
@@ -128,25 +110,5 @@ mod tests {
             let value = serde_json::from_str(json).unwrap();
             assert_eq!(plain(&value).as_deref(), text, "{json}");
         }
-    }
-
-    #[test]
-    fn every_input_is_combined_with_every_set() {
-        let set = |number| ParameterSet {
-            number,
-            values: BTreeMap::new(),
-        };
-        let input = |path: &str| Input {
-            path: path.to_owned(),
-            ..Input::default()
-        };
-        let found = combined(vec![input("a"), input("b")], &[set(1), set(2)]);
-        let found: Vec<_> = found
-            .iter()
-            .map(|i| (i.path.as_str(), i.number()))
-            .collect();
-        assert_eq!(found, [("a", 1), ("a", 2), ("b", 1), ("b", 2)]);
-        let alone = combined(Vec::new(), &[set(1), set(2)]);
-        assert_eq!(alone.len(), 2);
     }
 }

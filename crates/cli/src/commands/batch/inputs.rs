@@ -159,6 +159,8 @@ pub(super) fn combined(inputs: Vec<Input>, sets: &[ParameterSet]) -> Vec<Input> 
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeMap;
+
     use super::*;
 
     #[test]

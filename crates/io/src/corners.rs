@@ -4,7 +4,7 @@ use std::sync::atomic::AtomicU32;
 use std::sync::atomic::Ordering::Relaxed;
 
 use mesh::parallel;
-use mesh::{FaceId, HalfEdgeId, Mesh, VertexId};
+use mesh::{FaceId, HalfEdgeId, Mesh, Values, VertexId};
 
 /// The maximum number of distinct values at a vertex that a corner is compared with.
 const MAX_COMPARED: usize = 64;
@@ -79,6 +79,26 @@ impl CornerNumbers {
     pub(crate) fn firsts(&self) -> &[HalfEdgeId] {
         &self.firsts
     }
+}
+
+/// Returns the values of vertices, if `same` is true for the corners of each vertex. Otherwise, returns `None`.
+/// Vertices without a corner get zero.
+pub(crate) fn vertex_values(
+    mesh: &Mesh,
+    values: &Values,
+    same: impl Fn(usize, usize) -> bool + Sync,
+) -> Option<Values> {
+    let corners = |v: usize| {
+        mesh.vertex_half_edges(VertexId::new(v))
+            .filter(|&h| mesh.face(h).is_some())
+            .map(HalfEdgeId::index)
+    };
+    let agree = parallel::all(mesh.n_vertices(), |v| {
+        let mut corners = corners(v);
+        let first = corners.next();
+        first.is_none_or(|first| corners.all(|h| same(first, h)))
+    });
+    agree.then(|| values.gather(mesh.n_vertices(), |v| corners(v).next()))
 }
 
 #[cfg(test)]

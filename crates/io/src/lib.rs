@@ -36,7 +36,7 @@
 //! | `fault` | errors in a file, with their positions |
 //! | `note`, `loss` | the content that a reader left out or changed; the content that a written file does not store |
 //! | `polygons`, `clean`, `weld` | building a mesh from polygons with attributes |
-//! | `joined`, `corners`, `writing` | reducing a scene to what a format can store |
+//! | `joined`, `corners`, `file_vertices`, `writing` | reducing a scene to what a format can store |
 //! | `assets`, `save` | the files that a file refers to; writing files atomically |
 //!
 //! # Examples
@@ -70,6 +70,7 @@ mod dae;
 mod decimal;
 mod error;
 mod fault;
+mod file_vertices;
 mod format;
 mod gltf;
 mod gzip;
@@ -114,10 +115,10 @@ pub use polygons::Polygons;
 pub use provenance::provenance;
 
 use assets::Assets;
+use file_vertices::without_marks;
 use note::Notes;
 use placed::{Placed, placed};
 use save::{Content, save};
-use writing::without_marks;
 
 /// How to read a file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -5,7 +5,7 @@ use std::fmt;
 
 use mesh::{Column, Domain, Mesh, joint_name, morph_name};
 
-use crate::writing::is_mark;
+use crate::file_vertices::is_mark;
 use crate::{Format, Rows, Storage, Stored};
 
 /// Content of a scene that a written file does not store.

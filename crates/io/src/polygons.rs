@@ -5,15 +5,16 @@ use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 use glam::{DAffine3, DMat3, DVec3, DVec4};
 use mesh::{
-    Attribute, Attributes, BuildError, BuildOutput, CORNER_TANGENT, Column, Domain, Elements,
-    HalfEdgeId, Id, Mesh, Rule, Value, Values, VertexId, joint_name, morph_name,
+    Attribute, Attributes, BuildError, BuildOutput, CORNER_TANGENT, Column, Domain, Elements, Id,
+    Mesh, Rule, Value, Values, joint_name, morph_name,
 };
 use scene::{Material, Pose, transform_tangent};
 
 use crate::clean::{SourcePolygons, clean, gather};
+use crate::corners::vertex_values;
 use crate::error::ReadError;
+use crate::file_vertices::COPY_DISTANCE;
 use crate::note::{NoteKind, Notes, PolygonArrays};
-use crate::writing::COPY_DISTANCE;
 use crate::{NonManifold, Orientation, Policies, ReadOptions};
 use mesh::parallel;
 
@@ -318,7 +319,7 @@ impl Polygons {
     }
 }
 
-/// Marks the copies of split vertices for [`FileVertices`](crate::writing::FileVertices).
+/// Marks the copies of split vertices for [`FileVertices`](crate::file_vertices::FileVertices).
 fn mark_copies(built: &mut BuildOutput, n_positions: usize) {
     if built.report.split_vertices.is_empty() {
         return;
@@ -397,24 +398,4 @@ impl Sources {
             (Domain::Vertex | Domain::Edge | Domain::Face, _) => values,
         }
     }
-}
-
-/// Returns the values of vertices, if `same` is true for the corners of each vertex. Otherwise, returns `None`.
-/// Vertices without a corner get zero.
-pub(crate) fn vertex_values(
-    mesh: &Mesh,
-    values: &Values,
-    same: impl Fn(usize, usize) -> bool + Sync,
-) -> Option<Values> {
-    let corners = |v: usize| {
-        mesh.vertex_half_edges(VertexId::new(v))
-            .filter(|&h| mesh.face(h).is_some())
-            .map(HalfEdgeId::index)
-    };
-    let agree = parallel::all(mesh.n_vertices(), |v| {
-        let mut corners = corners(v);
-        let first = corners.next();
-        first.is_none_or(|first| corners.all(|h| same(first, h)))
-    });
-    agree.then(|| values.gather(mesh.n_vertices(), |v| corners(v).next()))
 }

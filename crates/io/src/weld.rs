@@ -13,7 +13,7 @@ use mesh::{Attributes, Domain, Mesh, Values, VertexId};
 use rayon::prelude::*;
 
 use crate::clean::gather;
-use crate::writing::FileVertices;
+use crate::file_vertices::FileVertices;
 use mesh::parallel;
 
 /// The number of positions that are hashed and indexed at a time.

@@ -1,9 +1,11 @@
-//! Memory that `NumPy` views without a copy.
+//! Memory that `NumPy` views without a copy, and values copied from arrays.
 
 use std::ffi::c_int;
 use std::sync::Arc;
 
-use mesh::{Domain, Mesh, Values};
+use mesh::{DVec2, DVec3, DVec4, Domain, Mesh, Values};
+use pyo3::buffer::{ElementType, PyBuffer, PyUntypedBuffer};
+use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::ffi;
 use pyo3::prelude::*;
 
@@ -168,4 +170,38 @@ impl Array {
             Err(PyErr::fetch(slf.py()))
         }
     }
+}
+
+/// Copies a contiguous buffer of rows with `columns` numbers each.
+pub(crate) fn values_from(buffer: &Bound<'_, PyAny>, columns: usize) -> PyResult<Values> {
+    let py = buffer.py();
+    let untyped = PyUntypedBuffer::get(buffer)?;
+    let kind = ElementType::from_format(untyped.format());
+    let values = match (kind, columns) {
+        (ElementType::Float { bytes: 8 }, 1..=4) => {
+            let flat = PyBuffer::<f64>::get(buffer)?.to_vec(py)?;
+            if flat.len() % columns != 0 {
+                return Err(PyValueError::new_err("the last row is incomplete"));
+            }
+            match columns {
+                1 => Values::Float(flat),
+                2 => Values::Vec2(flat.chunks_exact(2).map(DVec2::from_slice).collect()),
+                3 => Values::Vec3(flat.chunks_exact(3).map(DVec3::from_slice).collect()),
+                _ => Values::Vec4(flat.chunks_exact(4).map(DVec4::from_slice).collect()),
+            }
+        }
+        (ElementType::SignedInteger { bytes: 4 }, 1) => {
+            Values::Int(PyBuffer::<i32>::get(buffer)?.to_vec(py)?)
+        }
+        (ElementType::UnsignedInteger { bytes: 1 }, 1) => {
+            let flags = PyBuffer::<u8>::get(buffer)?.to_vec(py)?;
+            Values::Tag(flags.into_iter().map(|flag| flag != 0).collect())
+        }
+        _ => {
+            return Err(PyTypeError::new_err(
+                "expected numbers of type float64 with 1 to 4 columns, int32 or uint8",
+            ));
+        }
+    };
+    Ok(values)
 }

@@ -6,8 +6,7 @@ use mesh::{Column, Domain, HalfEdgeId, Id, Mesh as Kernel, Rule, Values};
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
 
-use crate::array::{Array, Part};
-use crate::build::values_from;
+use crate::array::{Array, Part, values_from};
 use crate::interrupt::run;
 
 /// A mesh, which never changes. Its ids run from 0 without gaps.

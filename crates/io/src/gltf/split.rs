@@ -6,8 +6,8 @@ use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 use mesh::{Domain, HalfEdgeId, Mesh, VertexId};
 
 use super::streams::Stream;
+use crate::file_vertices::FileVertices;
 use crate::loss::Losses;
-use crate::writing::FileVertices;
 use mesh::parallel::{self, BLOCK};
 
 /// The maximum number of comparisons for a corner. A corner is compared with the other corners around its vertex,

@@ -9,8 +9,8 @@ use mesh::{
 
 use super::names::{custom_semantic, uv_set};
 use crate::Format;
+use crate::file_vertices::is_mark;
 use crate::loss::Losses;
-use crate::writing::is_mark;
 
 /// An attribute of a mesh in the form that glTF requires. Numbers have 32 bits, normals have length 1, the v coordinate
 /// points down, and colors are from 0 to 1.

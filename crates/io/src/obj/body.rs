@@ -13,9 +13,10 @@ use super::states::{FaceState, FaceStates, TextState, one_word};
 use crate::Format;
 use crate::corners::CornerNumbers;
 use crate::decimal::push_whole;
+use crate::file_vertices::FileVertices;
 use crate::loss::Losses;
 use crate::save::Block;
-use crate::writing::{FileVertices, NOT_FINITE};
+use crate::writing::NOT_FINITE;
 use mesh::parallel;
 
 /// The number of vertices, values or faces in a block.

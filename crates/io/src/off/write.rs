@@ -9,11 +9,11 @@ use scene::Scene;
 use super::read::COLOR_INDEX;
 use crate::decimal::{push_number, push_whole};
 use crate::error::Unwritable;
+use crate::file_vertices::FileVertices;
 use crate::joined::joined;
 use crate::loss::{Losses, n_values};
 use crate::writing::{
-    FileVertices, NOT_FINITE, finite, is_byte, push_comment, to_byte, uvs_of_vertices,
-    zero_non_finite,
+    NOT_FINITE, finite, is_byte, push_comment, to_byte, uvs_of_vertices, zero_non_finite,
 };
 use crate::{Format, SingleFile, WriteOptions};
 

@@ -16,12 +16,11 @@ use super::read::plain_rule;
 use super::roles;
 use super::types::Type;
 use crate::error::WriteError;
+use crate::file_vertices::{FileVertices, is_mark};
 use crate::joined::joined;
 use crate::loss::{Losses, n_values};
 use crate::save::{Block, Content, save};
-use crate::writing::{
-    FileVertices, finite, is_byte, is_mark, push_comment, to_byte, uvs_of_vertices,
-};
+use crate::writing::{finite, is_byte, push_comment, to_byte, uvs_of_vertices};
 use crate::{Format, WriteOptions, WriteReport, fail_if_lost};
 use mesh::parallel;
 

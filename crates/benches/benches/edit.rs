@@ -1,4 +1,4 @@
-//! Measures local edits per second, with all checks, as performed by steps of recipes.
+//! Measures how many local edits per second a step of a recipe performs, with all checks.
 
 mod common;
 
@@ -9,7 +9,8 @@ use mesh::{EdgeId, EditError, Mesh};
 use op::{Context, Files, NoProgress, OnRefusal, edit_each};
 
 /// Flips every edge, and splits every edge, of a torus of a million triangles. In random order, the edits are
-/// memory-bound. Flipping in order of ids would give a few vertices a very high valence, so it is not measured.
+/// memory-bound. Flips in the order of ids are not measured, because they would give a few vertices a very high
+/// valence.
 fn every_edge_once(c: &mut Criterion) {
     let mesh = common::torus();
     let in_order: Vec<EdgeId> = mesh.edges().collect();

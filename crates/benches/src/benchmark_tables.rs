@@ -75,9 +75,9 @@ fn main() -> std::io::Result<()> {
     Ok(())
 }
 
-/// Returns the time, in seconds with one thread, of copying, reading or writing only the bytes that `row`
-/// processes. Another row of the group has this time. The name of that row contains `bytes alone`, and starts
-/// with the first word of `row` or with `bytes`. Returns `None` if `row` itself is such a row.
+/// Returns the time of copying, reading or writing only the bytes that `row` processes, in seconds with one thread.
+/// This time is in another row of the group, whose name contains `bytes alone` and starts with `bytes` or with the
+/// first word of the name of `row`. Returns `None` if the name of `row` itself contains `bytes alone`.
 fn reference(row: &Row, rows: &[Row]) -> Option<f64> {
     let is_bytes = |row: &Row| row.name.contains("bytes alone");
     let word = row.name.split([' ', ',']).next()?;

@@ -11,10 +11,10 @@ use crate::Scaled;
 /// on a sphere of radius r, and 0 on a cylinder. The value is NaN for dead vertices, for isolated vertices, and
 /// for vertices whose faces all have zero area.
 ///
-/// The curvature is the angle defect divided by the [vertex area](vertex_area). The angle defect is 2π (π on
-/// the boundary) minus the sum of the corner angles. Source: Meyer, Desbrun, Schröder, Barr, "Discrete
-/// Differential-Geometry Operators for Triangulated 2-Manifolds", 2003. On a closed mesh of flat faces, the sum
-/// of curvature times vertex area is 2π times the Euler characteristic.
+/// The curvature is the angle defect divided by the [vertex area](vertex_area). The angle defect of a vertex is 2π
+/// minus the sum of the angles of the faces at the vertex; for a boundary vertex, it is π minus this sum. Source:
+/// Meyer, Desbrun, Schröder, Barr, "Discrete Differential-Geometry Operators for Triangulated 2-Manifolds", 2003. On a
+/// closed mesh of flat faces, the angle defects of all vertices add up to 2π times the Euler characteristic.
 pub fn gaussian_curvatures(mesh: &Mesh) -> Vec<f64> {
     let scaled = Scaled::new(mesh);
     let mesh = scaled.mesh();
@@ -33,9 +33,10 @@ pub fn gaussian_curvatures(mesh: &Mesh) -> Vec<f64> {
 /// outward-facing sphere of radius r, 1 / (2r) on a cylinder, and negative where the surface is concave. The
 /// value is NaN for dead vertices, for isolated vertices, and for vertices whose faces all have zero area.
 ///
-/// Each edge contributes half of its signed dihedral angle times its length, shared equally by its two ends.
-/// The sum at a vertex is divided by the [vertex area](vertex_area). Source: Cohen-Steiner, Morvan, "Restricted
-/// Delaunay Triangulations and Normal Cycle", 2003. Boundary edges contribute 0.
+/// The signed dihedral angle of an edge is the angle between the normals of its two faces, positive if the edge is
+/// convex. Each edge contributes half the product of this angle and its length; the two ends of the edge share this
+/// contribution equally. The sum at a vertex is divided by the [vertex area](vertex_area). Source: Cohen-Steiner,
+/// Morvan, "Restricted Delaunay Triangulations and Normal Cycle", 2003. Boundary edges contribute 0.
 pub fn mean_curvatures(mesh: &Mesh) -> Vec<f64> {
     let scaled = Scaled::new(mesh);
     let mesh = scaled.mesh();
@@ -53,11 +54,11 @@ pub fn mean_curvatures(mesh: &Mesh) -> Vec<f64> {
 /// values are NaN where the [mean curvature](mean_curvatures) is NaN.
 ///
 /// The principal curvatures are the eigenvalues of the curvature tensor of the vertex in the plane perpendicular to its
-/// normal. The normal is the sum of the area vectors of the faces around the vertex. Each edge at the vertex adds half
-/// its signed dihedral angle times its length times u uᵀ to the tensor, where u is the unit vector along the edge. The
-/// sum is divided by the [vertex area](vertex_area). Source: Cohen-Steiner, Morvan, "Restricted Delaunay Triangulations
-/// and Normal Cycle", 2003. Where the surface is nearly flat around the vertex, the mean of the principal curvatures is
-/// close to the mean curvature.
+/// normal. The normal is the sum of the area vectors of the faces around the vertex. Each edge at the vertex adds
+/// ½ θ l u uᵀ to the tensor, where θ is the signed dihedral angle of the edge, l is its length, and u is the unit vector
+/// along it. The sum is divided by the [vertex area](vertex_area). Source: Cohen-Steiner, Morvan, "Restricted Delaunay
+/// Triangulations and Normal Cycle", 2003. Where the surface is nearly flat around the vertex, the mean of the
+/// principal curvatures is close to the mean curvature.
 pub fn principal_curvatures(mesh: &Mesh) -> Vec<[f64; 2]> {
     let none = [f64::NAN; 2];
     let scaled = Scaled::new(mesh);

@@ -1,5 +1,5 @@
-//! Fills a hole with triangles by cutting off ears, one after another. An ear is a vertex of the hole that is
-//! cut off by a triangle with its two neighbors p and q.
+//! Fills a hole with triangles by cutting off ears, one after another. An ear is a vertex of the hole. The triangle of
+//! the ear and its two neighbors, p and q, cuts the ear off.
 //!
 //! ```text
 //!      p --- ear               p
@@ -31,15 +31,15 @@ const SHAPE_WEIGHT: f64 = 1e-6;
 ///    +-----+--h--+          +-----+-----+
 /// ```
 ///
-/// If the hole has at most 500 edges, the triangulation of the vertices around the hole with the smallest cost is used.
-/// The cost is the total area, plus a shape term for each triangle, which is at most 1e-6 times the mean squared edge
-/// length of the hole. So if several triangulations have the same area, as in a flat hole, the one whose triangles are
-/// closest to equilateral is used. Source: Barequet and Sharir, "Filling gaps in the boundary of a polyhedron", 1995.
-/// The time is proportional to n³ for n edges.
+/// If the hole has at most 500 edges, the triangulation with the smallest cost is used. The cost is the total area,
+/// plus a shape term for each triangle. The shape term is at most 1e-6 times the mean squared edge length of the hole.
+/// If several triangulations have the same area, for example in a flat hole, the shape terms select the triangulation
+/// whose triangles are closest to equilateral. Source: Barequet and Sharir, "Filling gaps in the boundary of a
+/// polyhedron", 1995. The time is proportional to n³ for n edges.
 ///
-/// In larger holes, corners are cut off one after another: next is always the corner whose two neighbors are nearest to
-/// each other. This takes time proportional to n log n. Corners that are straight or reflex, as seen along the mean
-/// normal, are cut off last. In a hole that is far from convex, the triangles can overlap.
+/// In larger holes, corners are cut off one after another. The next corner is always the corner whose two neighbors are
+/// nearest to each other. This takes time proportional to n log n. Corners that are straight or reflex, as seen along
+/// the mean normal, are cut off last. In a hole that is far from convex, the triangles can overlap.
 ///
 /// A new edge never connects two vertices that already share an edge.
 ///
@@ -52,9 +52,9 @@ const SHAPE_WEIGHT: f64 = 1e-6;
 ///
 /// # Errors
 ///
-/// Returns [`EditError::DuplicateEdge`] if every triangulation needs an edge that already exists (for holes
-/// of more than 500 edges: if the search finds no triangulation without such an edge), [`EditError::Full`],
-/// and the errors of [`Mesh::fill_hole`]. The mesh is unchanged.
+/// Returns [`EditError::DuplicateEdge`] if every triangulation needs an edge that already exists. For a hole of more
+/// than 500 edges, this error means that the search found no triangulation without such an edge. Also returns
+/// [`EditError::Full`] and the errors of [`Mesh::fill_hole`]. The mesh is unchanged.
 pub fn fill_hole_triangles(mesh: &mut Mesh, h: HalfEdgeId) -> Result<Vec<FaceId>, EditError> {
     let ears = ears(mesh, &mesh.rim(h)?)?;
     mesh.fill_hole_by_ears(h, &ears)
@@ -212,7 +212,7 @@ impl<'m> Hole<'m> {
         sides.map(|s| (s[0] - first).cross(s[1] - first)).sum()
     }
 
-    /// Returns the error with the first existing edge between two vertices that are not neighbors around the
+    /// Returns the error that names the first existing edge between two vertices that are not neighbors around the
     /// hole.
     fn duplicate(&self) -> EditError {
         let n = self.points.len();

@@ -23,8 +23,8 @@ use crate::triangulate::Cutter;
 /// The largest number of corners of a polygon that gets a virtual vertex. Polygons with more corners are cut
 /// into triangles.
 const MAX_CORNERS: usize = 16;
-/// The slack with which every triangle inequality holds after all edges were lengthened by the same length, relative to
-/// the mean edge length.
+/// All edges are lengthened by the same length if necessary, so that in every triangle the sum of two sides exceeds the
+/// third side by at least this fraction of the mean edge length.
 const SLACK: f64 = 1e-5;
 /// The number of faces in a block. One thread computes the entries of the faces of a block.
 const FACES: usize = 4096;
@@ -64,9 +64,10 @@ impl Laplacian {
     /// triangulation, and the gradient of a linear function on a flat polygon is exact. Polygons with more corners
     /// are cut into triangles.
     ///
-    /// If a triangle is degenerate or almost degenerate, the same small length is added to the lengths of all edges, so
-    /// that every triangle inequality holds with a slack of 1e-5 times the mean edge length. All entries are therefore
-    /// finite for any finite positions. If all triangles already have this slack, nothing is added.
+    /// If a triangle is degenerate or almost degenerate, the same small length is added to the lengths of all edges. In
+    /// every triangle, the sum of two sides then exceeds the third side by at least 1e-5 times the mean edge length. If
+    /// this is already true without the addition, nothing is added. All entries are therefore finite for any finite
+    /// positions.
     ///
     /// # Errors
     ///

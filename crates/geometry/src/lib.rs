@@ -10,7 +10,7 @@
 //! | [`occlusion`] | ambient occlusion |
 //! | [`distance`] | the distance between two surfaces |
 //! | [`surface_index`] | nearest points, rays, intersections and winding numbers of a surface |
-//! | [`predicates`] | exact tests of the side of a line or plane |
+//! | [`predicates`] | exact tests on which side of a line or plane a point lies |
 //! | [`merge_vertices`], [`parts`] | merging vertices, splitting a mesh into parts |
 //! | [`triangulate`], [`fill_hole_triangles`] | triangulation of faces and holes |
 //! | [`remesh`](mod@remesh) | nearly equilateral triangles of a given size |

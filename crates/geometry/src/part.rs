@@ -8,10 +8,10 @@
 //!    +---+---+          +---+   +---+            +---+                       +---+
 //! ```
 //!
-//! The faces of a part stay connected to each other. The new boundary of a part is linked by walking around
-//! each of its vertices through the faces of one fan, from the boundary half-edge that ends at the vertex to
-//! the next boundary half-edge. If a vertex has several fans, the first fan keeps the vertex and each of the
-//! other fans gets a copy.
+//! The faces of a part stay connected to each other. A fan is a set of faces around a vertex that are connected by
+//! edges at this vertex. At a vertex of the new boundary, each boundary half-edge that ends at the vertex is linked to
+//! the boundary half-edge at the other end of the same fan. If a vertex has several fans, the first fan keeps the
+//! vertex and each of the other fans gets a copy.
 
 use mesh::{Connectivity, Domain, EdgeId, FaceId, HalfEdgeId, Mesh, Sources, VertexId};
 

@@ -29,7 +29,8 @@ pub fn orient3d(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> Ordering {
     sign(-robust::orient3d(coord(a), coord(b), coord(c), coord(d)))
 }
 
-/// Returns the sign of a number. NaN gives `Equal`; it occurs only if coordinates are not finite or products overflow.
+/// Returns the sign of a number, or `Equal` for NaN. NaN occurs only if coordinates are not finite or products
+/// overflow.
 fn sign(x: f64) -> Ordering {
     x.partial_cmp(&0.0).unwrap_or(Ordering::Equal)
 }

@@ -164,7 +164,8 @@ impl Grid {
         }
     }
 
-    /// Calls a function, in a fixed order, with each other point whose distance is less than the size of a cell.
+    /// Calls a function, in a fixed order, with each other point whose distance from point `i` is less than the size of
+    /// a cell.
     fn each_near(&self, i: usize, mut each: impl FnMut(usize)) {
         let [x, y, z] = self.cells[i];
         for dx in [-1.0, 0.0, 1.0] {

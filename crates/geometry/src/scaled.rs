@@ -12,8 +12,8 @@ const ORDINARY: i32 = 64;
 
 /// A mesh, scaled by a power of two if its coordinates are very small or very large.
 ///
-/// Areas, curvatures and tests of distances contain products of up to four lengths. At about 1e-90 or 1e90 scene units,
-/// these products are 0 or infinite. A power of two changes no other bit of a result.
+/// Areas, curvatures and tests of distances contain products of up to four lengths. For lengths of about 1e-90 or 1e90
+/// scene units, these products are 0 or infinite. Scaling by a power of two changes only the exponent of a result.
 #[derive(Clone, Debug)]
 pub struct Scaled<'a> {
     mesh: Cow<'a, Mesh>,
@@ -57,24 +57,24 @@ impl<'a> Scaled<'a> {
         &self.mesh
     }
 
-    /// Returns a length in scene units in the unit of the scaled mesh.
+    /// Converts a length from scene units to the unit of the scaled mesh.
     pub fn scaled(&self, length: f64) -> f64 {
         libm::scalbn(length, -self.exponent)
     }
 
-    /// Returns a quantity of the scaled mesh in scene units. The dimension is 1 for a length, 2 for an area and -1 for a
-    /// curvature. The result is infinite or not exact if the number is outside of the range of `f64`.
+    /// Converts a quantity of the scaled mesh to scene units. The dimension is 1 for a length, 2 for an area and -1 for
+    /// a curvature. The result is infinite or not exact if the number is outside of the range of `f64`.
     pub fn restored(&self, quantity: f64, dimension: i32) -> f64 {
         libm::scalbn(quantity, dimension * self.exponent)
     }
 
-    /// Returns a point of the scaled mesh in scene units.
+    /// Converts a point of the scaled mesh to scene units.
     pub fn restored_point(&self, p: DVec3) -> DVec3 {
         scaled(p, self.exponent)
     }
 }
 
-/// Returns 0 for ordinary coordinates, and otherwise the exponent.
+/// Returns the exponent, or 0 if the coordinates need no scaling.
 fn ordinary(exponent: i32) -> i32 {
     if (-ORDINARY..ORDINARY).contains(&exponent) {
         0

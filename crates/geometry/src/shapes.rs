@@ -130,7 +130,7 @@ pub fn icosahedron() -> Mesh {
 ///
 /// # Panics
 ///
-/// Panics if the mesh would need more ids than there are.
+/// Panics if the mesh would have too many elements for 32-bit ids.
 pub fn grid(columns: u32, rows: u32) -> Mesh {
     let corner = DVec3::new(f64::from(columns), f64::from(rows), 0.0) / 2.0;
     let positions = cells(columns + 1, rows + 1, |x, y| {
@@ -148,8 +148,8 @@ pub fn grid(columns: u32, rows: u32) -> Mesh {
 ///
 /// # Panics
 ///
-/// Panics if `around` or `across` is below 3, `major + minor` is not finite, or the mesh would need more ids than there
-/// are.
+/// Panics if `around` or `across` is below 3, `major + minor` is not finite, or the mesh would have too many elements
+/// for 32-bit ids.
 pub fn torus(around: u32, across: u32, major: f64, minor: f64) -> Mesh {
     assert!(
         around >= 3 && across >= 3,

@@ -82,8 +82,8 @@ impl Cut {
     /// Replaces the contents of `into` by the diagonals: sorted pairs of corners, the lower corner first.
     pub fn diagonals(&self, into: &mut Vec<[u32; 2]>) {
         into.clear();
-        // Every diagonal is the side from the last to the first corner of one triangle. For one remaining
-        // triangle, this side is a side of the face.
+        // In every triangle except one, the side from the last to the first corner is a diagonal, and each diagonal
+        // occurs once in this way. In the remaining triangle, this side is a side of the face.
         let triangles = self.triangles();
         let last = u32::try_from(triangles.len()).expect("corners fit 32 bits") + 1;
         let sides = triangles.iter().map(|&[a, _, c]| [a, c]);
@@ -101,10 +101,10 @@ impl Cut {
 /// therefore cut at that corner.
 ///
 /// A larger face is projected along its normal and cut by ear clipping (Held, "FIST: Fast Industrial-Strength
-/// Triangulation of Polygons", 2001, as implemented by the crate `earcut`). A face with more than 4096 corners is
-/// first cut into pieces, so that the time does not grow with the square of the number of corners. Then diagonals are
-/// flipped until the result is a constrained Delaunay triangulation. Ear clipping can fail if the area of the face is zero or
-/// its sides cross. It is not tried for faces with more than ten million corners. In these cases the face
+/// Triangulation of Polygons", 2001, as implemented by the crate `earcut`). A face with more than 4096 corners is first
+/// cut into pieces, so that the time does not grow with the square of the number of corners. Then diagonals are flipped
+/// until the result is a constrained Delaunay triangulation. Ear clipping can fail if the area of the face is zero or
+/// its sides cross. Ear clipping is not tried for faces with more than ten million corners. In these cases the face
 /// becomes a fan around its vertex with the lowest id.
 ///
 /// # Examples
@@ -169,7 +169,7 @@ impl Cutter {
         let n = self.points.len();
         let side = |i: usize| self.points[(i + 1) % n] - self.points[i % n];
         let turns_left = (0..n).all(|i| normal.dot(side(i).cross(side(i + 1))) > 0.0);
-        // The sides of a polygon that goes around once change their direction along an axis twice.
+        // If a polygon goes around once, the direction of its sides along an axis changes exactly twice.
         let (axis, _) = normal.any_orthonormal_pair();
         let signs = (0..n).map(|i| axis.dot(side(i))).filter(|s| *s != 0.0);
         let signs: Vec<bool> = signs.map(|s| s > 0.0).collect();

@@ -12,16 +12,16 @@ use crate::surface_index::SurfaceIndex;
 
 /// The distance from the surface at which rays start, relative to the diagonal of the bounding box.
 const OFFSET: f64 = 1e-7;
-/// A ray for the thickness starts near its vertex. The distance along the face is at most twice this fraction of the
-/// length of the shorter edge of the corner.
+/// A ray for the thickness starts on the face, near the vertex. Its distance from the vertex is at most twice this
+/// fraction of the length of the shorter edge of the corner.
 const INWARD: f64 = 1e-3;
 /// The number of vertices in a block. One thread processes a block.
 const BLOCK: usize = 256;
 
 /// Returns the thickness of the solid at each vertex, by index, in scene units. For each face around the vertex, a ray
 /// starts on the face near the vertex and runs inward at a right angle to the face until it leaves the solid. The
-/// thickness is the length of the shortest ray. The thickness is infinite if no ray meets the surface again, as for a
-/// sheet, and for vertices whose faces all have zero area.
+/// thickness is the length of the shortest ray. The thickness is infinite if no ray meets the surface again, for
+/// example on a flat sheet, or if all faces around the vertex have zero area.
 ///
 /// In a plate, the thickness is the distance between the two sides of the plate, even at its edges and corners. Where
 /// parts of the surface overlap, a ray does not end when it enters another part. Walls thinner than 1e-7 times the

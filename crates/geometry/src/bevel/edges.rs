@@ -1,8 +1,8 @@
 //! Bevels a set of edges at once, with a constant width.
 //!
 //! ```text
-//!      |             |                |   | n |   |        An edge becomes a new face. Where the edge ends, its other
-//!  ----v----e----    v       -->   ---s---+   i---         edges are cut (s). In the corner of a face between two
+//!      |             |                |   | n |   |        An edge becomes a new face. The other edges at its ends
+//!  ----v----e----    v       -->   ---s---+   i---         are cut (s). In the corner of a face between two
 //!      |             |                    | e              beveled edges, the vertex moves into the face (i).
 //! ```
 //!
@@ -14,8 +14,8 @@ use mesh::{DVec3, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 
 use super::values::{Blend, blended};
 
-/// The smallest sine of an angle that is used to compute where an edge is cut. Smaller sines are replaced by this
-/// value: an edge that is almost parallel to a beveled edge would have to be cut far from its end to reach the width.
+/// The lower limit of the sines that determine where an edge is cut. Smaller sines are replaced by this value, because
+/// an edge that is almost parallel to a beveled edge would otherwise be cut far from its end.
 const LEAST_SINE: f64 = 0.25;
 
 /// Why an edge cannot be beveled.
@@ -42,12 +42,12 @@ pub struct Beveled {
 
 /// Replaces edges by faces of constant width.
 ///
-/// `width` is the distance, in scene units, between a beveled edge and the new edges in both of its faces. Edges that
-/// meet at a vertex are beveled together, so the result does not depend on their order. The result has the symmetries
-/// that the mesh and the set of edges have in common. The other edges at the ends of beveled edges are cut. If such an
-/// edge is next to a beveled edge, it is cut where its distance from the beveled edge is `width`; otherwise it is cut
-/// at the distance `width` from its end. A cut is at most four times the width away from the end of its edge, so the
-/// bevel is narrower next to an edge at a small angle.
+/// `width` is the distance, in scene units, between a beveled edge and the new edge in each of its two faces. Edges
+/// that meet at a vertex are beveled together, so the result does not depend on their order. The result has the
+/// symmetries that the mesh and the set of edges have in common. The other edges at the ends of beveled edges are cut.
+/// If such an edge is next to a beveled edge, it is cut where its distance from the beveled edge is `width`; otherwise
+/// it is cut at the distance `width` from its end. A cut is at most four times the width away from the end of its edge,
+/// so the bevel is narrower next to an edge at a small angle.
 ///
 /// The ends of beveled edges are removed. In the result, the remaining vertices come first, in their old order,
 /// followed by the new vertices. Faces keep their ids. They are followed by the new faces of edges, in the order of the
@@ -111,7 +111,7 @@ pub fn shortest_edge_at(mesh: &Mesh, edges: &[EdgeId]) -> f64 {
 #[derive(Clone, Copy)]
 struct Corner {
     vertex: u32,
-    /// The source of its values. All source elements are corners of one old face.
+    /// The old corners whose values are mixed, all of one face.
     values: Blend<HalfEdgeId>,
 }
 

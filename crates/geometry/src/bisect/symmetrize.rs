@@ -39,7 +39,7 @@ pub enum SymmetrizeError {
 ///     +---'   |                        +---'   |   '---+
 /// ```
 ///
-/// The mesh is cut as by [`bisect`]. Faces behind the plane and faces in the plane are removed. The remaining vertices
+/// The mesh is cut as in [`bisect`]. Faces behind the plane and faces in the plane are removed. The remaining vertices
 /// that count as on the plane are moved onto the plane, by at most the tolerance of `bisect`. The two halves share the
 /// boundary vertices on the plane. The original half comes first and keeps its order; the elements of the second half
 /// follow in the same order. Values are copied; deltas of morph targets are mirrored, and normals are removed. Like

@@ -6,7 +6,7 @@
 //! | [`Lattice`] | a box of control points: Sederberg, Parry, 1986 |
 //! | [`falloff`] | weights that decrease with the distance from selected vertices |
 //! | [`noise`] | numbers that look random and are identical on every machine |
-//! | [`vertex_directions`] | unit normals to move vertices along |
+//! | [`vertex_directions`] | unit normals along which vertices move |
 
 mod barr;
 mod falloff;

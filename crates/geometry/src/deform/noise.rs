@@ -1,6 +1,6 @@
-//! Numbers that look random but depend only on their arguments. Only integer operations and the basic floating-point
-//! operations, which every machine rounds in the same way, are used, so that the numbers are identical bit for bit on
-//! every machine.
+//! Numbers that look random but depend only on their arguments. They are computed only with integer operations and
+//! basic floating-point operations, which every machine rounds in the same way. The numbers are therefore identical bit
+//! for bit on every machine.
 
 use mesh::DVec3;
 

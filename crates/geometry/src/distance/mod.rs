@@ -1,9 +1,9 @@
 //! The distance between two surfaces: the largest distance, with a bound on its error, and the mean distance.
 //!
 //! The Hausdorff distance is the largest distance from a point of one surface to the other surface. The largest
-//! distance can be at a point inside a face: for example, a spike of the other surface can end over the middle
-//! of a face. Therefore triangles are cut into pieces. The cutting stops when no piece can exceed the largest
-//! distance found by more than a tolerance:
+//! distance can be at a point inside a face: for example, a spike of the other surface can end over the middle of a
+//! face. Therefore triangles are cut into pieces. The cutting stops when no point of a piece can be further away than
+//! the largest distance found so far plus a tolerance:
 //!
 //! ```text
 //!     c              c
@@ -30,7 +30,7 @@ use crate::{Scaled, area, bounds};
 
 use piece::{Farthest, Piece, Sample, refine};
 
-/// The distances between two surfaces, both ways. Lengths are in scene units.
+/// The distances between two surfaces, in both directions. Lengths are in scene units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Distance {
     /// From the first surface to the second.
@@ -42,8 +42,8 @@ pub struct Distance {
 /// The distances from the points of one surface to another surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OneSided {
-    /// The largest distance found, exact up to rounding. The value is only a lower bound if very many triangles
-    /// are almost equally near to a point, because the search for the nearest one then stops early.
+    /// The largest distance found, exact up to rounding. If very many triangles are almost equally near to a point, the
+    /// search for the nearest triangle stops early, and this value is only a lower bound.
     pub largest: f64,
     /// An upper bound of the distances of all points of this surface.
     pub at_most: f64,
@@ -121,7 +121,7 @@ impl Distance {
         self.forth.largest >= self.back.largest
     }
 
-    /// Returns the distances in one direction: from the surface whose largest distance to the other surface is larger.
+    /// Returns the distances in the direction with the larger value of [`largest`](OneSided::largest).
     pub fn worst(&self) -> &OneSided {
         if self.is_worst_forth() {
             &self.forth

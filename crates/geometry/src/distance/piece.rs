@@ -36,8 +36,8 @@ const BLOCK: usize = 64;
 /// The maximum number of pieces in a round. If there are more pieces, those with the largest bounds are kept.
 const MAX_PIECES: usize = 1 << 18;
 
-/// The search stops after it has visited this number of nodes in the tree of the other surface. Visiting so
-/// many nodes takes a few seconds.
+/// The search stops after it has visited this number of nodes in the tree of the other surface. This takes a few
+/// seconds.
 const MAX_VISITS: u64 = 1 << 28;
 
 impl Farthest {
@@ -248,7 +248,7 @@ pub(super) fn refine(
     }
 }
 
-/// Cuts pieces in two. Returns the halves, the furthest of `farthest` and the new samples, and the number of
+/// Cuts pieces in two. Returns the halves, the furthest sample among `farthest` and the new samples, and the number of
 /// visited nodes.
 fn cut_all(
     pieces: &[Piece],

@@ -60,7 +60,7 @@ fn a_search_near_a_face_with_many_corners_visits_few_nodes() {
     let n = 5000_u32;
     let at = |i: u32| {
         let angle = std::f64::consts::TAU * f64::from(i) / f64::from(n);
-        // Turned, so that no side of a bounding box is parallel to the face.
+        // The face is turned, so that no side of a bounding box is parallel to it.
         let [x, y] = [libm::cos(angle), libm::sin(angle)];
         DVec3::new(x, 0.8 * y, 0.6 * y)
     };

@@ -19,8 +19,8 @@ use crate::triangulate::Cutter;
 
 /// Marks a side that is not glued to another side.
 const NONE: u32 = u32::MAX;
-/// The slack with which every triangle inequality holds after all sides were lengthened by the same length, relative to
-/// the mean length of a side.
+/// All sides are lengthened by the same length if necessary, so that in every triangle the sum of two sides exceeds the
+/// third side by at least this fraction of the mean length of a side.
 const SLACK: f64 = 1e-5;
 /// The largest number of flips, divided by the number of sides of all triangles.
 const MAX_FLIPS: usize = 100;
@@ -102,8 +102,8 @@ impl Intrinsic {
         if n == 0 { 0.0 } else { sum / (3 * n) as f64 }
     }
 
-    /// Adds the same length to all sides, so that every triangle inequality holds with a slack of [`SLACK`] times the
-    /// mean length.
+    /// Adds the same length to all sides, so that in every triangle the sum of two sides exceeds the third side by at
+    /// least [`SLACK`] times the mean length.
     fn mollify(&mut self) {
         let mean = self.mean_length();
         let slack = if mean > 0.0 { SLACK * mean } else { 1.0 };

@@ -26,10 +26,10 @@ const LEAF: usize = 8;
 const TASK: usize = 8192;
 
 /// Returns for each point the lowest index of the points in its cluster. A cluster is a set of points that are
-/// connected by steps of at most `distance`, which must be finite and not negative.
+/// connected by steps of at most `distance`.
 ///
-/// Two points are one step apart if the rounded length of their difference is at most `distance`. Positions
-/// must be finite, and there must be fewer than 2³² of them.
+/// Two points are one step apart if the rounded length of their difference is at most `distance`. `distance` must be
+/// finite and not negative. Positions must be finite, and there must be fewer than 2³² positions.
 ///
 /// # Errors
 ///
@@ -139,7 +139,7 @@ impl<'p> Tree<'p> {
     }
 }
 
-/// Decides which differences of positions are one step.
+/// The test whether the difference of two positions is at most one step.
 #[derive(Clone, Copy)]
 struct Reach {
     /// A power of two that scales the distance to near 1, so that squares neither overflow nor underflow.

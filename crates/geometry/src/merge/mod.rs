@@ -51,8 +51,8 @@ pub enum MergeError {
 /// Merges vertices that are at most `distance` apart, and all vertices that are connected by steps of at most
 /// `distance`.
 ///
-/// Which vertices merge does not depend on their order. The result does not depend on the number of threads. A distance
-/// of 0 merges only vertices with equal positions.
+/// The order of the vertices does not affect which vertices merge, and the number of threads does not affect the
+/// result. A distance of 0 merges only vertices with equal positions.
 ///
 /// [`merge_clusters`] describes what happens to vertices, edges, faces and attributes. If no two vertices
 /// merge, the mesh is unchanged.

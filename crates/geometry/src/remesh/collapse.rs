@@ -19,7 +19,8 @@ const QUALITY: f64 = 0.3;
 /// distance from 2.9 % of the diagonal to 1.6 %.
 const TIP: f64 = 0.15;
 
-/// Two edges that a collapse merges into one, on one side of the collapsed edge.
+/// Two edges that a collapse merges into one, on one side of the collapsed edge. The apex is the vertex that both edges
+/// have in common.
 struct Merged {
     edges: [EdgeId; 2],
     apex: VertexId,

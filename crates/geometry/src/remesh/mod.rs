@@ -213,8 +213,8 @@ pub enum RemeshError {
 /// and corner attributes are interpolated at this location. A new vertex has a tag if all original vertices around its
 /// location have the tag; integers are taken from the nearest of these vertices. A new face gets the values of the
 /// original face at its center. An edge on a line has the values of the original edge of the line at its midpoint.
-/// Other edges have the values of the edge that is nearest to their midpoint, among the edges of the original triangle
-/// there that are not on a line. If the triangle has no such edge, the values are zero.
+/// Another edge gets its values from the original triangle at its midpoint: from the nearest edge of this triangle that
+/// is not on a line. If the triangle has no such edge, the values are zero.
 ///
 /// All elements get new ids.
 ///
@@ -305,7 +305,7 @@ fn run(
     Ok((work.finish(progress)?, counts))
 }
 
-/// Splitting stops at this multiple of the estimated number of faces, so that it ends for every input.
+/// Splitting stops at this multiple of the estimated number of faces, so that the splitting ends for every input.
 const ENOUGH: f64 = 4.0;
 
 /// The largest number of faces during remeshing. All half-edges must have ids, including those that are removed during a

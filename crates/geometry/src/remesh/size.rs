@@ -119,9 +119,9 @@ fn chord(curvature: f64, error: f64) -> f64 {
 }
 
 /// Returns the largest absolute normal curvature at each vertex of the original surface: |H| + √(H² - K). Each value is
-/// averaged once with the values of the neighbors. A vertex on a line has no curvature of its own, because the surface
-/// bends across many lines. It gets the mean of the values of its neighbors inside charts, or the curvature of the
-/// line, whichever is larger.
+/// averaged once with the values of the neighbors. The curvature of the surface is not used at vertices on lines,
+/// because the surface bends sharply at many lines. A vertex on a line gets the mean of the values of its neighbors
+/// inside charts, or the curvature of the line, whichever is larger.
 fn curvatures(original: &Original) -> Vec<f64> {
     let mesh = &original.mesh;
     let (gaussian, mean) = (gaussian_curvatures(mesh), mean_curvatures(mesh));

@@ -2,8 +2,8 @@
 //!
 //! Texture coordinates, normals, colors and other numbers are linear functions on each original triangle. The error of
 //! a value s at a point p is the mean squared difference between s and these functions at p, over the triangles that
-//! the vertex represents. For each p, one s has the least error, and this least error is a quadric in p. Source: Hoppe,
-//! "New Quadric Metric for Simplifying Meshes with Appearance Attributes", 1999.
+//! the vertex represents. For each p, one s has the least error, and this least error is a quadratic function of p, a
+//! quadric. Source: Hoppe, "New Quadric Metric for Simplifying Meshes with Appearance Attributes", 1999.
 //!
 //! ```text
 //!           \   w0  /
@@ -28,9 +28,10 @@ use crate::lines::inverse_power_of_two;
 const TEXTURE: f64 = 0.5;
 
 /// The weight of the difference of two unit normals, relative to the size of the mesh. The weight is small, because
-/// normals follow from the surface. With five times this weight, the mean distance to a model of a rocker arm doubles.
-/// For the same reason, normals do not affect the positions of vertices. If they did, the largest distance to this
-/// model would be 3.9e-3 of the diagonal instead of 3.3e-3.
+/// normals follow from the surface. For example, if a model of a rocker arm is simplified with five times this weight,
+/// the mean distance between the original and the simplified surface doubles. For the same reason, normals do not
+/// affect the positions of vertices. If they did, the largest distance for this model would be 3.9e-3 of the diagonal
+/// of the bounding box instead of 3.3e-3.
 const NORMAL: f64 = 0.002;
 
 /// The weight of all attributes except texture coordinates and normals. An error as large as the difference between the
@@ -60,7 +61,7 @@ pub(super) struct Appearance {
     taken: Vec<Taken>,
     /// The names of the columns of vertices and corners, in their original order.
     order: Vec<(Domain, String)>,
-    /// The number of components of all columns together. Those of normals are the last.
+    /// The number of components of all columns together. The components of normals are the last.
     n: usize,
     /// The number of components of columns that are not normals.
     n_placing: usize,
@@ -231,8 +232,8 @@ impl Appearance {
         self.areas[a as usize] + self.areas[b as usize]
     }
 
-    /// Returns, for the union of two wedges, the sum over the triangles of the linear function of a component, times
-    /// the area that the triangle contributes to the wedge. The sum is also a linear function of the point. The first
+    /// Returns a weighted sum of the linear functions of a component on the triangles of two wedges. The weight of a
+    /// triangle is the area that it contributes to its wedge. The sum is also a linear function of the point. The first
     /// three numbers are its gradient, and the fourth is its offset.
     fn fit(&self, [a, b]: Pair, i: usize) -> DVec4 {
         self.fits[self.n * a as usize + i] + self.fits[self.n * b as usize + i]
@@ -425,8 +426,8 @@ impl Appearance {
         }
     }
 
-    /// Puts the values back into the mesh. Since the values were taken out, elements may have been removed from the
-    /// mesh, but not added or renumbered.
+    /// Puts the values back into the mesh. After the call of [`take`](Self::take), elements can be removed from the
+    /// mesh, but must not be added or renumbered.
     pub(super) fn put_back(mut self, mesh: &mut Mesh) {
         for taken in std::mem::take(&mut self.taken) {
             let mut column = taken.column;

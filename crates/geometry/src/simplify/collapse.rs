@@ -1,11 +1,12 @@
 //! The loop that collapses edges.
 //!
-//! The edges of a pass are visited in batches. Each batch has four stages. The first and the third compute in parallel,
-//! the others change the state in the order of the batch, so that the result does not depend on the number of threads.
+//! The edges of a pass are visited in batches. Each batch has four stages. The first and the third stage compute in
+//! parallel. The other stages change the state in the order of the batch, so that the result does not depend on the
+//! number of threads.
 //!
 //! 1. The cost of an edge is computed again if one of its ends has changed.
 //! 2. Edges are chosen whose cost is low enough, and that are not near an edge chosen before in this pass.
-//! 3. For each chosen edge, the new position and values are computed, and whether the collapse is allowed.
+//! 3. For each chosen edge, the new position and values are computed, and the collapse is checked.
 //! 4. The chosen edges are collapsed. They are so far from each other that no collapse changes the results of the third
 //!    stage for another edge.
 

@@ -1,13 +1,15 @@
 //! Simplification: fewer triangles for nearly the same surface.
 //!
-//! Edges are collapsed, the cheapest first. The main part of the cost is the squared distance from the new vertex to
-//! the planes of all original triangles that this vertex represents, after Garland, Heckbert, "Surface Simplification
-//! Using Quadric Error Metrics", 1997. The squared distance is integrated over the area of these triangles, and divided
-//! by the square root of the area. Small details therefore count more than in the integral, which is not divided, and
-//! less than in the mean, which is divided by the area. For example, consider a model of a rocker arm that is reduced
-//! from 20,088 triangles to a tenth. The largest distance is 0.5 % of the diagonal with the integral as the cost, 0.3 %
-//! with the mean, and 0.3 % with this cost. The distance between the surfaces, averaged over
-//! the surface, is 5 % smaller with this cost than with the mean.
+//! Edges are collapsed, the cheapest first. A vertex represents the original triangles that were collapsed into it. The
+//! main part of the cost is the squared distance from the new vertex to the planes of these triangles, integrated over
+//! their area, and divided by the square root of their area. Source of the squared distance: Garland, Heckbert,
+//! "Surface Simplification Using Quadric Error Metrics", 1997.
+//!
+//! Without the division, small details would count less. With a division by the area instead of its square root, small
+//! details would count more. For example, a model of a rocker arm is reduced from 20,088 triangles to a tenth. Without
+//! the division, the largest distance between the original and the simplified surface is 0.5 % of the diagonal of the
+//! bounding box. With a division by the area or by its square root, it is 0.3 %. The distance averaged over the surface
+//! is 5 % smaller with the square root than with the area.
 //!
 //! A small part of the cost is the squared distance to the triangles themselves instead of their planes. This part
 //! keeps triangles round, similar to Trettner, Kobbelt, "Fast and Robust QEM Simplification of Large Meshes Using

@@ -33,11 +33,13 @@ pub(super) struct Target {
     /// The place on the edge whose values the vertex gets, from 0 at the first end of the edge to 1 at its second end.
     /// If `None`, the vertex gets the values with the least error.
     t: Option<f64>,
-    /// The cost of the collapse: a sum, divided by the square root of the area of the original triangles that the
-    /// vertex represents. The terms are the integral of the squared distance from the point to the planes of these
-    /// triangles, the integral of the squared error of the values of the vertex, the [error of the
-    /// line](Collapser::line_error) if the edge is on a line, and, with the weight [`ROUNDNESS`], the integral of the
-    /// squared distance to these triangles.
+    /// The cost of the collapse: the sum of these terms, divided by the square root of the area of the original
+    /// triangles that the vertex represents:
+    ///
+    /// - the integral of the squared distance from the point to the planes of these triangles;
+    /// - the integral of the squared error of the values of the vertex;
+    /// - the [error of the line](Collapser::line_error), if the edge is on a line;
+    /// - [`ROUNDNESS`] times the integral of the squared distance to these triangles.
     pub(super) cost: f64,
 }
 

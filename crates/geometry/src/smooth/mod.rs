@@ -102,8 +102,8 @@ pub enum Boundary {
     /// Boundary vertices stay in place.
     #[default]
     Fixed,
-    /// The boundary is smoothed as a curve, without regard to the surface. With [`Method::Denoise`], boundary
-    /// vertices move like all others.
+    /// The boundary is smoothed as a curve, without regard to the surface. With [`Method::Denoise`], boundary vertices
+    /// move like all other vertices.
     Free,
 }
 
@@ -148,7 +148,7 @@ pub enum SmoothError {
     )]
     Unstable,
     /// A coordinate would not be finite.
-    #[error("a coordinate would exceed the largest number, 1.8e308")]
+    #[error("a coordinate would exceed the largest number, 1.8e308; scale the mesh down first")]
     Overflow,
     /// The equations of [`Method::Implicit`] were not solved.
     #[error(transparent)]

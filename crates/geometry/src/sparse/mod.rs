@@ -96,7 +96,9 @@ pub enum SolveError {
     )]
     Residual(f64),
     /// The factor would have more entries than are supported.
-    #[error("the factorization needs {needed} entries, but at most {limit} are supported")]
+    #[error(
+        "the system of equations is too large: its factorization needs {needed} entries, but at most {limit} are supported"
+    )]
     TooLarge {
         /// The required number of entries of the factor.
         needed: u64,

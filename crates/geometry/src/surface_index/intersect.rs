@@ -56,8 +56,8 @@ pub fn self_intersecting_faces(
 /// the same three corners intersect. A zero-area triangle has no intersections, because its sides are usually also
 /// sides of its neighbors.
 ///
-/// The answer is exact for coordinates up to 1e150 in magnitude, if the differences are not below 1e-90 times the
-/// largest coordinate.
+/// The answer is exact for coordinates up to 1e150 in magnitude, if the differences between coordinates are not below
+/// 1e-90 times the largest coordinate.
 ///
 /// Two triangles have a common point if and only if a side of one of them meets the other. All decisions are signs of
 /// volumes and areas, as in Guigue, Devillers, "Fast and Robust Triangle-Triangle Overlap Test Using Orientation

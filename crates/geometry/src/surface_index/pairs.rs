@@ -28,7 +28,7 @@ impl SurfaceIndex {
         self.search(self, true, &keep, progress)
     }
 
-    /// Returns all pairs of a triangle of this index and a triangle of another one whose bounding boxes overlap or
+    /// Returns all pairs of a triangle of this index and a triangle of another index whose bounding boxes overlap or
     /// touch, and for which `keep` returns true, in ascending order. Runs in parallel; only the pairs that are kept
     /// take memory.
     ///

@@ -32,9 +32,9 @@ impl SurfaceIndex {
     /// the triangles there. So a ray from outside meets a closed surface an even number of times. Triangles parallel to
     /// the ray are not met. A ray whose direction is zero, or whose origin or direction is not finite, meets nothing.
     ///
-    /// Sources: Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", 2013, for the shear that moves the ray
-    /// into an axis; the signs of areas are computed exactly, and an area of zero gets the sign that it would have
-    /// after an infinitely small movement of the ray.
+    /// Sources: Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", 2013, for the shear that makes the ray
+    /// parallel to an axis. The signs of areas are computed exactly, and an area of zero gets the sign that it would
+    /// have after an infinitely small movement of the ray.
     pub fn ray(&self, origin: DVec3, direction: DVec3) -> Option<RayHit> {
         let mut first: Option<RayHit> = None;
         self.visit_ray(origin, direction, &mut |hit| {

@@ -77,9 +77,9 @@ pub(crate) fn nearest_on_triangle(p: DVec3, &[a, b, c]: &[DVec3; 3]) -> DVec3 {
     a + ab * (vb / sum) + ac * (vc / sum)
 }
 
-/// Returns the distance between two triangles, which is 0 if they have a common point. Otherwise, the distance of a
-/// corner from the other triangle or of two sides is the smallest. If a triangle has zero area, the distance can be too
-/// large where the triangle passes through the other one.
+/// Returns the distance between two triangles, which is 0 if they have a common point. Otherwise, it is the smallest of
+/// these distances: from a corner to the other triangle, or between two sides. If a triangle has zero area, the
+/// distance can be too large where the triangle passes through the other one.
 pub fn triangle_distance(s: &[DVec3; 3], t: &[DVec3; 3]) -> f64 {
     if triangles_intersect(s, t) {
         return 0.0;

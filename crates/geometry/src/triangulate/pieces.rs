@@ -17,12 +17,12 @@ use crate::predicates::orient2d;
 
 /// Larger polygons are cut. A polygon with this number of corners takes ear clipping at most about 50 ms.
 const LARGEST: usize = 4096;
-/// Ear clipping of a smaller polygon is too short to be worth a question whether to stop.
+/// A polygon with fewer corners is clipped without a check for cancellation, because this takes little time.
 pub(super) const LEAST: usize = 256;
-/// The number of corners from which a diagonal is searched.
+/// The number of corners that are tried as an end of a diagonal.
 const TRIES: usize = 32;
-/// A diagonal is used if at least one corner of this number lies on each side of it. Without this limit, a polygon
-/// could be cut once for each corner.
+/// A diagonal is used only if the smaller of its two parts has at least 1 / `LEAST_PART` of the corners. Without this
+/// limit, a polygon could be cut once for each corner.
 const LEAST_PART: usize = 64;
 
 /// Triangulates a large counter-clockwise polygon. `clip` triangulates a smaller one.
@@ -81,7 +81,7 @@ impl Piece<'_> {
         if n <= LARGEST {
             return None;
         }
-        // From the corners near the center, one usually sees far.
+        // Distant corners are usually visible from the corners near the center.
         let center = (0..n).map(|i| self.at(i)).sum::<DVec2>() / n as f64;
         let distance = |i: &usize| self.at(*i).distance_squared(center);
         let near = |k: usize| {
@@ -193,7 +193,8 @@ mod tests {
         (0..n).map(at).collect()
     }
 
-    /// Fans are not triangulations of pieces, but have their numbers of triangles.
+    /// Returns a fan. It is not a valid triangulation of every polygon with `n` corners, but has the right number of
+    /// triangles.
     fn fan(n: usize) -> Vec<Triangle> {
         let n = u32::try_from(n).unwrap();
         (2..n).map(|i| [0, i - 1, i]).collect()
@@ -201,7 +202,7 @@ mod tests {
 
     #[test]
     fn polygons_that_are_slow_to_clip_are_cut_into_small_pieces() {
-        // From the corners of a star one sees little, so a piece can stay larger: at most a quarter of the star.
+        // Few corners of a star are visible from each other, so a piece can stay larger: at most a quarter of the star.
         for (polygon, largest) in [
             (comb(20_000), LARGEST),
             (spiral(20_000), LARGEST),

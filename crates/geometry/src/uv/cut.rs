@@ -1,4 +1,4 @@
-//! Cutting and joining charts until each one is flat without overlaps and with little stretch.
+//! Cuts and joins charts until each chart is flat, without overlaps and with little stretch.
 
 use std::collections::BTreeSet;
 
@@ -16,9 +16,9 @@ use crate::sparse::SolveError;
 const FLAT: f64 = 1.0 + 1e-6;
 /// Two charts are joined only if they meet along this fraction of the shorter border.
 const MIN_SHARED: f64 = 0.1;
-/// The mean of `1 - cosine` of the angles at which two charts meet, from which they are not joined.
+/// Two charts are not joined if the mean of `1 - cosine` of the angles at which they meet is above this number.
 const MAX_CREASE: f64 = 0.5;
-/// A chart whose area is less than this fraction of the other's is joined also across larger angles.
+/// A chart whose area is less than this fraction of the area of the other chart is also joined across larger angles.
 const SMALL: f64 = 0.1;
 
 /// The limits of a chart.
@@ -30,11 +30,11 @@ pub(super) struct Limits {
     pub(super) max_stretch: f64,
 }
 
-/// What a map into the plane may do to a chart.
+/// The limits of the map of a chart into the plane.
 struct Allowed {
     /// See [`Limits::max_stretch`].
     stretch: f64,
-    /// The largest aspect (see [`Stretch`](super::Stretch)), for all of the area but the fraction `except`.
+    /// The largest aspect (see [`Stretch`](super::Stretch)). The fraction `except` of the area can exceed it.
     aspect: f64,
     except: f64,
     /// The largest mean of the ratios between the area scales of the triangles and that of the chart.
@@ -42,7 +42,7 @@ struct Allowed {
 }
 
 impl Allowed {
-    /// A chart that stretches more is cut.
+    /// Returns the limits above which a chart is cut.
     fn of_charts(limits: Limits) -> Self {
         Self {
             stretch: limits.max_stretch,
@@ -62,7 +62,7 @@ pub(super) struct Chart {
     pub(super) is_bent: bool,
 }
 
-/// Why a set of faces is no chart.
+/// Why a set of faces is not a valid chart.
 enum Failure {
     /// These faces overlap.
     Overlap([FaceId; 2]),
@@ -223,8 +223,9 @@ fn check(
     Ok(found.map_or(Ok(()), |pair| Err(Failure::Overlap(pair))))
 }
 
-/// Divides a connected set of faces into two connected sets: those that are nearer to one of two faces, along the
-/// surface. The faces are two that overlap, or two that are far from each other.
+/// Divides a connected set of faces into two connected sets. First, two faces are chosen: two faces that overlap, or
+/// two faces that are far from each other. Each face then goes to the set of the chosen face that is nearer to it along
+/// the surface.
 fn split(
     surface: &Surface,
     faces: &[u32],
@@ -304,7 +305,8 @@ fn nearest(
     Ok((distance, side))
 }
 
-/// Joins charts that meet as long as the result is a chart, those that share most of their border first.
+/// Joins charts that meet, as long as the joined chart is valid. The charts that share the largest part of their border
+/// are joined first.
 fn join(
     surface: &Surface,
     smooth: &[DVec3],
@@ -312,7 +314,8 @@ fn join(
     limits: Limits,
     progress: &dyn Progress,
 ) -> Result<Vec<Chart>, Cancelled> {
-    // Charts are known by their lowest faces and numbers of faces, which change when a chart changes.
+    // A chart is identified by its lowest face and its number of faces. The number of faces changes when a chart
+    // changes.
     let key = |chart: &Chart| (chart.part.faces[0], chart.part.faces.len());
     let mut failed = BTreeSet::new();
     loop {

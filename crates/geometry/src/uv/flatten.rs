@@ -11,7 +11,8 @@ const AREA_WEIGHT: f64 = 0.5;
 /// The iterations stop once the vertices move less than this fraction of the size of the part, on average.
 const SMALL_MOVE: f64 = 1e-4;
 const MAX_ITERATIONS: usize = 40;
-/// The smallest height of a triangle without area, relative to its longest side. It keeps the equations solvable.
+/// The smallest height of a triangle without area, relative to its longest side. This height keeps the equations
+/// solvable.
 const FLOOR: f64 = 1e-6;
 
 /// A triangle in its own plane: the corners (0, 0), (x1, 0) and (x2, y2).
@@ -41,7 +42,7 @@ impl Frame {
         self.x1 * self.y2 / 2.0
     }
 
-    /// Returns the gradients of the three functions that are 1 at one corner and 0 at the others.
+    /// Returns the gradients of the three barycentric coordinates.
     fn gradients(&self) -> [DVec2; 3] {
         let &Self { x1, x2, y2 } = self;
         let b = DVec2::new(1.0 / x1, -x2 / (x1 * y2));
@@ -50,14 +51,15 @@ impl Frame {
     }
 }
 
-/// Returns two maps into the plane, with the area of the surface: the better one and its start. The start can be without
-/// overlaps where the better one has some. Positions are in the order of the vertices of the part.
+/// Returns two maps into the plane: the result of the iterations, and the map at which they start. Both maps have the
+/// same area as the surface. The first map has less distortion, but the starting map can be free of overlaps even if
+/// the first map is not. Positions are in the order of the vertices of the part.
 ///
-/// The start is a least squares conformal map (Levy and others, 2002, with the matrix of Mullen, Tong, Alliez, Desbrun,
-/// "Spectral Conformal Parameterization", 2008). The iterations of the hybrid method improve it (Liu, Zhang, Xu,
-/// Gotsman, Gortler, "A Local/Global Approach to Mesh Parameterization", 2008). Each iteration finds for each
-/// triangle the similarity that is next to its map and that has a scale near 1, and solves linear equations for
-/// positions that fit these similarities. The matrix is factored once.
+/// The starting map is a least squares conformal map (Levy and others, 2002, with the matrix of Mullen, Tong, Alliez,
+/// Desbrun, "Spectral Conformal Parameterization", 2008). The iterations of the hybrid method improve it (Liu, Zhang,
+/// Xu, Gotsman, Gortler, "A Local/Global Approach to Mesh Parameterization", 2008). For each triangle, an iteration
+/// finds a similarity transformation with a scale near 1 that is close to the map of the triangle. It then solves
+/// linear equations for positions that fit these transformations. The matrix is factored once.
 pub(super) fn flatten(part: &Part, progress: &dyn Progress) -> Result<[Vec<DVec2>; 2], SolveError> {
     let frames: Vec<Frame> = part
         .triangles
@@ -112,7 +114,7 @@ fn stiffness(part: &Part, frames: &[Frame]) -> Vec<(u32, u32, f64)> {
     entries
 }
 
-/// Computes a map of some scale that changes angles as little as possible.
+/// Computes a map of arbitrary scale that changes angles as little as possible.
 fn conformal(
     part: &Part,
     stiffness: &[(u32, u32, f64)],
@@ -120,7 +122,8 @@ fn conformal(
 ) -> Result<Vec<DVec2>, SolveError> {
     let n = part.points.len();
     let start = project(part);
-    // The equations have a solution for each position of two vertices: those at the ends of the longer direction.
+    // The equations have one solution if the positions of two vertices are given. These are the vertices at the two
+    // ends in the longer direction.
     let (low, high) = start
         .iter()
         .fold((DVec2::MAX, DVec2::MIN), |(low, high), &p| {
@@ -130,8 +133,8 @@ fn conformal(
     let at = |i: &usize| if is_wide { start[*i].x } else { start[*i].y };
     let first = (0..n).min_by(|i, j| at(i).total_cmp(&at(j))).unwrap_or(0);
     let last = (0..n).max_by(|i, j| at(i).total_cmp(&at(j))).unwrap_or(0);
-    // Twice the energy is the Dirichlet energy of both coordinates minus twice the area of the map, which only
-    // depends on the border.
+    // Twice the energy is the Dirichlet energy of both coordinates minus twice the area of the map. This area depends
+    // only on the border.
     let mut sides: Vec<(u32, u32, bool)> = part
         .triangles
         .iter()
@@ -214,7 +217,7 @@ fn rigid(
     Ok(uvs)
 }
 
-/// Returns the scale s of a similarity that replaces one with scale `r`: the minimum of
+/// Returns the scale s that replaces the scale `r` of a similarity transformation: s minimizes
 /// 2 (s - r)^2 + lambda (s^2 - 1)^2, by Newton's method.
 fn scale_next_to(r: f64) -> f64 {
     let mut s = if r > 1.0 { r } else { 1.0 };

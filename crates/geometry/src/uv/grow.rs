@@ -1,9 +1,10 @@
-//! Growing charts: the first division of a surface into sets of faces.
+//! Grows charts: the first division of a surface into sets of faces.
 //!
-//! Regions are connected sets of coplanar faces, and are never divided. Charts grow from the largest region by the
-//! region that costs the least, until no neighbor costs less than a limit. Small charts are then joined to a neighbor.
-//! The costs are those of the program xatlas (Young, 2018): the angle to the mean normal of the chart, a longer and
-//! more winding border, and sharp edges between chart and region.
+//! Regions are connected sets of coplanar faces, and are never divided. Each chart starts with the largest region that
+//! is not in a chart. Then the neighboring region with the lowest cost is added, until the cost of every neighbor
+//! exceeds a limit. Later, charts are cut and joined; see `cut.rs`. A region costs more if its angle to the mean normal
+//! of the chart is large, if it makes the border of the chart longer and more winding, or if sharp edges lie between
+//! the chart and the region. These costs are from the program xatlas (Young, 2018).
 
 use std::cmp::{Ordering, Reverse};
 use std::collections::{BTreeMap, BinaryHeap};
@@ -23,15 +24,15 @@ const MAX_COST: f64 = 2.0;
 const COPLANAR: f64 = 1.0 - 1e-5;
 const NONE: u32 = u32::MAX;
 
-/// Two regions or charts that meet: the length at which they meet, and the sum of `length * (1 - cosine)` over the
-/// angles between the faces there.
+/// How two regions or charts meet: the length of their common border, and the sum of `length * (1 - cosine)` over the
+/// edges of this border, for the angles between the faces at these edges.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Meeting {
     pub(super) length: f64,
     pub(super) crease: f64,
 }
 
-/// What is known about a set of faces.
+/// The measures of a set of faces.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Totals {
     /// The sum of the normals, weighted by area.
@@ -51,8 +52,8 @@ impl Totals {
     }
 }
 
-/// Returns the totals of each of `n` sets of faces, and the sets that each one meets. `set_of` has the set of each
-/// face, or [`u32::MAX`].
+/// Returns the totals of each of `n` sets of faces, and for each set the sets that it meets. `set_of` has the set of
+/// each face; [`u32::MAX`] means no set.
 pub(super) fn meetings(
     surface: &Surface,
     smooth: &[DVec3],
@@ -83,8 +84,8 @@ pub(super) fn meetings(
     (totals, links)
 }
 
-/// Returns normals of the faces that are averaged with those of their neighbors, but not across edges above 30
-/// degrees. The borders of charts on noisy scans would otherwise be ragged.
+/// Returns the normals of the faces, each averaged with the normals of the neighbors. Edges with an angle above 30
+/// degrees are excluded. Without averaging, the borders of charts on noisy scans would be ragged.
 pub(super) fn smooth_normals(surface: &Surface) -> Vec<DVec3> {
     const ROUNDS: usize = 8;
     const COS_30: f64 = 0.866_025_403_784_438_6;
@@ -137,7 +138,7 @@ fn regions(surface: &Surface) -> (Vec<u32>, usize) {
     (region_of, n as usize)
 }
 
-/// A region that can be added to the chart, in ascending order of the cost.
+/// A region that can be added to the chart. Candidates are ordered by cost.
 #[derive(PartialEq)]
 struct Candidate {
     cost: f64,
@@ -205,7 +206,7 @@ impl Growth {
         (cost <= MAX_COST).then_some(cost)
     }
 
-    /// Grows the chart with a number from a region. Calls `ask` for each region that is added.
+    /// Grows the chart with the number `chart` from the region `seed`. Calls `ask` for each region that is added.
     fn grow(
         &mut self,
         seed: u32,
@@ -225,7 +226,8 @@ impl Growth {
                     heap.push(Reverse(Candidate { cost, region }));
                 }
             }
-            // The chart may have changed since a cost was computed. If the cost is now higher, the region waits.
+            // The chart may have changed since a cost was computed. If the cost is now higher, the region goes back to
+            // the queue.
             added = loop {
                 let Some(Reverse(candidate)) = heap.pop() else {
                     return Ok(());
@@ -248,9 +250,9 @@ impl Growth {
     }
 }
 
-/// Divides the solid faces into connected charts, and returns the chart of each face, or [`u32::MAX`], and the number of
-/// charts. The angles between the normals of the regions and the mean normal of the chart at the time at which they are
-/// added are at most those with the cosine `min_cosine`.
+/// Divides the solid faces into connected charts. Returns the chart of each face, which is [`u32::MAX`] for other
+/// faces, and the number of charts. A region is added to a chart only if the cosine of the angle between its normal and
+/// the mean normal of the chart is at least `min_cosine` at that time.
 pub(super) fn grow(
     surface: &Surface,
     smooth: &[DVec3],

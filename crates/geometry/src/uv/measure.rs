@@ -179,8 +179,8 @@ pub(super) fn first_overlap(
 /// The number of comparisons of triangles between two progress reports.
 const REPORT: usize = 1 << 16;
 
-/// Calls `visit` with the faces of triangles that overlap. Pairs of triangles that are both known to overlap others are
-/// left out.
+/// Calls `visit` with the faces of triangles that overlap. Pairs of triangles are left out if both triangles are
+/// already known to overlap other triangles.
 fn sweep(
     mut flat: Vec<Flat>,
     progress: &dyn Progress,

@@ -28,8 +28,8 @@ pub struct Packed {
 /// Triangles whose area is at most this fraction of the area of their chart do not take part in packing.
 const MIN_AREA: f64 = 1e-11;
 
-/// The shortest edge of a hull, as a fraction of its size. The crate `uvunwrap` leaves out triangles that are lower than
-/// 1e-6 times the diagonal, which would cut the hull into parts.
+/// The shortest edge of a hull, as a fraction of its size. The crate `uvunwrap` leaves out triangles whose height is
+/// below 1e-6 times the diagonal. Without these triangles, the hull would fall into parts.
 const MIN_EDGE: f64 = 4e-6;
 
 /// One chart before it is packed.
@@ -207,8 +207,8 @@ impl Shape {
         let all = triangles.iter().map(|triangle| triangle.map(&place));
         let total: f64 = all.clone().map(|t| area(t).abs()).sum();
         for points in all {
-            // Rounding to 32-bit numbers can turn a thin triangle over. It is left out of the shape of the chart: its corners
-            // are also corners of triangles that stay.
+            // Rounding to 32-bit numbers can turn a thin triangle over. Such a triangle is left out of the shape of the
+            // chart. Its corners are also corners of triangles that stay.
             let before = (points[1] - points[0]).perp_dot(points[2] - points[0]);
             if area(points) * before.signum() <= MIN_AREA * total {
                 continue;
@@ -237,7 +237,8 @@ impl Shape {
         (self.points.len() - 1) as u32
     }
 
-    /// Returns the convex hull (Andrew's monotone chain, 1979), as triangles around its center, which are not thin.
+    /// Returns the convex hull (Andrew's monotone chain, 1979), as triangles around its center. The triangles are not
+    /// thin.
     fn hull(&self) -> Self {
         let mut points = self.points.clone();
         points.sort_unstable_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));

@@ -1,4 +1,4 @@
-//! The surface as unwrapping reads it, and connected parts of it.
+//! The surface that is unwrapped, and connected parts of it.
 
 use mesh::{DVec3, FaceId, HalfEdgeId, Mesh};
 
@@ -9,7 +9,8 @@ use crate::tangent::triangles;
 /// A triangle whose doubled area is at most this fraction of the square of its longest side has no area.
 const MIN_HEIGHT: f64 = 1e-8;
 
-/// A mesh whose bounding box has a size of 1, with the quantities of its faces. Faces are numbered by their ids.
+/// A mesh, scaled so that its bounding box has a size of 1, with the triangles, normals and areas of its faces. Faces
+/// are numbered by their ids.
 pub(super) struct Surface<'a> {
     pub(super) mesh: &'a Mesh,
     /// The positions of the vertices.
@@ -110,7 +111,7 @@ pub(super) fn unit_positions(mesh: &Mesh) -> Vec<DVec3> {
 }
 
 /// A connected set of faces that is cut open along its border and along the seams inside it. Its vertices are sets of
-/// corners that are connected across edges, so both sides of a cut have their own vertices.
+/// corners that are connected across edges, so the two sides of a cut have different vertices.
 pub(super) struct Part {
     /// The faces, ascending.
     pub(super) faces: Vec<u32>,

@@ -94,7 +94,8 @@ fn triangles_are_even_and_near_the_original() {
             (0.8..=4.0 / 3.0).contains(&relative)
         });
         assert!(in_range > 0.95, "{in_range}");
-        // Vertices lie on the original, and the triangles are near the original, as their size requires.
+        // Vertices lie on the original surface. The largest distance of the triangles follows from their size and the
+        // curvature.
         let distance = Distance::between(&mesh, &after, None).unwrap();
         let curvature = if mesh.euler_characteristic() == 2 {
             1.0

@@ -3,8 +3,8 @@
 use crate::sparse::symbolic::Supernode;
 use mesh::parallel;
 
-/// The number of columns of a tile. The columns of a tile are updated together, and this is also the number of columns
-/// that are subtracted from a tile at a time.
+/// The number of columns of a tile. All columns of a tile are updated together. Each step subtracts `TILE` pivot
+/// columns, each times a factor, from them.
 const TILE: usize = 4;
 /// The number of pivot columns that are updated in parallel.
 const BLOCK: usize = 64;

@@ -92,7 +92,7 @@ fn nearest_points_are_those_of_brute_force() {
     }
 }
 
-/// The radii are those at which the answer changes, and others.
+/// The tested radii include the radii at which the answer changes.
 #[test]
 fn a_point_is_within_a_radius_if_the_nearest_point_is() {
     let mut random = Random(5);

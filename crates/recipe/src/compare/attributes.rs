@@ -2,7 +2,7 @@
 
 use mesh::{Column, Domain, Id, Mesh, Values};
 
-use super::meshes::Order;
+use super::order::Order;
 
 /// The comparison of one attribute of two meshes.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,6 +5,7 @@
 
 mod attributes;
 mod meshes;
+mod order;
 
 use scene::{Geometry, Object, Scene};
 

@@ -4,10 +4,12 @@ use bezier::Curve;
 use glam::DVec2;
 
 use super::label_placement::LabelPlacement;
-use super::panel::RADIUS;
 use super::{POINT, TEXT, WHITE, level_color, point_name};
 use crate::figure::label::text_width;
 use crate::figure::svg::{Color, Font, Run, Svg, Text};
+
+/// The radius of control points, in pixels at zoom 1.
+pub(super) const RADIUS: f64 = 4.2;
 
 /// The font size of names, in pixels at zoom 1.
 pub(super) const FONT_SIZE: f64 = 19.0;

@@ -9,9 +9,6 @@ use super::{CURVE, FAINT, POINT, POLYGON, Panel, TEXT, WHITE, level_color, names
 use crate::figure::label::shortened;
 use crate::figure::svg::{Anchor, Font, Paint, Run, Svg, Text};
 
-/// The radius of control points, in pixels at zoom 1.
-pub(super) const RADIUS: f64 = 4.2;
-
 /// The width of lines, in pixels at zoom 1.
 const LINE: f64 = 1.8;
 
@@ -56,11 +53,11 @@ pub(super) fn draw(
     svg.group("points", |svg| {
         let paint = Paint::fill(WHITE).with_stroke(POLYGON, LINE * fine);
         for &p in points {
-            svg.circle(p, RADIUS * fine, &paint);
+            svg.circle(p, names::RADIUS * fine, &paint);
         }
         for (r, level) in between() {
             for &p in level {
-                svg.circle(p, RADIUS * 0.8 * fine, &Paint::fill(level_color(r)));
+                svg.circle(p, names::RADIUS * 0.8 * fine, &Paint::fill(level_color(r)));
             }
         }
         if let Some([p]) = levels.last().map(Vec::as_slice) {
@@ -84,7 +81,7 @@ fn draw_before(svg: &mut Svg, before: &Curve<DVec2>, now: &Curve<DVec2>, zoom: f
         svg.path(&trace(before), &dashed(2.4, &[7.0, 6.0]));
         for &p in before.points() {
             let paint = Paint::fill(WHITE).with_stroke(FAINT, 1.4);
-            svg.circle(p, RADIUS * 0.8 * zoom.sqrt(), &paint);
+            svg.circle(p, names::RADIUS * 0.8 * zoom.sqrt(), &paint);
         }
         for [from, to] in arrows(before, now) {
             let gap = (to - from).normalize() * 8.0;

@@ -94,7 +94,7 @@ struct CancellableFile<'a> {
 
 impl Write for CancellableFile<'_> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        // The size of the file is unknown, so only the fact that work goes on is reported.
+        // The size of the file is unknown, so the progress report only states that the work continues.
         self.progress
             .report("write", 0, 1)
             .map_err(io::Error::other)?;

@@ -2,8 +2,9 @@
 
 /// Implements `Deserialize` and `Serialize` for a type whose derives have `#[serde(remote = "Self")]`.
 ///
-/// Derived code is generic over the format, so it would be compiled again in every crate with a step that has a field of
-/// this type. These implementations call it through trait objects, and it is compiled once, in this crate.
+/// Derived code is generic over the format, so it would be compiled again in every crate with a step that has a field
+/// of this type. These implementations call the derived code through trait objects, so it is compiled only once, in
+/// this crate.
 macro_rules! compiled_once {
     ($name:ident) => {
         impl<'de> serde::Deserialize<'de> for $name {

@@ -51,14 +51,14 @@ impl<'a> Context<'a> {
     ///
     /// # Errors
     ///
-    /// [`OpError::Cancelled`] if the run was canceled. The operation returns this error at once.
+    /// Returns [`OpError::Cancelled`] if the run was canceled. The operation returns this error at once.
     pub fn advance(&self, what: &str, done: u64, total: u64) -> Result<(), OpError> {
         Ok(self.progress.report(what, done, total)?)
     }
 
-    /// Sets the object on which selections are evaluated: stores its materials and the other objects, which
-    /// [`other_mesh`](Self::other_mesh) returns. Until [`clear_object`](Self::clear_object) is called, the meshes of
-    /// the other objects are shared.
+    /// Sets the object on which selections are evaluated. Stores the materials of this object, and the other objects
+    /// for [`other_mesh`](Self::other_mesh). Until [`clear_object`](Self::clear_object) is called, the meshes of the
+    /// other objects are shared.
     pub fn set_object(&mut self, scene: &Scene, name: &str) {
         let (mut materials, mut others) = (Vec::new(), Vec::new());
         for object in scene.objects() {
@@ -85,18 +85,18 @@ impl<'a> Context<'a> {
     ///
     /// # Errors
     ///
-    /// [`OpError::Object`] if no object has this name, if it is not a mesh, or if it is the object that is being
-    /// changed.
+    /// Returns [`OpError::Object`] if no object has this name, if the object is not a mesh, or if it is the object that
+    /// is being changed.
     pub fn other_mesh(&self, user: &str, name: &str) -> Result<Arc<Mesh>, OpError> {
         if name == self.object {
             return Err(OpError::Object(format!(
-                "{user} needs an object other than \"{name}\", which the step acts on; choose the objects of the step with `on`"
+                "{user} needs an object other than \"{name}\", because the step acts on \"{name}\"; choose the objects of the step with `on`"
             )));
         }
         match self.others.iter().find(|other| other.0 == name) {
             Some((_, Some(mesh))) => Ok(Arc::clone(mesh)),
             Some((_, None)) => Err(OpError::Object(format!(
-                "{user} needs a mesh, but \"{name}\" is not one"
+                "{user} needs a mesh, but \"{name}\" is not a mesh"
             ))),
             None => {
                 let quoted = self.others.iter().map(|other| format!("\"{}\"", other.0));
@@ -128,8 +128,8 @@ impl<'a> Context<'a> {
         self.progress
     }
 
-    /// Returns the store of the run, for writing long files: writing reports progress, and fails if the run is cancelled.
-    /// After such a failure, [`advance`](Self::advance) returns the error.
+    /// Returns the store of the run, for writing long files. Writing reports progress, and fails if the run is
+    /// canceled. After such a failure, [`advance`](Self::advance) returns [`OpError::Cancelled`].
     pub fn cancellable_store(&self) -> CancellableStore<'_> {
         CancellableStore::new(&*self.files.store, self.progress)
     }

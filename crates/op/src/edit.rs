@@ -115,8 +115,8 @@ impl<E: EditTarget> EditTarget for [E; 2] {
 ///
 /// # Errors
 ///
-/// Returns [`OpError::Cancelled`] if canceled. With [`OnRefusal::Error`], returns the first refusal. The mesh may
-/// then be partly edited: the operation returns the error, and its caller rolls the edits back.
+/// Returns [`OpError::Cancelled`] if canceled. With [`OnRefusal::Error`], returns the first refusal. The mesh can then
+/// be partly edited. The operation returns the error, and its caller rolls the edits back.
 pub fn edit_each<I: EditTarget>(
     mesh: &mut Mesh,
     elements: &[I],

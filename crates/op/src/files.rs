@@ -150,7 +150,7 @@ impl Files {
     ///
     /// # Errors
     ///
-    /// [`StoreError`] if a folder cannot be created.
+    /// Returns [`StoreError`] if a folder cannot be created.
     pub fn make_folder_of(&self, path: &Path) -> Result<(), StoreError> {
         self.store.make_folder(store::folder_of(path))
     }
@@ -159,12 +159,12 @@ impl Files {
     ///
     /// # Errors
     ///
-    /// [`FileError`] if the path leads out of the output folder, does not end with a file name, or has an
+    /// Returns a [`FileError`] if the path leads out of the output folder, does not end with a file name, or has an
     /// unknown placeholder.
     pub fn to_write(&self, path: &str) -> Result<PathBuf, FileError> {
         let filled = self.fill(path)?;
         let relative = Path::new(&filled);
-        // Drives and backslashes have a meaning on some systems only, so they are refused on all systems.
+        // Drives and backslashes have a meaning only on some systems, so they are refused on all systems.
         let plain = relative
             .components()
             .all(|c| matches!(c, Component::Normal(_)));
@@ -184,7 +184,7 @@ impl Files {
     }
 
     /// Returns the text of an error about output files, for a person. Paths of output files in the text are relative to
-    /// the output folder, as in the recipe, because during a run the output folder is a temporary one.
+    /// the output folder, as in the recipe, because the output folder is a temporary folder during a run.
     pub fn output_error(&self, error: impl fmt::Display) -> OpError {
         // The path of the folder ends with a separator, unless it is empty.
         let folder = self.output.join("").display().to_string();
@@ -225,7 +225,7 @@ impl Files {
     ///
     /// # Errors
     ///
-    /// [`FileError::Link`].
+    /// Returns [`FileError::Link`].
     pub fn check_links(&self, relative: &Path) -> Result<(), FileError> {
         let Ok(root) = self.store.canonical(&self.output) else {
             return Ok(());

@@ -27,10 +27,10 @@ pub trait MeshOperation:
     const SUMMARY: &'static str;
     /// An example step as in a recipe, such as `Weld(distance: 0.001)`, for the documentation and the tests.
     const EXAMPLE: &'static str;
-    /// Earlier names of the operation, which recipes may still use.
+    /// Earlier names of the operation. Recipes can still use these names.
     const ALIASES: &'static [&'static str] = &[];
-    /// Words for the operation in other programs, in lower case. If a recipe uses one of these words as the name of a
-    /// step, the error suggests this operation.
+    /// Words that other programs use for the operation, in lower case. If a recipe uses one of these words as the name
+    /// of a step, the error suggests this operation.
     const WORDS: &'static [&'static str] = &[];
     /// The word that step tables show after the number of changed elements, such as `flipped` in `12 flipped`. If
     /// empty, the tables do not show the number.
@@ -54,8 +54,8 @@ pub trait MeshOperation:
         Vec::new()
     }
 
-    /// Changes `plan` as [`apply`](Self::apply) will change the mesh, and returns the problems.
-    /// Runs before any geometry exists and must be fast.
+    /// Changes `plan` in the same way as [`apply`](Self::apply) will change the mesh, and returns the problems. This
+    /// method runs before any geometry exists and must be fast.
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem>;
 
     /// Changes the mesh. The mesh [is dense](Mesh::is_dense): ids are indices of its arrays, such as `positions()`.
@@ -64,8 +64,8 @@ pub trait MeshOperation:
     ///
     /// # Errors
     ///
-    /// [`OpError`]. The mesh may then be partly changed: the caller, which has opened the journal of the
-    /// mesh, rolls the changes back.
+    /// Returns an [`OpError`]. The mesh can then be partly changed. The caller has opened the journal of the mesh and
+    /// rolls the changes back.
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError>;
 }
 
@@ -82,28 +82,29 @@ pub trait Operation:
     const SUMMARY: &'static str;
     /// An example step as in a recipe, such as `Weld(distance: 0.001)`, for the documentation and the tests.
     const EXAMPLE: &'static str;
-    /// Earlier names of the operation, which recipes may still use.
+    /// Earlier names of the operation. Recipes can still use these names.
     const ALIASES: &'static [&'static str] = &[];
-    /// Words for the operation in other programs, in lower case. If a recipe uses one of these words as the name of a
-    /// step, the error suggests this operation.
+    /// Words that other programs use for the operation, in lower case. If a recipe uses one of these words as the name
+    /// of a step, the error suggests this operation.
     const WORDS: &'static [&'static str] = &[];
     /// The word that step tables show after the number of changed elements, such as `flipped` in `12 flipped`. If
     /// empty, the tables do not show the number.
     const DONE: &'static str = "";
-    /// Whether a step may choose objects with `on:`.
+    /// Whether a step can choose objects with `on:`.
     const TAKES_ON: bool = false;
     /// Whether the operation leaves the scene unchanged when it fails. If false, the runner keeps the meshes from
     /// before the step, and the operation changes copies of these meshes.
     const ATOMIC: bool = false;
 
-    /// Changes `plan` as [`apply`](Self::apply) will change the scene, and returns the problems.
+    /// Changes `plan` in the same way as [`apply`](Self::apply) will change the scene, and returns the problems.
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem>;
 
     /// Changes the scene, whose meshes [are dense](Mesh::is_dense). Calls [`Context::advance`] before its first change.
     ///
     /// # Errors
     ///
-    /// [`OpError`]. The scene may then be partly changed: the runner restores the scene from before the step.
+    /// Returns an [`OpError`]. The scene can then be partly changed. The runner restores the scene from before the
+    /// step.
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError>;
 }
 
@@ -127,7 +128,9 @@ impl<T: MeshOperation> Operation for T {
             problems.extend(plan.missing(name, [parameter]));
             let is_target = |on: &[String]| on.iter().any(|target| target == name);
             if cx.on.is_some_and(is_target) {
-                let message = format!("`{parameter}` names \"{name}\", which the step acts on");
+                let message = format!(
+                    "`{parameter}` must name an object that the step does not act on, but `on` names \"{name}\" too"
+                );
                 problems.push(Problem::error(message).at([parameter]));
             }
             match plan.object(name).map(|object| &object.geometry) {

@@ -299,7 +299,7 @@ impl MeshPlan {
     }
 }
 
-/// Returns `name`, `name.2`, `name.3` and so on, each with its number, from the number `first`.
+/// Returns the names `name`, `name.2`, `name.3` and so on, each with its number. The first number is `first`.
 pub(crate) fn numbered(name: &str, first: u64) -> impl Iterator<Item = (u64, String)> {
     (first..).map(move |number| match number {
         1 => (1, name.to_owned()),
@@ -316,7 +316,8 @@ fn missing_element_message(number: u64, count: Range, nouns: [&str; 2]) -> Optio
     (number >= n).then(message)
 }
 
-/// Returns the size of one value of an attribute, in bytes. The lowest size is 0 if the attribute may not exist.
+/// Returns the size of one value of an attribute, in bytes. The lowest size is 0 if it is not certain that the
+/// attribute exists.
 fn value_bytes(attribute: &PlannedAttribute) -> Range {
     let name = &attribute.name;
     let exactly = |bytes: usize| Range::exactly(bytes as u64);
@@ -376,8 +377,8 @@ pub struct Plan {
     /// The index of each object by its name. The map is empty between [`objects_mut`](Self::objects_mut) and the next
     /// [`insert`](Self::insert).
     index_by_name: HashMap<String, usize>,
-    /// For each name that [`free_name`](Self::free_name) numbered, a number such that all lower numbers are taken. The
-    /// map is empty whenever the index is.
+    /// For each name to which [`free_name`](Self::free_name) added a number, a number below which all numbers are
+    /// taken. The map is empty whenever the index is empty.
     taken_numbers: HashMap<String, u64>,
     is_edited: bool,
     /// The files that the steps so far read.
@@ -386,7 +387,8 @@ pub struct Plan {
     outputs: IndexSet<PathBuf>,
     /// The data that the current step certainly loses, apart from attributes of meshes that the step changes.
     pub losses: Vec<Loss>,
-    /// The data that the current step may lose, because the values or the existence of the data are unknown.
+    /// The data that the current step can lose. The loss is not certain, because the values or the existence of the
+    /// data are unknown.
     pub possible_losses: Vec<Loss>,
     graph: Arc<Graph>,
     /// Whether an earlier step could not be read or planned. The scene can then have objects that are missing from
@@ -600,7 +602,7 @@ pub struct PlanContext<'a> {
     pub budget: u64,
 }
 
-/// A problem of a step, found before anything runs.
+/// A problem of a step that is found before anything runs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problem {
     /// The description of the problem, in lower case and without a full stop.

@@ -31,11 +31,11 @@ pub struct Entry {
     pub summary: &'static str,
     /// An example step, as in a recipe.
     pub example: &'static str,
-    /// Earlier names of the operation, which recipes may still use.
+    /// Earlier names of the operation. Recipes can still use these names.
     pub aliases: &'static [&'static str],
-    /// Other words for the operation, in lower case.
+    /// Words that other programs use for the operation, in lower case.
     pub words: &'static [&'static str],
-    /// Whether a step may choose objects with `on:`.
+    /// Whether a step can choose objects with `on:`.
     pub takes_on: bool,
     schema: fn() -> Schema,
     schema_in: fn(&mut SchemaGenerator) -> Schema,
@@ -81,7 +81,7 @@ impl Entry {
     ///
     /// # Errors
     ///
-    /// If the parameters are not valid for this operation. The error contains the reason and the location.
+    /// Returns an error with the reason and the location if the parameters are not valid for this operation.
     pub fn deserialize(&self, step: &Value) -> Result<Box<dyn Step>, ron_tree::Error> {
         match &step.kind {
             ValueKind::Call(call) => (self.deserialize)(&call.body),
@@ -131,7 +131,7 @@ impl Registry {
     ///
     /// # Errors
     ///
-    /// [`DuplicateOperation`] for the first name that is used twice.
+    /// Returns [`DuplicateOperation`] for the first name that is used twice.
     pub fn check(&self) -> Result<(), DuplicateOperation> {
         self.clash.clone().map_or(Ok(()), Err)
     }
@@ -163,7 +163,7 @@ pub trait Step: fmt::Debug + Send + Sync {
     ///
     /// # Errors
     ///
-    /// As [`Operation::apply`].
+    /// Returns the errors of [`Operation::apply`].
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError>;
     /// See [`Operation::ATOMIC`].
     fn is_atomic(&self) -> bool;
@@ -213,7 +213,7 @@ impl<T: Operation> Step for T {
 ///
 /// # Panics
 ///
-/// Panics if RON cannot represent the value. RON represents all parameters and expectations.
+/// Panics if RON cannot represent the value. RON can represent all parameters and expectations.
 pub fn to_ron(value: &dyn erased_serde::Serialize) -> String {
     ron::to_string(value).expect("parameters are plain data")
 }

@@ -125,7 +125,7 @@ impl Loss {
         }
     }
 
-    /// The message about this loss if it is possible, but not certain.
+    /// Returns the message for a loss that is possible but not certain.
     pub fn possible_message(&self) -> String {
         if self.reason.is_empty() {
             return format!("{} may lose {}", self.owner(), self.what);
@@ -133,7 +133,7 @@ impl Loss {
         format!("{} may lose {}: {}", self.owner(), self.what, self.reason)
     }
 
-    /// The object in messages.
+    /// Returns the text that stands for the object in messages.
     fn owner(&self) -> String {
         match self.object.as_str() {
             "" => "the scene".to_owned(),

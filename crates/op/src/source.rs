@@ -102,9 +102,9 @@ impl<'a> Source<'a> {
     ///
     /// # Errors
     ///
-    /// [`OpError::Parameter`] for the first problem, or if a coordinate overflows; [`OpError::Object`] if the name is
-    /// taken; [`OpError::Budget`] if the mesh would exceed the memory budget of `cx` or the largest supported number of
-    /// edges; [`OpError::Cancelled`]. The scene is unchanged.
+    /// Returns [`OpError::Parameter`] for the first problem, or if a coordinate overflows; [`OpError::Object`] if the
+    /// name is taken; [`OpError::Budget`] if the mesh would exceed the memory budget of `cx` or the largest supported
+    /// number of edges; [`OpError::Cancelled`]. The scene is unchanged.
     pub fn insert(
         self,
         scene: &mut Scene,
@@ -168,7 +168,7 @@ fn free_name(scene: &Scene, name: &str) -> String {
 ///
 /// # Errors
 ///
-/// [`OpError::Object`] if an object has this name.
+/// Returns [`OpError::Object`] if an object has this name.
 pub fn check_name(scene: &Scene, name: &str) -> Result<(), OpError> {
     match scene.object(name) {
         None => Ok(()),
@@ -182,7 +182,7 @@ pub fn check_name(scene: &Scene, name: &str) -> Result<(), OpError> {
 ///
 /// # Errors
 ///
-/// [`OpError::Object`] if no object has this name.
+/// Returns [`OpError::Object`] if no object has this name.
 pub fn named_object<'s>(scene: &'s Scene, name: &str) -> Result<&'s Object, OpError> {
     scene
         .object(name)

@@ -29,7 +29,7 @@ impl TagName {
     ///
     /// # Errors
     ///
-    /// [`OpError::Parameter`] if an attribute of a different type has this name.
+    /// Returns [`OpError::Parameter`] if an attribute of a different type has this name.
     pub fn marks(&self, mesh: &Mesh, domain: Domain) -> Result<Vec<bool>, OpError> {
         let Self(name) = self;
         match mesh.attributes().column(domain, name).map(|c| &c.values) {
@@ -71,7 +71,7 @@ impl From<TagName> for String {
 ///
 /// # Errors
 ///
-/// As [`Select::resolve`]; [`OpError::Parameter`] if an attribute of a different type has this name.
+/// Returns the errors of [`Select::resolve`]; [`OpError::Parameter`] if an attribute of a different type has this name.
 pub fn tag<S: Select>(
     mesh: &mut Mesh,
     name: &TagName,

@@ -84,7 +84,7 @@ impl TargetKind {
 ///
 /// # Errors
 ///
-/// [`OpError::Object`] if `on:` names an object that does not exist.
+/// Returns [`OpError::Object`] if `on:` names an object that does not exist.
 pub fn target_names(
     scene: &Scene,
     cx: &Context,
@@ -132,7 +132,8 @@ pub fn plan_curves(
 ///
 /// # Errors
 ///
-/// [`OpError::Object`] if an object named in `on:` does not exist or is not a curve, and the errors of `change`.
+/// Returns [`OpError::Object`] if an object named in `on:` does not exist or is not a curve, and the errors of
+/// `change`.
 pub fn change_curves(
     operation: &'static str,
     scene: &mut Scene,

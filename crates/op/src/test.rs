@@ -15,7 +15,7 @@ pub use ron_tree::from_str as read;
 ///
 /// # Panics
 ///
-/// If the operation fails, or the resulting mesh breaks an invariant.
+/// Panics if the operation fails, or the resulting mesh breaks an invariant.
 #[expect(clippy::needless_pass_by_value, reason = "reads better in tests")]
 pub fn applied(operation: &impl Operation, mesh: Mesh) -> Mesh {
     try_applied(operation, mesh.clone())
@@ -27,11 +27,11 @@ pub fn applied(operation: &impl Operation, mesh: Mesh) -> Mesh {
 ///
 /// # Errors
 ///
-/// The error of the operation.
+/// Returns the error of the operation.
 ///
 /// # Panics
 ///
-/// If the resulting mesh breaks an invariant.
+/// Panics if the resulting mesh breaks an invariant.
 pub fn try_applied(operation: &impl Operation, mesh: Mesh) -> Result<(Mesh, Report), OpError> {
     let mut scene = Scene::new();
     scene
@@ -50,7 +50,7 @@ pub fn try_applied(operation: &impl Operation, mesh: Mesh) -> Result<(Mesh, Repo
 ///
 /// # Errors
 ///
-/// The error of the operation.
+/// Returns the error of the operation.
 pub fn run(operation: &impl Operation, scene: &mut Scene) -> Result<Report, OpError> {
     let files = Files {
         input: ".".into(),
@@ -64,8 +64,8 @@ pub fn run(operation: &impl Operation, scene: &mut Scene) -> Result<Report, OpEr
 ///
 /// # Panics
 ///
-/// If the operation fails or does not create exactly one object, if its plan has errors or differs from the mesh, or if
-/// the mesh breaks an invariant.
+/// Panics if the operation fails or does not create exactly one object, if its plan has errors or differs from the
+/// mesh, or if the mesh breaks an invariant.
 pub fn made(operation: &impl Operation) -> Mesh {
     let files = Files::default();
     let mut plan = Plan::default();
@@ -115,7 +115,7 @@ pub fn planned(operation: &impl MeshOperation, mesh: &Mesh) -> (MeshPlan, Vec<Pr
 ///
 /// # Panics
 ///
-/// In the same cases as [`applied`], and if a count or degree is outside of its planned range.
+/// Panics in the same cases as [`applied`], and if a count or degree is outside of its planned range.
 pub fn applied_as_planned(operation: &impl MeshOperation, mesh: &Mesh) -> Mesh {
     let new = applied(operation, mesh.clone());
     assert!(is_as_planned(operation, mesh, &new), "the plan holds");
@@ -142,7 +142,7 @@ pub fn is_as_planned(operation: &impl MeshOperation, before: &Mesh, after: &Mesh
 ///
 /// # Panics
 ///
-/// If the operation succeeds, or fails for a reason that is not a refusal.
+/// Panics if the operation succeeds, or fails for a reason that is not a refusal.
 pub fn refused(operation: &impl Operation, mesh: Mesh) -> Refusal {
     match try_applied(operation, mesh) {
         Err(OpError::Refused { reason, .. }) => reason,

@@ -216,7 +216,9 @@ fn heights(mesh: &Mesh, heights: &Heights, uv: &str) -> Result<Vec<f64>, OpError
 }
 
 fn missing_uv(uv: &str) -> String {
-    format!("the mesh has no texture coordinates \"{uv}\"")
+    format!(
+        "the mesh has no texture coordinates `{uv}`; compute them first, for example with Unwrap"
+    )
 }
 
 fn missing(name: &str) -> String {

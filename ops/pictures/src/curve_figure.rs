@@ -23,12 +23,12 @@ use crate::figure_file;
 
 /// Draws Bezier curves, and de Casteljau's construction of their points, into an image file.
 ///
-/// The figure has a panel for each curve and each `t`. With `by_level`, it instead has a panel for each curve, each `t`
-/// and each level. A panel shows the control polygon, every level of de Casteljau's algorithm in a different color, the
-/// point, and the curve, with the same scale in both axes. With `by_level`, the panels for one value of `t` each show
-/// one level more than the panel before, and only the last of these panels shows the point. The extension of the file
-/// determines the format: `.svg` or `.png`. The file is written only if the whole recipe succeeds. The scene does not
-/// change.
+/// The figure has one panel for each combination of a curve and a value of `t`. With `by_level`, it has one panel for
+/// each combination of a curve, a value of `t` and a level. A panel shows the control polygon, every level of de
+/// Casteljau's algorithm in a different color, the constructed point, and the curve, with the same scale in both axes.
+/// With `by_level`, each panel for a value of `t` shows one level more than the previous panel, and only the last of
+/// these panels shows the constructed point. The extension of the file determines the format: `.svg` or `.png`. The
+/// file is written only if the whole recipe succeeds. The scene does not change.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct CurveFigure {

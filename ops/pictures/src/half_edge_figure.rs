@@ -8,11 +8,12 @@ use crate::figure_file;
 
 /// Draws the half-edges of some faces of a mesh into an image file.
 ///
-/// Each half-edge is an arrow beside its edge, inside its face, with its name. A thin curve leads from the head of the
-/// arrow to the next half-edge of the face. The twin of a half-edge is on the other side of the edge. Half-edges on the
-/// boundary have no face and are gray. The faces are seen along their mean normal. Faces that face away from the viewer
-/// or are seen nearly edge-on are left out. The report counts them. The extension of the file determines the format:
-/// `.svg` or `.png`. The file is written only if the whole recipe succeeds. The scene does not change.
+/// Each half-edge is drawn as an arrow beside its edge and inside its face, and is labeled with its name. A thin curve
+/// leads from the head of the arrow to the next half-edge of the face. The twin of a half-edge is on the other side of
+/// the edge. Half-edges on the boundary have no face and are gray. The viewer looks at the faces from the direction of
+/// their mean normal. Faces that face away from the viewer or are seen nearly edge-on are left out, and the report
+/// counts them. The extension of the file determines the format: `.svg` or `.png`. The file is written only if the
+/// whole recipe succeeds. The scene does not change.
 ///
 /// A name is a letter and the id of the element: `v` for vertices, `h` for half-edges, `f` for faces. Half-edges
 /// `2e` and `2e + 1` belong to edge `e`.
@@ -96,7 +97,7 @@ impl Operation for HalfEdgeFigure {
 }
 
 const CHOOSE_MESH: &str = "choose one with `on`";
-const SELECT_FACES: &str = "select some with `faces`";
+const SELECT_FACES: &str = "select fewer faces with `faces`";
 
 fn too_many(n_faces: u64, name: &str) -> String {
     format!("expected at most {MAX_FACES} faces to draw, but \"{name}\" has {n_faces}")

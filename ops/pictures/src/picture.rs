@@ -54,12 +54,12 @@ pub struct Picture {
     pub highlight: Option<Elements>,
     /// The width of highlighted edges and the diameter of highlighted vertices, in pixels. The defaults depend on the
     /// shorter side of a view: 2.8 and 7.5 for 240 pixels, 3.4 and 10 for 480, 4 and 13 for 960, 8 and 26 for 1920. If
-    /// there are many highlighted vertices, they are drawn smaller. Hidden edges are faint, and hidden vertices are
-    /// rings.
+    /// there are many highlighted vertices, they are drawn smaller. Hidden edges are drawn faintly, and hidden vertices
+    /// as rings.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub highlight_width: Option<f64>,
-    /// More elements to highlight, each in its color.
+    /// More selections of elements to highlight, each with its own color.
     #[serde(default)]
     pub marks: Vec<Mark>,
     /// The quantity to show as colors of the surface.
@@ -68,8 +68,8 @@ pub struct Picture {
     /// If given, the picture is an animation in which the camera moves once around the scene.
     #[serde(default)]
     pub turntable: Option<Turntable>,
-    /// The folder of images that are not next to their model, relative to the folder of the recipe. If omitted, the
-    /// folder of the recipe. Missing images are not drawn, and the report lists them.
+    /// The folder of texture images that are not stored next to their model. The path is relative to the folder of the
+    /// recipe. If omitted, the folder of the recipe. Missing images are not drawn, and the report lists them.
     #[serde(default)]
     pub images: Option<String>,
 }
@@ -190,7 +190,7 @@ impl Picture {
         }
     }
 
-    /// Draws scenes side by side at the same scale, each with its caption, which can be empty. Returns one image, or
+    /// Draws scenes side by side at the same scale. Each scene has a caption, which can be empty. Returns one image, or
     /// the images of a turntable, and notes on parts that are not drawn.
     ///
     /// If `within` is given, [`Camera::Fit`] shows all of this extent, and the colors of quantities use its range. The
@@ -198,8 +198,8 @@ impl Picture {
     ///
     /// # Errors
     ///
-    /// [`OpError::Parameter`] and [`OpError::File`] if a parameter is invalid, [`OpError::Budget`] if the images need
-    /// more memory than the budget of `cx`, the errors of the selections, and [`OpError::Cancelled`].
+    /// Returns [`OpError::Parameter`] or [`OpError::File`] if a parameter is invalid, [`OpError::Budget`] if the images
+    /// need more memory than the budget of `cx`, the errors of the selections, and [`OpError::Cancelled`].
     pub fn draw(
         &self,
         scenes: &[(&Scene, &str)],
@@ -237,7 +237,7 @@ impl Picture {
     ///
     /// # Errors
     ///
-    /// The errors of [`draw`](Self::draw).
+    /// Returns the errors of [`draw`](Self::draw).
     pub fn extent(&self, scene: &Scene, cx: &mut Context) -> Result<Extent, OpError> {
         self.check()?;
         let scene = target_scene(scene, cx);
@@ -351,8 +351,8 @@ impl Picture {
     ///
     /// # Errors
     ///
-    /// [`PictureError::Encode`] if the number of images is wrong, or if the images are too large for the format;
-    /// [`PictureError::Cancelled`].
+    /// Returns [`PictureError::Encode`] if the number of images is wrong, or if the images are too large for the
+    /// format; [`PictureError::Cancelled`].
     pub fn encode(
         &self,
         images: &[Image],

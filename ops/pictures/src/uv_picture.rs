@@ -11,9 +11,9 @@ use crate::figure_file;
 /// Draws the charts of the texture coordinates of a mesh into an image file.
 ///
 /// A gray frame shows the page of the texture, where u and v are from 0 to 1; v points upwards. Thick lines are the
-/// borders of charts, and thin lines are the other edges. Coordinates outside the page are also drawn. They make the
-/// figure higher or its scale smaller. The extension of the file determines the format: `.svg` or `.png`. The file is
-/// written only if the whole recipe succeeds. The scene does not change.
+/// borders of charts, and thin lines are the other edges. Coordinates outside the page are also drawn, so the figure
+/// becomes higher or its scale becomes smaller. The extension of the file determines the format: `.svg` or `.png`. The
+/// file is written only if the whole recipe succeeds. The scene does not change.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct UvPicture {
@@ -41,13 +41,13 @@ pub struct UvPicture {
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum UvFill {
-    /// Nothing.
+    /// No colors.
     None,
     /// The charts, in eight colors that repeat.
     #[default]
     Charts,
     /// The stretch of angles. A small circle on the surface becomes an ellipse in the texture, and the color shows the
-    /// ratio of its axes, from dark for 1 to bright for 1.5 or more.
+    /// ratio of the axes of the ellipse, from dark for 1 to bright for 1.5 or more.
     Stretch,
 }
 
@@ -129,7 +129,10 @@ const CHOOSE_MESH: &str = "choose one with `on`";
 
 impl UvPicture {
     fn missing(&self) -> String {
-        format!("the mesh has no texture coordinates `{}`", self.uv)
+        format!(
+            "the mesh has no texture coordinates `{}`; compute them first, for example with Unwrap",
+            self.uv
+        )
     }
 }
 

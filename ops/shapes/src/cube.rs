@@ -9,9 +9,9 @@
 //!    0 ------ 1                       a ------ b
 //! ```
 //!
-//! The id of a vertex is (x > center) + 2 (y > center) + 4 (z > center). The squares, counter-clockwise seen from
-//! outside, are -z (0, 2, 3, 1), +z (4, 5, 7, 6), -y (0, 1, 5, 4), +x (1, 3, 7, 5), +y (3, 2, 6, 7) and -x (2, 0, 4,
-//! 6). With `triangles: true`, the diagonals are therefore 0-3, 4-7, 0-5, 1-7, 3-6 and 2-4.
+//! The id of a vertex is (x > center) + 2 (y > center) + 4 (z > center). The squares are listed with their vertices,
+//! counter-clockwise seen from outside: -z (0, 2, 3, 1), +z (4, 5, 7, 6), -y (0, 1, 5, 4), +x (1, 3, 7, 5), +y (3, 2,
+//! 6, 7) and -x (2, 0, 4, 6). With `triangles: true`, the diagonals are therefore 0-3, 4-7, 0-5, 1-7, 3-6 and 2-4.
 
 use geometry::shapes;
 use op::Operation;
@@ -19,9 +19,10 @@ use op::prelude::*;
 
 /// Creates a cube.
 ///
-/// The cube has 8 vertices and 6 squares. In the order of their ids, the squares are on the sides -z (0, 2, 3, 1), +z
-/// (4, 5, 7, 6), -y (0, 1, 5, 4), +x (1, 3, 7, 5), +y (3, 2, 6, 7) and -x (2, 0, 4, 6). The id of a
-/// vertex is (x > center) + 2 (y > center) + 4 (z > center), where a true comparison counts as 1.
+/// The cube has 8 vertices and 6 squares. In the order of their ids, the squares are on the sides -z, +z, -y, +x, +y
+/// and -x. Their vertices are (0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (1, 3, 7, 5), (3, 2, 6, 7) and (2, 0, 4, 6).
+/// The id of a vertex is (x > center) + 2 (y > center) + 4 (z > center), where a true comparison counts as 1 and a
+/// false comparison as 0.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cube {

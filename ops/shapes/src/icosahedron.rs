@@ -12,7 +12,7 @@ use op::prelude::*;
 
 /// Creates a regular icosahedron with 12 vertices and 20 triangles.
 ///
-/// The vertices are the corners of three golden rectangles, one in each coordinate plane.
+/// The vertices are the corners of three rectangles with the side ratio 1 : (1 + √5) / 2, one in each coordinate plane.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Icosahedron {

@@ -1,4 +1,4 @@
-//! A mesh that is given in the recipe by its points and its faces.
+//! A mesh whose points and faces are given in the recipe.
 //!
 //! ```text
 //!    3 ------- 2
@@ -14,11 +14,11 @@ use op::prelude::*;
 
 /// Creates a mesh from points and faces.
 ///
-/// Point i becomes vertex i, and polygon i becomes face i. If connected faces have different orientations, the faces in
-/// the minority are reversed, provided that all orientations then agree. If the faces do not form a manifold, edges and
-/// vertices are split: an edge keeps two faces with consistent orientations, and a vertex keeps one fan of faces. The
-/// other faces get copies of the vertices. The copies get the highest ids. Both the report and the check of the recipe
-/// list the reversed and split elements.
+/// Point i becomes vertex i, and polygon i becomes face i. If the orientations of connected faces do not agree, the
+/// faces with the less frequent orientation are reversed. They are reversed only if all orientations then agree. If the
+/// faces do not form a manifold, edges and vertices are split: an edge keeps two faces with consistent orientations,
+/// and a vertex keeps one fan of faces. The other faces get copies of the vertices. The copies get the highest ids. The
+/// report and the command `check` list the reversed and split elements.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Polygons {

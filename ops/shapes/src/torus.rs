@@ -15,8 +15,8 @@ use op::prelude::*;
 
 /// Creates a torus of quadrilaterals around the z axis.
 ///
-/// Vertex `i * across + j` is vertex j of ring i across the tube. Ring 0 is in the direction +x, and its vertex 0 is
-/// farthest from the axis.
+/// The vertices form `around` rings across the tube, and each ring has `across` vertices. Vertex j of ring i has the id
+/// `i * across + j`. Ring 0 is in the direction +x, and its vertex 0 is farthest from the axis.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Torus {
@@ -33,8 +33,8 @@ pub struct Torus {
     /// The distance from the z axis to the center of the tube, in scene units. More than 0.
     #[serde(default = "crate::one")]
     pub major: PositiveLength,
-    /// The radius of the tube, in scene units. More than 0. The tube intersects itself unless `minor` is less than
-    /// `major`.
+    /// The radius of the tube, in scene units. More than 0. If `minor` is not less than `major`, the tube intersects
+    /// itself.
     #[serde(default = "quarter")]
     pub minor: PositiveLength,
     /// The center of the torus, in scene units.

@@ -15,11 +15,12 @@ use op::prelude::*;
 ///
 /// The mesh is cut along a plane, as with `Bisect`. The half on the side `from` is kept and mirrored, and the halves
 /// are joined at the plane. Vertices near the plane (see `Bisect`) are moved exactly onto it, so that the result is
-/// symmetric. Faces in the plane are removed, because they would be walls inside the result. Where the surface only
-/// touches the plane, the halves are not joined. The report counts the faces that are removed as a whole.
+/// symmetric. Faces in the plane are removed, because they would become walls inside the result. Where the surface only
+/// touches the plane, the halves are not joined. The report counts the faces that are removed completely, not the faces
+/// that are cut.
 ///
 /// The elements of the kept half come first, in their old order. The elements of the mirror image follow. Attributes
-/// are copied, so both halves have the same texture coordinates, tags and weights of joints. Normals and tangents are
+/// are copied, so both halves have the same texture coordinates, tags and joint weights. Normals and tangents are
 /// dropped.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]

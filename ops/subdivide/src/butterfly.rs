@@ -41,8 +41,8 @@ use crate::step::{Step, Until};
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Butterfly {
-    /// The number of levels. Each level multiplies the number of triangles by four. Defaults to 1. With
-    /// `until`, the maximum number of levels, which defaults to 16.
+    /// The number of levels. Each level multiplies the number of triangles by four. Defaults to 1. With `until`, this
+    /// is the maximum number of levels, and it defaults to 16.
     #[serde(default)]
     pub levels: Option<Levels>,
     /// The condition that ends the subdivision. If omitted, exactly `levels` levels are computed.

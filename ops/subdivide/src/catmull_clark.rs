@@ -45,13 +45,13 @@ use crate::step::{Step, Until};
 ///
 /// Vertex attributes are smoothed with the weights of the positions. Texture coordinates and other corner values are
 /// smoothed according to `face_varying`, and seams are kept. Parts of an edge or a face copy the values of the old edge
-/// or face. Normals are dropped, because they would be wrong. Edges and vertices that `Crease` made sharp stay sharp
-/// for as many levels as their sharpness states.
+/// or face. Normals are dropped, because they would be wrong. An edge or a vertex to which `Crease` gave the sharpness
+/// s stays sharp for s levels.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct CatmullClark {
-    /// The number of levels. Each level replaces every corner of a face with a quad. Defaults to 1. With `until`,
-    /// the maximum number of levels, which defaults to 16.
+    /// The number of levels. Each level replaces every corner of a face with a quad. Defaults to 1. With `until`, this
+    /// is the maximum number of levels, and it defaults to 16.
     #[serde(default)]
     pub levels: Option<Levels>,
     /// The condition that ends the subdivision. If omitted, exactly `levels` levels are computed.
@@ -71,7 +71,7 @@ pub struct CatmullClark {
     #[serde(default)]
     pub to_limit: bool,
     /// The faces to refine. If omitted, all faces. Faces next to the refined faces get the new vertices on common edges
-    /// as corners, and the surface outside the refined faces does not move. For the ids of new elements, see
+    /// as additional corners. The surface outside the refined faces does not move. For the ids of new elements, see
     /// `subdivision::refine_faces`.
     #[serde(default)]
     pub faces: Option<FaceSelection>,

@@ -36,22 +36,22 @@ use crate::step::{Step, Until};
 
 /// Replaces every edge and every vertex with a face and shrinks the old faces, for a number of levels.
 ///
-/// A level turns a closed mesh with V vertices, E edges and F faces into a mesh with 2 E vertices, 4 E edges and V +
-/// E + F faces. If the mesh has a boundary, a level creates additional elements along the boundary. V - E + F does not
+/// A level turns a closed mesh with V vertices, E edges and F faces into a mesh with 2 E vertices, 4 E edges and V + E
+/// + F faces. If the mesh has a boundary, a level creates additional elements along the boundary. V - E + F does not
 /// change. The face inside old face f has the id f, the face of edge e has the id F + e, and the faces of vertices
-/// follow. Isolated vertices are kept; their ids follow those of all other vertices. Isolated vertices and inner
+/// follow. Isolated vertices are kept. Their ids follow the ids of all other vertices. Isolated vertices and inner
 /// vertices of valence 2 do not become faces.
 ///
 /// Vertex attributes are smoothed with the weights of the positions. Corner values are smoothed within one old face.
-/// The new faces of edges and vertices have corner values of several old faces, which distorts textures at a seam. A
+/// The new faces at edges and vertices mix corner values of several old faces. At a seam, this distorts textures. A
 /// face inside an old face copies the values of the old face; the face of an edge or a vertex copies the values of an
 /// adjacent face. The two edges along an old edge copy its values; other edges have zero values (no crease, no tags).
 /// Normals are dropped, because they would be wrong.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct DooSabin {
-    /// The number of levels. Each level multiplies the number of faces by about four. Defaults to 1. With
-    /// `until`, the maximum number of levels, which defaults to 16.
+    /// The number of levels. Each level multiplies the number of faces by about four. Defaults to 1. With `until`, this
+    /// is the maximum number of levels, and it defaults to 16.
     #[serde(default)]
     pub levels: Option<Levels>,
     /// The condition that ends the subdivision. If omitted, exactly `levels` levels are computed.

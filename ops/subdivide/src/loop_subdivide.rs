@@ -22,11 +22,11 @@
 //!     new, inside          old, inside, valence n    new, boundary      old, boundary
 //! ```
 //!
-//! Here u = 3/16 for n = 3 and u = 3/(8n) otherwise. The masks are those of Loop, "Smooth Subdivision Surfaces
-//! Based on Triangles", 1987, with the simpler weights at old vertices of Warren, "Subdivision Methods for
-//! Geometric Design", 1995 (also Warren and Weimer, same title, 2001). The boundary is a cubic B-spline curve
-//! that depends on boundary vertices only. The limit surface has continuous curvature except at old vertices
-//! whose valence is not 6.
+//! Here u = 3/16 for n = 3 and u = 3/(8n) otherwise. Most weights are from Loop, "Smooth Subdivision Surfaces Based on
+//! Triangles", 1987. The weights at old vertices are the simpler weights from Warren, "Subdivision Methods for
+//! Geometric Design", 1995 (also Warren and Weimer, same title, 2001). The boundary is a cubic B-spline curve that
+//! depends on boundary vertices only. The limit surface has continuous curvature except at old vertices whose valence
+//! is not 6.
 //!
 //! The crate `subdivision` implements all schemes.
 
@@ -43,13 +43,13 @@ use crate::step::{Step, Until};
 ///
 /// Vertex attributes are smoothed with the weights of the positions. Texture coordinates and other corner values are
 /// smoothed according to `face_varying`, and seams are kept. Parts of an edge or a triangle copy the values of the old
-/// edge or triangle. Normals are dropped, because they would be wrong. Edges and vertices that `Crease` made sharp stay
-/// sharp for as many levels as their sharpness states.
+/// edge or triangle. Normals are dropped, because they would be wrong. An edge or a vertex to which `Crease` gave the
+/// sharpness s stays sharp for s levels.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct LoopSubdivide {
-    /// The number of levels. Each level multiplies the number of triangles by four. Defaults to 1. With
-    /// `until`, the maximum number of levels, which defaults to 16.
+    /// The number of levels. Each level multiplies the number of triangles by four. Defaults to 1. With `until`, this
+    /// is the maximum number of levels, and it defaults to 16.
     #[serde(default)]
     pub levels: Option<Levels>,
     /// The condition that ends the subdivision. If omitted, exactly `levels` levels are computed.
@@ -72,8 +72,8 @@ pub struct LoopSubdivide {
     #[serde(default)]
     pub to_limit: bool,
     /// The faces to refine. If omitted, all faces. Triangles next to the refined faces are cut in two or four, so that
-    /// no vertex lies inside an edge, and the surface outside the refined faces does not move. For the ids of new
-    /// elements, see `subdivision::refine_faces`.
+    /// no vertex lies inside an edge. The surface outside the refined faces does not move. For the ids of new elements,
+    /// see `subdivision::refine_faces`.
     #[serde(default)]
     pub faces: Option<FaceSelection>,
 }

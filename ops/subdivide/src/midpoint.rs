@@ -13,7 +13,7 @@
 //! ```
 //!
 //! The connectivity is the same as in Loop and Catmull-Clark subdivision. The parts of a flat face stay in its plane,
-//! so a surface of flat faces keeps its shape. It only gets more faces, which a later step can deform.
+//! so a surface of flat faces keeps its shape. The surface only gets more faces, and a later step can deform them.
 //!
 //! The crate `subdivision` implements all schemes.
 
@@ -36,8 +36,8 @@ use crate::step::{Step, Until};
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Midpoint {
-    /// The number of levels. Each level multiplies the number of faces by about four. Defaults to 1. With
-    /// `until`, the maximum number of levels, which defaults to 16.
+    /// The number of levels. Each level multiplies the number of faces by about four. Defaults to 1. With `until`, this
+    /// is the maximum number of levels, and it defaults to 16.
     #[serde(default)]
     pub levels: Option<Levels>,
     /// The condition that ends the subdivision. If omitted, exactly `levels` levels are computed.
@@ -48,7 +48,7 @@ pub struct Midpoint {
     pub into: Split,
     /// The faces to refine. If omitted, all faces. With `into: Triangles`, triangles next to the refined faces are cut
     /// in two or four. With `into: Quads`, faces next to the refined faces get the new vertices on common edges as
-    /// corners. For the ids of new elements, see `subdivision::refine_faces`.
+    /// additional corners. For the ids of new elements, see `subdivision::refine_faces`.
     #[serde(default)]
     pub faces: Option<FaceSelection>,
 }

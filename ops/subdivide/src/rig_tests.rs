@@ -84,10 +84,10 @@ fn joints(turns: bool) -> [(DMat3, DVec3); 3] {
     ]
 }
 
-/// Both the weights and the point of a new vertex are linear in those of the old vertices, and a pose multiplies
-/// weights by points. So subdivision and the pose commute if the joints only move, or if the weights are the same at
-/// both ends of an edge. Otherwise the difference along an edge from p to q is 1/4 of the sum of (w(q) - w(p)) M (q -
-/// p), where M is the linear part of each joint.
+/// Both the weights and the point of a new vertex depend linearly on the weights and points of the old vertices, and a
+/// pose multiplies weights by points. Therefore, subdivision and the pose commute if the joints are only translated, or
+/// if the weights are the same at both ends of an edge. Otherwise the difference along an edge from p to q is 1/4 of
+/// the sum of (w(q) - w(p)) M (q - p), where M is the linear part of each joint.
 #[test]
 fn posing_and_midpoint_subdivision_commute() {
     for (is_rigid, turns) in [(false, false), (true, true)] {

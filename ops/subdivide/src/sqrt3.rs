@@ -47,14 +47,14 @@ use crate::step::{Step, Until};
 ///
 /// Vertex attributes are smoothed with the weights of the positions. Corner values are interpolated linearly within one
 /// old triangle. A triangle next to a flipped edge covers parts of two old triangles. If the old edge was a seam, the
-/// triangle has texture coordinates of both sides, which distorts textures. New triangles copy the values of their old
-/// triangle. Parts of a boundary edge copy the values of the edge; other edges have zero values (no crease, no tags).
-/// Normals are dropped, because they would be wrong.
+/// triangle mixes texture coordinates of both sides, which distorts textures. New triangles copy the values of their
+/// old triangle. Parts of a boundary edge copy the values of the edge; other edges have zero values (no crease, no
+/// tags). Normals are dropped, because they would be wrong.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sqrt3 {
-    /// The number of levels. Each level multiplies the number of triangles by three. Defaults to 1. With
-    /// `until`, the maximum number of levels, which defaults to 16.
+    /// The number of levels. Each level multiplies the number of triangles by three. Defaults to 1. With `until`, this
+    /// is the maximum number of levels, and it defaults to 16.
     #[serde(default)]
     pub levels: Option<Levels>,
     /// The condition that ends the subdivision. If omitted, exactly `levels` levels are computed.

@@ -22,8 +22,8 @@ pub enum Until {
         /// The length, in scene units.
         below: PositiveLength,
     },
-    /// Stops as soon as the distance of every vertex to its limit position is less than `below`. Only for Loop and
-    /// Catmull-Clark.
+    /// Stops as soon as the distance of every vertex to its limit position is less than `below`. Available only for
+    /// Loop and Catmull-Clark subdivision.
     LimitDistance {
         /// The distance, in scene units.
         below: PositiveLength,
@@ -194,7 +194,7 @@ impl Step<'_> {
                 }
                 Until::LimitDistance { below } => {
                     let distance = limit_distance(mesh, self.rules, cx.progress());
-                    let measure = "the largest distance to the limit is";
+                    let measure = "the largest distance to the limit surface is";
                     (measure, distance.map_err(to_op_error)?, below.get())
                 }
             };
@@ -317,7 +317,7 @@ fn loss_notes(mesh: &Mesh, scheme: Scheme) -> Vec<String> {
         let names: Vec<&str> = columns.iter().map(|c| c.name.as_str()).collect();
         let names = names.join(", ");
         notes.push(format!(
-            "inner edges lose their values ({names}), because each of them is flipped"
+            "inner edges lose their values ({names}), because every inner edge is flipped"
         ));
     }
     notes

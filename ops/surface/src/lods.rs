@@ -17,7 +17,7 @@ use crate::simplify::{error, note_overlaps, part, plan_goal, triangles_problem, 
 ///
 /// The copies are named after the object, for example `rock_lod1`, `rock_lod2` and so on. Each copy is made from the
 /// previous copy in the same way as with `Simplify`, and keeps the same attributes, materials and lines. If nodes place
-/// the object, each of these nodes gets one sibling for each copy, which places the copy.
+/// the object, each of these nodes gets one sibling node for each copy. The sibling node places the copy.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Lods {
@@ -26,11 +26,11 @@ pub struct Lods {
     /// The number of faces of each copy, as a fraction of the number of faces of the object. Each fraction must be
     /// smaller than the previous one.
     pub ratios: Vec<Fraction>,
-    /// The start of the names of the copies, before the number. If omitted, the name of the object and `_lod`.
+    /// The text before the number in the names of the copies. If omitted, the name of the object and `_lod`.
     #[serde(default)]
     pub to: Option<String>,
-    /// Edges that are treated as lines, for example `Sharp(above: 30)`. If omitted, only the lines that `Simplify`
-    /// always keeps are treated as lines.
+    /// Edges to keep as lines, in addition to the lines that `Simplify` always keeps. For example, `Sharp(above: 30)`.
+    /// If omitted, no additional edges.
     #[serde(default)]
     pub features: Option<EdgeSelection>,
     /// What to do if the number of faces of a copy cannot be reached.

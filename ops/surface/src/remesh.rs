@@ -20,10 +20,10 @@ use crate::simplify::triangles_problem;
 ///
 /// Each pass splits long edges, collapses short edges, flips edges so that most vertices have six edges, and moves
 /// vertices along the surface (Botsch, Kobbelt, 2004). Most edges of the result have 4/5 to 4/3 of the target length.
-/// All vertices lie on the original surface, except new vertices that cannot be moved onto it without turning a
-/// triangle too far or moving the surface too far. The target length is either `length`, or it follows `curvature`:
-/// edges are short where the surface is curved, and long where it is flat (Dunyach and others, 2013). Exactly one of
-/// the two must be given. All faces must be triangles.
+/// All vertices lie on the original surface, with one exception: a new vertex stays where it is if moving it onto the
+/// surface would turn a triangle too far or would move the surface too far. The target length is either `length`, or it
+/// follows `curvature`: edges are short where the surface is curved, and long where it is flat (Dunyach and others,
+/// 2013). Exactly one of `length` and `curvature` must be given. All faces must be triangles.
 ///
 /// The following properties are kept:
 ///
@@ -35,9 +35,9 @@ use crate::simplify::triangles_problem;
 /// - Attributes: each vertex and corner gets the values of the original surface at its position. Values are never
 ///   interpolated across a line.
 /// - Vertex tags: a new vertex has a tag if all old vertices around its position had the tag. A tagged vertex can move
-///   only inside a tagged region: if all corners of one of its triangles, or both of its neighbors on a line, also have
-///   the tag. Other tagged vertices keep their exact positions.
-///   Vertices with sharpness also keep their exact positions.
+///   only inside a tagged region. A tagged vertex is inside such a region if all corners of one of its triangles, or
+///   both of its neighbors on a line, also have the tag. All other tagged vertices keep their exact positions. Vertices
+///   with sharpness also keep their exact positions.
 ///
 /// The number of faces depends on the area of the mesh, which is not known before the run. Therefore `check` shows the
 /// largest number that fits the memory budget. When the step starts, it estimates the number from the area, and fails
@@ -55,13 +55,13 @@ pub struct Remesh {
     /// Target lengths that follow the curvature. Replaces `length`.
     #[serde(default)]
     pub curvature: Option<RemeshCurvature>,
-    /// Edges that are treated as lines, for example `Sharp(above: 30)`. If omitted, only the lines that are always kept
-    /// are treated as lines.
+    /// Edges to keep as lines, in addition to the lines that are always kept. For example, `Sharp(above: 30)`. If
+    /// omitted, no additional edges.
     #[serde(default)]
     pub features: Option<EdgeSelection>,
-    /// The largest allowed Hausdorff distance between the old and the new surface, in scene units. Edges
-    /// become shorter than the target length where this is necessary. The distance is measured at the end, in both
-    /// directions and for all points. If omitted, there is no limit.
+    /// The largest allowed Hausdorff distance between the old and the new surface, in scene units. To keep this limit,
+    /// some edges can become shorter than the target length. The distance is measured at the end, in both directions
+    /// and for all points. If omitted, there is no limit.
     #[serde(default)]
     pub error: Option<PositiveLength>,
     /// Vertices that keep their exact positions, for example `Boundary`. If omitted, no vertices.
@@ -105,14 +105,15 @@ impl Remesh {
                     max: max.get(),
                 })
             }
-            (None, Some(_)) => Err("`min` of `curvature` must not be above `max`"),
+            (None, Some(_)) => Err("`min` of `curvature` must not exceed `max`"),
             (Some(_), Some(_)) => Err("`length` and `curvature` cannot be combined"),
             (None, None) => Err("Remesh needs `length` or `curvature`"),
         }
     }
 }
 
-/// The bytes of the connectivity and the positions, for half a vertex and one and a half edges for each face.
+/// The number of bytes for the connectivity and the positions, for each face. A mesh has about half a vertex and one
+/// and a half edges for each face.
 const BYTES: u64 = 54;
 
 /// Returns the largest number of faces whose arrays fit the memory budget. The arrays are those of the result and of
@@ -214,7 +215,7 @@ impl MeshOperation for Remesh {
                     "too many faces to count".to_owned()
                 };
                 let message = format!(
-                    "the target lengths need {needed} during remeshing, but at most {most} possible"
+                    "the target lengths need {needed} during remeshing, but at most {most} possible; use a longer target length"
                 );
                 Err(OpError::Budget(message))
             }

@@ -33,9 +33,9 @@ use op::prelude::*;
 ///   triangle is turned over in the texture. Normals are kept, so that a simplified mesh is shaded like the original.
 /// - Vertex tags: vertices with different tags, whole numbers or sharpness are not merged.
 ///
-/// In a texture, the border of a chart is simplified like the surface, and can then cross another chart that is close
-/// to it. The report counts faces that overlap, and `PackUvs` with a larger `padding` before the step leaves more space
-/// between charts.
+/// In a texture, the border of a chart is also simplified, and can then cross a chart that is close to it. The report
+/// counts the faces that overlap. To leave more space between charts, use `PackUvs` with a larger `padding` before this
+/// step.
 ///
 /// No triangle is turned over. Remaining elements get new ids, in the order of their old ids. If the number of faces
 /// cannot be reached and `error` is not given, the step is refused as `Unreached`, and the message states the reasons.
@@ -51,12 +51,12 @@ pub struct Simplify {
     #[serde(default)]
     pub ratio: Option<Fraction>,
     /// The largest allowed Hausdorff distance between the old and the new surface, in scene units. The limit is
-    /// guaranteed, because the step adds up an upper bound for the distance by which each collapse moves the surface.
-    /// The true distance is usually between a third of the limit and the limit. If omitted, there is no limit.
+    /// guaranteed: for each collapse, the step adds an upper bound of the distance by which the surface moves. The true
+    /// distance is usually between a third of the limit and the limit. If omitted, there is no limit.
     #[serde(default)]
     pub error: Option<PositiveLength>,
-    /// Edges that are treated as lines, for example `Sharp(above: 30)`. If omitted, only the lines that are always kept
-    /// are treated as lines.
+    /// Edges to keep as lines, in addition to the lines that are always kept. For example, `Sharp(above: 30)`. If
+    /// omitted, no additional edges.
     #[serde(default)]
     pub features: Option<EdgeSelection>,
     /// Vertices that keep their exact positions, for example `Boundary`. If omitted, no vertices.
@@ -78,8 +78,8 @@ pub enum Intersections {
     /// New intersections are allowed, and not detected.
     #[default]
     Allow,
-    /// No changed face intersects another face, so a mesh without self-intersections never gets any. The step takes
-    /// longer.
+    /// No changed face intersects another face, so a mesh without self-intersections stays without self-intersections.
+    /// The step takes longer.
     Refuse,
 }
 
@@ -131,7 +131,7 @@ pub(crate) fn triangles_problem(name: &str, plan: &MeshPlan) -> Option<Problem> 
     })
 }
 
-/// Returns the error of an operation for an error of [`simplify`].
+/// Converts an error of [`simplify`] to an error of an operation.
 pub(crate) fn error(error: &SimplifyError) -> OpError {
     match error {
         SimplifyError::Cancelled(_) => OpError::Cancelled,
@@ -217,7 +217,7 @@ impl MeshOperation for Simplify {
         if before as u64 <= goal {
             let faces = if before == 1 { "face" } else { "faces" };
             report = report.note(format!(
-                "a mesh of {before} {faces} already has at most {goal} and does not change"
+                "a mesh of {before} {faces} does not change, because the requested number is {goal}"
             ));
         }
         if after < before {
@@ -244,7 +244,9 @@ pub(crate) fn note_overlaps(
     if new > 0 {
         let old = overlaps(before)?;
         if new > old {
-            let note = format!("faces that overlap others in the texture: {new}, before {old}");
+            let note = format!(
+                "faces that overlap other faces in the texture: {new}, before this step: {old}"
+            );
             report.notes.push(note);
         }
     }
@@ -306,7 +308,7 @@ mod tests {
         let (_, report) = try_applied(&step("(faces: 99)"), shapes::icosahedron()).unwrap();
         assert_eq!(
             report.notes,
-            ["a mesh of 20 faces already has at most 99 and does not change"]
+            ["a mesh of 20 faces does not change, because the requested number is 99"]
         );
         let triangle = vec![mesh::DVec3::ZERO, mesh::DVec3::X, mesh::DVec3::Y];
         let triangle = Mesh::from_polygons(triangle, &[[0, 1, 2]]).unwrap().0;
@@ -347,7 +349,8 @@ mod tests {
             .unwrap()
             .len();
         assert!(n > 0);
-        let note = format!("faces that overlap others in the texture: {n}, before 0");
+        let note =
+            format!("faces that overlap other faces in the texture: {n}, before this step: 0");
         assert_eq!(report.notes, [note]);
     }
 

@@ -14,9 +14,9 @@ use op::prelude::*;
 
 /// Moves vertices so that noise disappears.
 ///
-/// Only vertices in `vertices` that are not in `pin` and have a face move. All other vertices keep their exact
-/// positions. Faces can have any number of corners, and degenerate faces are allowed. All elements keep their
-/// ids. Attributes are kept, so textures stretch with the surface, but normals are dropped.
+/// A vertex moves only if it is in `vertices`, is not in `pin`, and has a face. All other vertices keep their exact
+/// positions. Faces can have any number of corners, and degenerate faces are allowed. All elements keep their ids.
+/// Attributes are kept, so textures stretch with the surface, but normals are dropped.
 ///
 /// | `by` | use | size |
 /// | --- | --- | --- |
@@ -44,8 +44,8 @@ pub struct Smooth {
     /// How vertices on the boundary move.
     #[serde(default)]
     pub boundary: SmoothBoundary,
-    /// Whether the moved vertices are finally shifted along their normals, all by the same distance, until the mesh has
-    /// its original volume. The mesh must be closed.
+    /// Whether to restore the original volume of the mesh. To restore it, the step finally shifts all moved vertices
+    /// along their normals by the same distance. The mesh must be closed.
     #[serde(default)]
     pub keep_volume: bool,
 }
@@ -102,7 +102,7 @@ pub enum SmoothWeights {
     /// All vertices that share an edge with the vertex have the same weight. The lengths of edges become more equal.
     #[default]
     Uniform,
-    /// The weights follow the shape of the faces. Vertices hardly move within the surface.
+    /// The weights follow the shape of the faces. Vertices hardly slide along the surface.
     Cotangent,
 }
 
@@ -134,7 +134,7 @@ const fn thirty() -> AngleBetween {
     AngleBetween::literal(30.0)
 }
 
-/// The passes of `Denoise` that move the vertices.
+/// The number of passes of `Denoise` that move the vertices.
 const VERTEX_PASSES: u32 = 10;
 
 impl SmoothBy {
@@ -206,7 +206,7 @@ impl MeshOperation for Smooth {
         Ok(if is_free.contains(&true) {
             report
         } else {
-            report.note("no vertex may move, because none is selected or all are pinned")
+            report.note("no vertex can move, because no vertex is selected or all selected vertices are pinned")
         })
     }
 }

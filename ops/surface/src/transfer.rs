@@ -23,17 +23,18 @@ use origins::{Origin, Source};
 /// An attribute of vertices, corners or faces of the object `from` becomes an attribute of the same kind of elements of
 /// the changed mesh. Numbers and vectors of vertices and corners are interpolated inside the face of the nearest point.
 /// Whole numbers, tags, and attributes that edits do not interpolate are copied from the nearest corner of this face.
-/// Values of faces are copied from the face of the nearest point. An existing attribute with the same type of values is
-/// overwritten; with a different type, the step fails. Without `on`, the step acts on all meshes except `from`.
+/// Values of faces are copied from the face of the nearest point. If the attribute already exists with the same type of
+/// values, it is overwritten. If its type is different, the step fails. Without `on`, the step acts on all meshes
+/// except `from`.
 ///
 /// All corners of a face take their values from one side of each seam, so no triangle is stretched across a seam of
-/// texture coordinates. Usually this is the side at the center of the face. If a chart at a corner is much nearer to the
-/// whole face than the chart at the center, its values are used instead. This happens where parts of the source
-/// intersect.
+/// texture coordinates. Usually this is the side at the center of the face. Seams divide the source into charts. If the
+/// chart at a corner is much nearer to the whole face than the chart at the center, the values of the chart at the
+/// corner are used. This happens where parts of the source intersect.
 ///
 /// Elements whose distance from the source exceeds `within` keep their values, or get zeros if the attribute is new. If
-/// a corner or the center of a face is that far away, this applies to all corners of the face. The report counts these
-/// elements.
+/// the distance of a corner or of the center of a face exceeds `within`, this applies to all corners of the face. The
+/// report counts these elements.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Transfer {
@@ -41,7 +42,7 @@ pub struct Transfer {
     pub from: String,
     /// The names of the attributes, for example `["uv", "color"]`.
     pub attributes: Vec<String>,
-    /// The largest distance from the source, in scene units. If omitted, any distance.
+    /// The largest distance from the source, in scene units. If omitted, there is no limit.
     #[serde(default)]
     pub within: Option<PositiveLength>,
 }

@@ -70,7 +70,9 @@ pub(crate) fn get<'m>(mesh: &'m Mesh, uv: &str) -> Result<&'m [DVec2], OpError> 
 }
 
 pub(crate) fn missing(uv: &str) -> String {
-    format!("the mesh has no texture coordinates `{uv}`")
+    format!(
+        "the mesh has no texture coordinates `{uv}`; compute them first, for example with Unwrap"
+    )
 }
 
 pub(crate) fn error(error: &UvError) -> OpError {

@@ -21,14 +21,15 @@ use crate::attribute::{
 /// A chart is a set of faces that are connected without seams of the texture coordinates. Afterwards, the area of each
 /// chart in the texture is proportional to its area on the surface. The shape of each chart does not change, even if it
 /// is stretched, mirrored or overlaps itself. Each zero-area chart becomes a point. The report counts zero-area charts
-/// and charts that overlap themselves. Each mesh gets its own page. Tangents are removed, because charts are rotated.
+/// and charts that overlap themselves. Each mesh gets its own page, that is, the whole square of a texture. Tangents
+/// are removed, because charts are rotated.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct PackUvs {
     /// The name of the texture coordinates. Defaults to `uv`.
     #[serde(default = "uv")]
     pub uv: String,
-    /// The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for any size; the size
+    /// The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for any size. The size only
     /// determines how large the padding is.
     #[serde(default = "page")]
     pub page: Count<16, 16384>,

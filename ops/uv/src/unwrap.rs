@@ -17,21 +17,23 @@ use crate::attribute::{coverage, error, padding, padding_problem, page, page_of,
 
 /// Computes texture coordinates without overlaps.
 ///
-/// The surface is cut into charts, which are flattened and packed into a square page. Charts grow from flat regions up
-/// to `max_angle`. They are flattened by least squares conformal maps (Levy and others, 2002) and the hybrid method of
-/// Liu and others (2008). A chart is cut again if it would overlap itself, if it would exceed `max_stretch`, or if, on
-/// more than 5 % of its area, the ratio of its largest to its smallest stretch would be above 1.15. All charts of a
-/// mesh have the same scale, and no chart is mirrored. A polygon stays in one chart. Each mesh gets its own page.
+/// The surface is cut into charts, which are flattened and packed into a square page. Charts grow from flat regions as
+/// far as `max_angle` allows. They are flattened by least squares conformal maps (Levy and others, 2002) and the hybrid
+/// method of Liu and others (2008). A chart is cut again in three cases: it would overlap itself, it would exceed
+/// `max_stretch`, or the ratio of the largest to the smallest stretch would exceed 1.15 on more than 5 % of its area.
+/// All charts of a mesh have the same scale, and no chart is mirrored. A polygon stays in one chart. Each mesh gets its
+/// own page.
 ///
 /// The coordinates are written to the corner attribute `uv`, which is replaced if it exists. Edges at which charts meet
 /// become seams. Positions, faces and other attributes do not change, but tangents are removed. Zero-area faces have no
-/// area in the texture. The report counts them. A polygon that is bent so far that it overlaps itself is refused as
-/// `WrongPlace`, so triangulate it first. With `on_refusal: Skip`, its triangles overlap in the texture.
+/// area in the texture. The report counts them. If a polygon is bent so far that it overlaps itself in the texture, the
+/// step is refused as `WrongPlace`. Triangulate such polygons first. With `on_refusal: Skip`, the triangles of the
+/// polygon overlap in the texture.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Unwrap {
-    /// Edges that become borders of charts, for example `Tagged("seam")` or `Sharp(above: 60)`. If omitted, only edges
-    /// that the algorithm chooses.
+    /// Edges that become borders of charts, for example `Tagged("seam")` or `Sharp(above: 60)`. The algorithm also
+    /// chooses borders itself. If omitted, the algorithm chooses all borders.
     #[serde(default)]
     pub seams: Option<EdgeSelection>,
     /// The largest angle between the normal of a face and the mean normal of its chart, in degrees. Smaller angles give
@@ -43,7 +45,7 @@ pub struct Unwrap {
     #[serde(default = "max_stretch")]
     #[schemars(range(min = 1.0, max = 1000.0))]
     pub max_stretch: f64,
-    /// The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for any size; the size
+    /// The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for any size. The size only
     /// determines how large the padding is.
     #[serde(default = "page")]
     pub page: Count<16, 16384>,
@@ -96,7 +98,7 @@ impl MeshOperation for Unwrap {
         if let Some(first) = unwrapped.bent.first() {
             let n = unwrapped.bent.len();
             let message = format!(
-                "{first} is bent so far that it overlaps itself in the texture ({n} in all); triangulate the faces first, with Triangulate"
+                "{first} is bent so far that it overlaps itself in the texture (number of such faces: {n}); triangulate the faces first, with Triangulate"
             );
             let refused = OpError::refused(Refusal::WrongPlace, message);
             let faces = unwrapped.bent.iter().map(|&f| Element::from(f));

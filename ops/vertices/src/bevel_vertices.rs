@@ -48,10 +48,10 @@ impl MeshOperation for BevelVertices {
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let done = self.on_refusal.done(self.vertices.count(plan));
         if done.max > 0 {
-            // An edge is cut at most at both ends, and a beveled vertex has at least three edges.
+            // An edge is cut at no end, one end or both ends. A beveled vertex has at least three edges.
             let cuts = Range::between(done.by(3).min, plan.edges.by(2).max);
-            // A new face has as many corners as its vertex had edges. An old face gains at most one corner for each
-            // corner.
+            // A new face has as many corners as its vertex had edges. An old face gains at most one corner for each of
+            // its corners.
             let gained = plan.degrees.by(2).max;
             plan.degrees = Range::between(3, gained.max(plan.edges.max));
             let new = Range::between(done.by(2).min, cuts.max.saturating_sub(done.min));

@@ -78,7 +78,10 @@ const NORMALS_HELP: &str = "compute normals first, for example with VertexNormal
 
 impl Tangents {
     fn no_uvs(&self) -> String {
-        format!("the mesh has no texture coordinates `{}`", self.uv)
+        format!(
+            "the mesh has no texture coordinates `{}`; compute them first, for example with Unwrap",
+            self.uv
+        )
     }
 }
 

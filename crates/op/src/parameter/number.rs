@@ -89,7 +89,7 @@ macro_rules! numbers {
             ///
             /// # Errors
             ///
-            /// If the number is outside the range or not finite.
+            /// Returns an error if the number is outside the range or not finite.
             pub const fn new(value: f64) -> Result<Self, OutOfRange> {
                 match Self::LIMITS.check(value) {
                     Ok(value) => Ok(Self(value)),
@@ -101,7 +101,7 @@ macro_rules! numbers {
             ///
             /// # Panics
             ///
-            /// If the number is outside the range or not finite.
+            /// Panics if the number is outside the range or not finite.
             pub const fn literal(value: f64) -> Self {
                 match Self::new(value) {
                     Ok(number) => number,
@@ -200,7 +200,7 @@ impl<const MIN: u32, const MAX: u32> Count<MIN, MAX> {
     ///
     /// # Errors
     ///
-    /// If the number is outside the range.
+    /// Returns an error if the number is outside the range.
     pub const fn new(value: u32) -> Result<Self, OutOfRange> {
         match Self::LIMITS.check(value as f64) {
             Ok(_) => Ok(Self(value)),
@@ -212,7 +212,7 @@ impl<const MIN: u32, const MAX: u32> Count<MIN, MAX> {
     ///
     /// # Panics
     ///
-    /// If the number is outside the range.
+    /// Panics if the number is outside the range.
     pub const fn literal(value: u32) -> Self {
         match Self::new(value) {
             Ok(number) => number,

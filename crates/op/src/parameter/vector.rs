@@ -28,7 +28,7 @@ macro_rules! vectors {
             ///
             /// # Errors
             ///
-            /// If the numbers are not a valid value of this type.
+            /// Returns an error if the numbers are not a valid value of this type.
             pub const fn new($x: f64, $y: f64, $z: f64) -> Result<Self, BadVector> {
                 if $x.is_finite() && $y.is_finite() && $z.is_finite() && $good {
                     Ok(Self(DVec3::new($x, $y, $z)))
@@ -41,7 +41,7 @@ macro_rules! vectors {
             ///
             /// # Panics
             ///
-            /// If the numbers are not a valid value of this type.
+            /// Panics if the numbers are not a valid value of this type.
             pub const fn literal(x: f64, y: f64, z: f64) -> Self {
                 match Self::new(x, y, z) {
                     Ok(vector) => vector,
@@ -97,7 +97,7 @@ vectors! {
     Vector(x, y, z): true, "coordinates";
     /// A direction `(x, y, z)`. The length of the vector does not matter but must not be 0.
     Direction(x, y, z): x != 0.0 || y != 0.0 || z != 0.0, "coordinates that are not all 0";
-    /// Scale factors along x, y and z. No factor may be 0; a negative factor mirrors.
+    /// Scale factors along x, y and z. The factors must not be 0. A negative factor mirrors.
     Factors(x, y, z): x != 0.0 && y != 0.0 && z != 0.0, "factors that are not 0";
 }
 

@@ -10,8 +10,8 @@ use crate::{OpError, Refusal};
 ///
 /// # Errors
 ///
-/// [`Refusal::Missing`] if no attribute of these elements has this name; [`OpError::Parameter`] if the attribute is a
-/// tag, if it is a vector and `component` is missing, or if the attribute does not have this component.
+/// Returns [`Refusal::Missing`] if no attribute of these elements has this name; [`OpError::Parameter`] if the
+/// attribute is a tag, if it is a vector and `component` is missing, or if the attribute does not have this component.
 pub(super) fn component_of<'m, S: Select>(
     mesh: &'m Mesh,
     name: &str,
@@ -30,8 +30,8 @@ pub(super) fn component_of<'m, S: Select>(
 ///
 /// # Errors
 ///
-/// [`OpError::Parameter`] if the attribute is a tag, if it is a vector and `component` is missing, or if the attribute
-/// does not have this component.
+/// Returns [`OpError::Parameter`] if the attribute is a tag, if it is a vector and `component` is missing, or if the
+/// attribute does not have this component.
 pub fn check_component(
     domain: Domain,
     column: &Column,
@@ -47,7 +47,7 @@ pub fn check_component(
     let help = match component {
         None if n == 1 => return Ok(0),
         Some(i) if n > 1 && (i as usize) < n => return Ok(i as usize),
-        None => "choose one with `component`, from 0".to_owned(),
+        None => "choose one number with `component`, counted from 0".to_owned(),
         Some(_) if n == 1 => "remove `component`".to_owned(),
         Some(_) => format!("`component` must be at most {}", n - 1),
     };

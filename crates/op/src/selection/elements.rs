@@ -92,7 +92,7 @@ impl Elements {
     ///
     /// # Errors
     ///
-    /// As [`Select::resolve`].
+    /// Returns the errors of [`Select::resolve`].
     pub fn resolve(&self, mesh: &Mesh, cx: &Context) -> Result<Selected, OpError> {
         Ok(match self {
             Self::Vertices(s) => Selected::Vertices(s.resolve(mesh, cx)?),

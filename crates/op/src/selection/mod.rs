@@ -33,7 +33,7 @@ macro_rules! selection {
             Inside(super::Region),
             #[doc = concat!(
                 $inside_of, " the mesh of another object, given by its name. A point is inside if the winding number \
-                 of the mesh around the point is above 1/2 in magnitude. The mesh may have small gaps."
+                 of the mesh around the point is above 1/2 or below -1/2. The mesh can have small gaps."
             )]
             InsideOf(String),
             #[doc = concat!("The ", $elements, " with the tag of this name. Refused if no tag of ", $elements,
@@ -57,14 +57,16 @@ macro_rules! selection {
             },
             #[doc = concat!("The ", $elements, " in all of these selections. An empty list selects all ", $elements, ".")]
             And(Vec<Self>),
-            #[doc = concat!("The ", $elements, " in at least one of these selections. An empty list selects none.")]
+            #[doc = concat!("The ", $elements, " in at least one of these selections. An empty list selects no ",
+                $elements, ".")]
             Or(Vec<Self>),
             #[doc = concat!("The ", $elements, " that are not in this selection.")]
             Not(Box<Self>),
             #[doc = concat!("This selection and the ", $elements, " that share ", $part, " with it.")]
             Grow(Box<Self>),
             #[doc = concat!(
-                "This selection without the ", $elements, " that share ", $part, " with ", $elements, " outside it."
+                "This selection without the ", $elements, " that share ", $part, " with ", $elements,
+                " outside the selection."
             )]
             Shrink(Box<Self>),
             #[doc = concat!(
@@ -198,8 +200,8 @@ pub trait Select: Sized + Sync {
     ///
     /// # Errors
     ///
-    /// [`Refusal::Missing`] if a given element, tag, attribute or material does not exist, or no path exists.
-    /// [`Refusal::Expectation`] if `Expect` found a different number of elements.
+    /// Returns [`Refusal::Missing`] if a given element, tag, attribute or material does not exist, or if no path
+    /// exists. Returns [`Refusal::Expectation`] if `Expect` found a different number of elements.
     fn resolve(&self, mesh: &Mesh, cx: &Context) -> Result<Vec<Self::Id>, OpError> {
         let mask = self.mask(mesh, cx)?;
         Ok(Self::marked(mesh, &mask).collect())
@@ -209,10 +211,10 @@ pub trait Select: Sized + Sync {
     ///
     /// # Errors
     ///
-    /// As [`resolve`](Self::resolve).
+    /// Returns the errors of [`resolve`](Self::resolve).
     fn mask(&self, mesh: &Mesh, cx: &Context) -> Result<Vec<bool>, OpError>;
 
-    /// Returns how many elements of a planned mesh this selection can contain.
+    /// Returns the range of the number of elements of a planned mesh that this selection can contain.
     fn count(&self, plan: &MeshPlan) -> Range;
 
     /// Returns all elements of a mesh.
@@ -318,7 +320,7 @@ impl<S: Select> Shared<'_, S> {
         })
     }
 
-    /// Returns how many elements the variant can select. `all` is the number of all elements.
+    /// Returns the range of the number of elements that the variant can select. `all` is the number of all elements.
     fn count(&self, all: Range, plan: &MeshPlan) -> Range {
         match self {
             Self::All => all,

@@ -139,7 +139,7 @@ fn wrong_attributes_are_refused_with_help() {
         ),
         (
             "Where(attribute: \"flow\", below: 2)",
-            "the type of the vertex attribute \"flow\" is 3 numbers: choose one with `component`, from 0",
+            "the type of the vertex attribute \"flow\" is 3 numbers: choose one number with `component`, counted from 0",
         ),
         (
             "Where(attribute: \"flow\", component: 3, below: 2)",
@@ -161,7 +161,7 @@ fn inside_of_selects_by_the_winding_number_of_another_object() {
     for p in mould.positions_mut() {
         *p *= 1.5;
     }
-    // The orientation does not matter, nor does a small hole.
+    // Neither the orientation nor a small hole changes the result.
     mould.reverse();
     mould.delete_face(FaceId::new(3)).unwrap();
     let grid = shapes::grid(8, 8);
@@ -189,7 +189,7 @@ fn inside_of_selects_by_the_winding_number_of_another_object() {
             "no object is named \"mold\"; other objects at this point: \"mould\", \"lines\"",
         ),
         ("part", "needs an object other than \"part\""),
-        ("lines", "\"lines\" is not one"),
+        ("lines", "\"lines\" is not a mesh"),
     ] {
         let error = found(&format!("InsideOf(\"{name}\")")).unwrap_err();
         assert!(error.to_string().contains(message), "{error}");
@@ -362,8 +362,8 @@ proptest! {
         let neither = EdgeSelection::Or(vec![not(&a), not(&b)]);
         prop_assert_eq!(edges(&not(&both), &grid), edges(&neither, &grid));
         prop_assert_eq!(edges(&not(&not(&a)), &grid), edges(&a, &grid));
-        // `Grow` only adds elements. To shrink a selection is to grow its complement and take the complement of the
-        // result.
+        // `Grow` only adds elements. Shrinking a selection is the same as growing its complement and then taking the
+        // complement of the result.
         let grown = edges(&EdgeSelection::Grow(boxed(&a)), &grid);
         prop_assert!(edges(&a, &grid).iter().all(|e| grown.contains(e)));
         prop_assert_eq!(

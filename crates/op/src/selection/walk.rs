@@ -63,7 +63,7 @@ fn follow(
 ///
 /// # Errors
 ///
-/// [`Refusal::Missing`] if no path exists.
+/// Returns [`Refusal::Missing`] if no path exists.
 pub(super) fn shortest_path(
     mesh: &Mesh,
     from: VertexId,

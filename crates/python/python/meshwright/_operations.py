@@ -166,11 +166,11 @@ class SceneOperations:
     ) -> Self:
         """Creates a mesh from points and faces.
 
-        Point i becomes vertex i, and polygon i becomes face i. If connected faces have different orientations, the
-        faces in the minority are reversed, provided that all orientations then agree. If the faces do not form a
-        manifold, edges and vertices are split: an edge keeps two faces with consistent orientations, and a vertex keeps
-        one fan of faces. The other faces get copies of the vertices. The copies get the highest ids. Both the report
-        and the check of the recipe list the reversed and split elements.
+        Point i becomes vertex i, and polygon i becomes face i. If the orientations of connected faces do not agree, the
+        faces with the less frequent orientation are reversed. They are reversed only if all orientations then agree. If
+        the faces do not form a manifold, edges and vertices are split: an edge keeps two faces with consistent
+        orientations, and a vertex keeps one fan of faces. The other faces get copies of the vertices. The copies get
+        the highest ids. The report and the command ``check`` list the reversed and split elements.
 
         Example: ``scene.polygons(name="new", points=[(0, 0, 0), (1, 0, 0), (0, 1, 0)], faces=[[0, 1, 2]])``, in a
         recipe ``Polygons(name: "new", points: [(0, 0, 0), (1, 0, 0), (0, 1, 0)], faces: [[0, 1, 2]])``
@@ -198,9 +198,10 @@ class SceneOperations:
     ) -> Self:
         """Creates a cube.
 
-        The cube has 8 vertices and 6 squares. In the order of their ids, the squares are on the sides -z (0, 2, 3, 1),
-        +z (4, 5, 7, 6), -y (0, 1, 5, 4), +x (1, 3, 7, 5), +y (3, 2, 6, 7) and -x (2, 0, 4, 6). The id of a vertex is (x
-        > center) + 2 (y > center) + 4 (z > center), where a true comparison counts as 1.
+        The cube has 8 vertices and 6 squares. In the order of their ids, the squares are on the sides -z, +z, -y, +x,
+        +y and -x. Their vertices are (0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (1, 3, 7, 5), (3, 2, 6, 7) and (2, 0, 4,
+        6). The id of a vertex is (x > center) + 2 (y > center) + 4 (z > center), where a true comparison counts as 1
+        and a false comparison as 0.
 
         Example: ``scene.cube(name="new", size=3, center=(1, 2, 3))``, in a recipe ``Cube(name: "new", size: 3, center:
         (1, 2, 3))``
@@ -280,7 +281,8 @@ class SceneOperations:
     ) -> Self:
         """Creates a regular icosahedron with 12 vertices and 20 triangles.
 
-        The vertices are the corners of three golden rectangles, one in each coordinate plane.
+        The vertices are the corners of three rectangles with the side ratio 1 : (1 + √5) / 2, one in each coordinate
+        plane.
 
         Example: ``scene.icosahedron(name="new")``, in a recipe ``Icosahedron(name: "new")``
 
@@ -337,8 +339,8 @@ class SceneOperations:
     ) -> Self:
         """Creates a torus of quadrilaterals around the z axis.
 
-        Vertex ``i * across + j`` is vertex j of ring i across the tube. Ring 0 is in the direction +x, and its vertex 0
-        is farthest from the axis.
+        The vertices form ``around`` rings across the tube, and each ring has ``across`` vertices. Vertex j of ring i
+        has the id ``i * across + j``. Ring 0 is in the direction +x, and its vertex 0 is farthest from the axis.
 
         Example: ``scene.torus(name="new", around=7, across=5, major=2, minor=0.5)``, in a recipe ``Torus(name: "new",
         around: 7, across: 5, major: 2, minor: 0.5)``
@@ -349,8 +351,8 @@ class SceneOperations:
         :param across: The number of faces around the tube. At least 3. Defaults to 16.
         :param major: The distance from the z axis to the center of the tube, in scene units. More than 0. Defaults to
             ``1.0``.
-        :param minor: The radius of the tube, in scene units. More than 0. The tube intersects itself unless ``minor``
-            is less than ``major``. Defaults to ``0.25``.
+        :param minor: The radius of the tube, in scene units. More than 0. If ``minor`` is not less than ``major``, the
+            tube intersects itself. Defaults to ``0.25``.
         :param center: The center of the torus, in scene units.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
@@ -373,8 +375,8 @@ class SceneOperations:
         """Creates a cylinder around the z axis.
 
         The vertices of the rim at -z come first, and then the vertices of the rim at +z. Each rim is counter-clockwise
-        seen from +z and starts in the direction +x. The faces are ``around`` rectangles and, with caps, the polygons at
-        -z and at +z with ``around`` corners.
+        seen from +z and starts in the direction +x. The first ``around`` faces are rectangles. With ``caps``, two
+        polygons with ``around`` corners follow, first at -z and then at +z.
 
         Example: ``scene.cylinder(name="new", around=6, radius=1, height=2, caps=True)``, in a recipe ``Cylinder(name:
         "new", around: 6, radius: 1, height: 2, caps: true)``
@@ -406,8 +408,8 @@ class SceneOperations:
     ) -> Self:
         """Creates a sphere of meridians and rings, with poles at -z and +z.
 
-        Vertex 0 is the pole at -z. The circles of vertices follow from -z to +z; each starts in the direction +x and is
-        counter-clockwise seen from +z. The last vertex is the pole at +z.
+        Vertex 0 is the pole at -z. The circles of vertices follow, in order from -z to +z. Each circle starts in the
+        direction +x and is counter-clockwise seen from +z. The last vertex is the pole at +z.
 
         Example: ``scene.uv_sphere(name="new", around=8, rings=4, radius=2)``, in a recipe ``UvSphere(name: "new",
         around: 8, rings: 4, radius: 2)``
@@ -1817,13 +1819,13 @@ class SceneOperations:
 
         Vertex attributes are smoothed with the weights of the positions. Texture coordinates and other corner values
         are smoothed according to ``face_varying``, and seams are kept. Parts of an edge or a triangle copy the values
-        of the old edge or triangle. Normals are dropped, because they would be wrong. Edges and vertices that
-        ``crease()`` made sharp stay sharp for as many levels as their sharpness states.
+        of the old edge or triangle. Normals are dropped, because they would be wrong. An edge or a vertex to which
+        ``crease()`` gave the sharpness s stays sharp for s levels.
 
         Example: ``scene.loop_subdivide(levels=2)``, in a recipe ``LoopSubdivide(levels: 2)``
 
         :param levels: The number of levels. Each level multiplies the number of triangles by four. Defaults to 1. With
-            ``until``, the maximum number of levels, which defaults to 16.
+            ``until``, this is the maximum number of levels, and it defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
@@ -1851,9 +1853,9 @@ class SceneOperations:
         :param to_limit: Whether to move the vertices of the last level to the limit surface and to store its normals
             and tangents. Defaults to ``False``.
         :param faces: The faces to refine. If omitted, all faces. Triangles next to the refined faces are cut in two or
-            four, so that no vertex lies inside an edge, and the surface outside the refined faces does not move. For
-            the ids of new elements, see ``subdivision::refine_faces``. ``"All"``, ``"Boundary"``,
-            ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
+            four, so that no vertex lies inside an edge. The surface outside the refined faces does not move. For the
+            ids of new elements, see ``subdivision::refine_faces``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``,
+            or a value of ``meshwright.sel``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
@@ -1884,13 +1886,13 @@ class SceneOperations:
 
         Vertex attributes are smoothed with the weights of the positions. Texture coordinates and other corner values
         are smoothed according to ``face_varying``, and seams are kept. Parts of an edge or a face copy the values of
-        the old edge or face. Normals are dropped, because they would be wrong. Edges and vertices that ``crease()``
-        made sharp stay sharp for as many levels as their sharpness states.
+        the old edge or face. Normals are dropped, because they would be wrong. An edge or a vertex to which
+        ``crease()`` gave the sharpness s stays sharp for s levels.
 
         Example: ``scene.catmull_clark(levels=2)``, in a recipe ``CatmullClark(levels: 2)``
 
         :param levels: The number of levels. Each level replaces every corner of a face with a quad. Defaults to 1. With
-            ``until``, the maximum number of levels, which defaults to 16.
+            ``until``, this is the maximum number of levels, and it defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
@@ -1915,9 +1917,9 @@ class SceneOperations:
         :param to_limit: Whether to move the vertices of the last level to the limit surface and to store its normals
             and tangents. Defaults to ``False``.
         :param faces: The faces to refine. If omitted, all faces. Faces next to the refined faces get the new vertices
-            on common edges as corners, and the surface outside the refined faces does not move. For the ids of new
-            elements, see ``subdivision::refine_faces``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value
-            of ``meshwright.sel``.
+            on common edges as additional corners. The surface outside the refined faces does not move. For the ids of
+            new elements, see ``subdivision::refine_faces``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a
+            value of ``meshwright.sel``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
@@ -1951,7 +1953,7 @@ class SceneOperations:
         Example: ``scene.midpoint(levels=2, into="Quads")``, in a recipe ``Midpoint(levels: 2, into: Quads)``
 
         :param levels: The number of levels. Each level multiplies the number of faces by about four. Defaults to 1.
-            With ``until``, the maximum number of levels, which defaults to 16.
+            With ``until``, this is the maximum number of levels, and it defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
@@ -1961,8 +1963,9 @@ class SceneOperations:
             ``"Quads"``: Splits each face with n corners into n quads around its center.
         :param faces: The faces to refine. If omitted, all faces. With ``into="Triangles"``, triangles next to the
             refined faces are cut in two or four. With ``into="Quads"``, faces next to the refined faces get the new
-            vertices on common edges as corners. For the ids of new elements, see ``subdivision::refine_faces``.
-            ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
+            vertices on common edges as additional corners. For the ids of new elements, see
+            ``subdivision::refine_faces``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
+            ``meshwright.sel``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
@@ -1993,7 +1996,7 @@ class SceneOperations:
         Example: ``scene.butterfly(levels=1)``, in a recipe ``Butterfly(levels: 1)``
 
         :param levels: The number of levels. Each level multiplies the number of triangles by four. Defaults to 1. With
-            ``until``, the maximum number of levels, which defaults to 16.
+            ``until``, this is the maximum number of levels, and it defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
@@ -2024,14 +2027,14 @@ class SceneOperations:
 
         Vertex attributes are smoothed with the weights of the positions. Corner values are interpolated linearly within
         one old triangle. A triangle next to a flipped edge covers parts of two old triangles. If the old edge was a
-        seam, the triangle has texture coordinates of both sides, which distorts textures. New triangles copy the values
-        of their old triangle. Parts of a boundary edge copy the values of the edge; other edges have zero values (no
-        crease, no tags). Normals are dropped, because they would be wrong.
+        seam, the triangle mixes texture coordinates of both sides, which distorts textures. New triangles copy the
+        values of their old triangle. Parts of a boundary edge copy the values of the edge; other edges have zero values
+        (no crease, no tags). Normals are dropped, because they would be wrong.
 
         Example: ``scene.sqrt3(levels=1)``, in a recipe ``Sqrt3(levels: 1)``
 
         :param levels: The number of levels. Each level multiplies the number of triangles by three. Defaults to 1. With
-            ``until``, the maximum number of levels, which defaults to 16.
+            ``until``, this is the maximum number of levels, and it defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
@@ -2057,19 +2060,19 @@ class SceneOperations:
         A level turns a closed mesh with V vertices, E edges and F faces into a mesh with 2 E vertices, 4 E edges and V
         + E + F faces. If the mesh has a boundary, a level creates additional elements along the boundary. V - E + F
         does not change. The face inside old face f has the id f, the face of edge e has the id F + e, and the faces of
-        vertices follow. Isolated vertices are kept; their ids follow those of all other vertices. Isolated vertices and
-        inner vertices of valence 2 do not become faces.
+        vertices follow. Isolated vertices are kept. Their ids follow the ids of all other vertices. Isolated vertices
+        and inner vertices of valence 2 do not become faces.
 
         Vertex attributes are smoothed with the weights of the positions. Corner values are smoothed within one old
-        face. The new faces of edges and vertices have corner values of several old faces, which distorts textures at a
-        seam. A face inside an old face copies the values of the old face; the face of an edge or a vertex copies the
-        values of an adjacent face. The two edges along an old edge copy its values; other edges have zero values (no
-        crease, no tags). Normals are dropped, because they would be wrong.
+        face. The new faces at edges and vertices mix corner values of several old faces. At a seam, this distorts
+        textures. A face inside an old face copies the values of the old face; the face of an edge or a vertex copies
+        the values of an adjacent face. The two edges along an old edge copy its values; other edges have zero values
+        (no crease, no tags). Normals are dropped, because they would be wrong.
 
         Example: ``scene.doo_sabin(levels=1)``, in a recipe ``DooSabin(levels: 1)``
 
         :param levels: The number of levels. Each level multiplies the number of faces by about four. Defaults to 1.
-            With ``until``, the maximum number of levels, which defaults to 16.
+            With ``until``, this is the maximum number of levels, and it defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
@@ -2097,8 +2100,8 @@ class SceneOperations:
         Every edge that crosses the plane gets a vertex on the plane. Every face that crosses the plane is cut along it.
         A concave face can be cut several times. A vertex counts as on the plane if its distance from the plane is at
         most 1e-9 times the largest extent of the mesh, or at most 1e-14 times the largest absolute coordinate. Such a
-        vertex is not moved. When edge e is cut, the part at the start of half-edge 2e keeps the id of the edge. When a
-        face is cut, the part with the first corner keeps the id of the face. New elements get the highest ids.
+        vertex is not moved. When an edge is cut, the part at the start of its first half-edge keeps the id of the edge.
+        When a face is cut, the part with the first corner keeps the id of the face. New elements get the highest ids.
         Attributes are interpolated at the crossings, separately on each side of a seam.
 
         With ``keep="Front"`` or ``keep="Back"``, the other side of the plane is removed. A face in the plane belongs to
@@ -2139,12 +2142,12 @@ class SceneOperations:
 
         The mesh is cut along a plane, as with ``bisect()``. The half on the side ``from_`` is kept and mirrored, and
         the halves are joined at the plane. Vertices near the plane (see ``bisect()``) are moved exactly onto it, so
-        that the result is symmetric. Faces in the plane are removed, because they would be walls inside the result.
+        that the result is symmetric. Faces in the plane are removed, because they would become walls inside the result.
         Where the surface only touches the plane, the halves are not joined. The report counts the faces that are
-        removed as a whole.
+        removed completely, not the faces that are cut.
 
         The elements of the kept half come first, in their old order. The elements of the mirror image follow.
-        Attributes are copied, so both halves have the same texture coordinates, tags and weights of joints. Normals and
+        Attributes are copied, so both halves have the same texture coordinates, tags and joint weights. Normals and
         tangents are dropped.
 
         Example: ``scene.symmetrize(normal=(1, 0, 0))``, in a recipe ``Symmetrize(normal: (1, 0, 0))``
@@ -2195,9 +2198,9 @@ class SceneOperations:
           original.
         - Vertex tags: vertices with different tags, whole numbers or sharpness are not merged.
 
-        In a texture, the border of a chart is simplified like the surface, and can then cross another chart that is
-        close to it. The report counts faces that overlap, and ``pack_uvs()`` with a larger ``padding`` before the step
-        leaves more space between charts.
+        In a texture, the border of a chart is also simplified, and can then cross a chart that is close to it. The
+        report counts the faces that overlap. To leave more space between charts, use ``pack_uvs()`` with a larger
+        ``padding`` before this step.
 
         No triangle is turned over. Remaining elements get new ids, in the order of their old ids. If the number of
         faces cannot be reached and ``error`` is not given, the step is refused as ``Unreached``, and the message states
@@ -2209,18 +2212,19 @@ class SceneOperations:
             already has at most this number of faces does not change.
         :param ratio: The number of faces to reach, as a fraction of the number of faces of each mesh.
         :param error: The largest allowed Hausdorff distance between the old and the new surface, in scene units. The
-            limit is guaranteed, because the step adds up an upper bound for the distance by which each collapse moves
-            the surface. The true distance is usually between a third of the limit and the limit. If omitted, there is
-            no limit.
-        :param features: Edges that are treated as lines, for example ``sel.Sharp(above=30)``. If omitted, only the
-            lines that are always kept are treated as lines. ``"All"``, ``"Boundary"``, or a value of
+            limit is guaranteed: for each collapse, the step adds an upper bound of the distance by which the surface
+            moves. The true distance is usually between a third of the limit and the limit. If omitted, there is no
+            limit.
+        :param features: Edges to keep as lines, in addition to the lines that are always kept. For example,
+            ``sel.Sharp(above=30)``. If omitted, no additional edges. ``"All"``, ``"Boundary"``, or a value of
             ``meshwright.sel``.
         :param pin: Vertices that keep their exact positions, for example ``Boundary``. If omitted, no vertices.
             ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
         :param intersections: Whether the step may create intersections of faces. They can occur where parts of the
             surface are close together. Defaults to ``"Allow"``.
             ``"Allow"``: New intersections are allowed, and not detected.
-            ``"Refuse"``: No changed face intersects another face, so a mesh without self-intersections never gets any.
+            ``"Refuse"``: No changed face intersects another face, so a mesh without self-intersections stays without
+                self-intersections.
         :param on_refusal: What to do if the number of faces cannot be reached. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
@@ -2246,7 +2250,8 @@ class SceneOperations:
 
         The copies are named after the object, for example ``rock_lod1``, ``rock_lod2`` and so on. Each copy is made
         from the previous copy in the same way as with ``simplify()``, and keeps the same attributes, materials and
-        lines. If nodes place the object, each of these nodes gets one sibling for each copy, which places the copy.
+        lines. If nodes place the object, each of these nodes gets one sibling node for each copy. The sibling node
+        places the copy.
 
         Example: ``scene.lods(from_="mesh", ratios=[0.5, 0.25])``, in a recipe ``Lods(from: "mesh", ratios: [0.5,
         0.25])``
@@ -2254,10 +2259,10 @@ class SceneOperations:
         :param from_: The name of the object.
         :param ratios: The number of faces of each copy, as a fraction of the number of faces of the object. Each
             fraction must be smaller than the previous one.
-        :param to: The start of the names of the copies, before the number. If omitted, the name of the object and
+        :param to: The text before the number in the names of the copies. If omitted, the name of the object and
             ``_lod``.
-        :param features: Edges that are treated as lines, for example ``sel.Sharp(above=30)``. If omitted, only the
-            lines that ``simplify()`` always keeps are treated as lines. ``"All"``, ``"Boundary"``, or a value of
+        :param features: Edges to keep as lines, in addition to the lines that ``simplify()`` always keeps. For example,
+            ``sel.Sharp(above=30)``. If omitted, no additional edges. ``"All"``, ``"Boundary"``, or a value of
             ``meshwright.sel``.
         :param on_refusal: What to do if the number of faces of a copy cannot be reached. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
@@ -2286,10 +2291,11 @@ class SceneOperations:
 
         Each pass splits long edges, collapses short edges, flips edges so that most vertices have six edges, and moves
         vertices along the surface (Botsch, Kobbelt, 2004). Most edges of the result have 4/5 to 4/3 of the target
-        length. All vertices lie on the original surface, except new vertices that cannot be moved onto it without
-        turning a triangle too far or moving the surface too far. The target length is either ``length``, or it follows
-        ``curvature``: edges are short where the surface is curved, and long where it is flat (Dunyach and others,
-        2013). Exactly one of the two must be given. All faces must be triangles.
+        length. All vertices lie on the original surface, with one exception: a new vertex stays where it is if moving
+        it onto the surface would turn a triangle too far or would move the surface too far. The target length is either
+        ``length``, or it follows ``curvature``: edges are short where the surface is curved, and long where it is flat
+        (Dunyach and others, 2013). Exactly one of ``length`` and ``curvature`` must be given. All faces must be
+        triangles.
 
         The following properties are kept:
 
@@ -2300,9 +2306,10 @@ class SceneOperations:
           sharp edges are rounded.
         - Attributes: each vertex and corner gets the values of the original surface at its position. Values are never
           interpolated across a line.
-        - Vertex tags: a new vertex has a tag if all old vertices around its position had the tag. A tagged vertex keeps
-          its exact position unless all corners of one of its triangles, or both of its neighbors on a line, also have
-          the tag. Vertices with sharpness also keep their exact positions.
+        - Vertex tags: a new vertex has a tag if all old vertices around its position had the tag. A tagged vertex can
+          move only inside a tagged region. A tagged vertex is inside such a region if all corners of one of its
+          triangles, or both of its neighbors on a line, also have the tag. All other tagged vertices keep their exact
+          positions. Vertices with sharpness also keep their exact positions.
 
         The number of faces depends on the area of the mesh, which is not known before the run. Therefore ``check``
         shows the largest number that fits the memory budget. When the step starts, it estimates the number from the
@@ -2320,12 +2327,12 @@ class SceneOperations:
                 guaranteed. To guarantee a distance, use the parameter ``error`` of the step.
             ``"min"``: The smallest length, in scene units.
             ``"max"``: The largest length, in scene units.
-        :param features: Edges that are treated as lines, for example ``sel.Sharp(above=30)``. If omitted, only the
-            lines that are always kept are treated as lines. ``"All"``, ``"Boundary"``, or a value of
+        :param features: Edges to keep as lines, in addition to the lines that are always kept. For example,
+            ``sel.Sharp(above=30)``. If omitted, no additional edges. ``"All"``, ``"Boundary"``, or a value of
             ``meshwright.sel``.
-        :param error: The largest allowed Hausdorff distance between the old and the new surface, in scene units. Edges
-            become shorter than the target length where this is necessary. The distance is measured at the end, in both
-            directions and for all points. If omitted, there is no limit.
+        :param error: The largest allowed Hausdorff distance between the old and the new surface, in scene units. To
+            keep this limit, some edges can become shorter than the target length. The distance is measured at the end,
+            in both directions and for all points. If omitted, there is no limit.
         :param pin: Vertices that keep their exact positions, for example ``Boundary``. If omitted, no vertices.
             ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
         :param passes: The largest number of passes, from 1 to 1000. The step ends earlier if a pass changes almost
@@ -2356,9 +2363,9 @@ class SceneOperations:
     ) -> Self:
         """Moves vertices so that noise disappears.
 
-        Only vertices in ``vertices`` that are not in ``pin`` and have a face move. All other vertices keep their exact
-        positions. Faces can have any number of corners, and degenerate faces are allowed. All elements keep their ids.
-        Attributes are kept, so textures stretch with the surface, but normals are dropped.
+        A vertex moves only if it is in ``vertices``, is not in ``pin``, and has a face. All other vertices keep their
+        exact positions. Faces can have any number of corners, and degenerate faces are allowed. All elements keep their
+        ids. Attributes are kept, so textures stretch with the surface, but normals are dropped.
 
         - ``choice.Laplacian``: strong smoothing; shrinks.
         - ``choice.Taubin``: removing noise; nearly the same.
@@ -2386,8 +2393,8 @@ class SceneOperations:
             ``"Fixed"``: The vertices do not move.
             ``"Free"``: The boundary is smoothed as a set of curves, so the movement of a vertex on the boundary depends
                 only on its neighbors along the boundary.
-        :param keep_volume: Whether the moved vertices are finally shifted along their normals, all by the same
-            distance, until the mesh has its original volume. The mesh must be closed. Defaults to ``False``.
+        :param keep_volume: Whether to restore the original volume of the mesh. To restore it, the step finally shifts
+            all moved vertices along their normals by the same distance. The mesh must be closed. Defaults to ``False``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
@@ -2410,25 +2417,25 @@ class SceneOperations:
         An attribute of vertices, corners or faces of the object ``from_`` becomes an attribute of the same kind of
         elements of the changed mesh. Numbers and vectors of vertices and corners are interpolated inside the face of
         the nearest point. Whole numbers, tags, and attributes that edits do not interpolate are copied from the nearest
-        corner of this face. Values of faces are copied from the face of the nearest point. An existing attribute with
-        the same type of values is overwritten; with a different type, the step fails. Without ``on``, the step acts on
-        all meshes except ``from_``.
+        corner of this face. Values of faces are copied from the face of the nearest point. If the attribute already
+        exists with the same type of values, it is overwritten. If its type is different, the step fails. Without
+        ``on``, the step acts on all meshes except ``from_``.
 
-        All corners of a face take their values from one chart of the source, that is, from faces that are connected
-        without crossing a seam of the attribute, so no triangle is stretched across a seam of texture coordinates.
-        Usually this is the chart that is nearest to the center of the face. A chart that is nearest to a corner is used
-        instead if it is much nearer to the whole face, as where parts of the source intersect.
+        All corners of a face take their values from one side of each seam, so no triangle is stretched across a seam of
+        texture coordinates. Usually this is the side at the center of the face. Seams divide the source into charts. If
+        the chart at a corner is much nearer to the whole face than the chart at the center, the values of the chart at
+        the corner are used. This happens where parts of the source intersect.
 
         Elements whose distance from the source exceeds ``within`` keep their values, or get zeros if the attribute is
-        new. If a corner or the center of a face is that far away, this applies to all corners of the face. The report
-        counts these elements.
+        new. If the distance of a corner or of the center of a face exceeds ``within``, this applies to all corners of
+        the face. The report counts these elements.
 
         Example: ``scene.transfer(from_="scan", attributes=["uv", "color"], within=0.01)``, in a recipe ``Transfer(from:
         "scan", attributes: ["uv", "color"], within: 0.01)``
 
         :param from_: The name of the object with the attributes.
         :param attributes: The names of the attributes, for example ``["uv", "color"]``.
-        :param within: The largest distance from the source, in scene units. If omitted, any distance.
+        :param within: The largest distance from the source, in scene units. If omitted, there is no limit.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
@@ -2811,29 +2818,29 @@ class SceneOperations:
         """Computes texture coordinates without overlaps.
 
         The surface is cut into charts, which are flattened and packed into a square page. Charts grow from flat regions
-        up to ``max_angle``. They are flattened by least squares conformal maps (Levy and others, 2002) and the hybrid
-        method of Liu and others (2008). A chart is cut again if it would overlap itself, if it would exceed
-        ``max_stretch``, or if, on more than 5 % of its area, the ratio of its largest to its smallest stretch would be
-        above 1.15. All charts of a mesh have the same scale, and no chart is mirrored. A polygon stays in one chart.
-        Each mesh gets its own page.
+        as far as ``max_angle`` allows. They are flattened by least squares conformal maps (Levy and others, 2002) and
+        the hybrid method of Liu and others (2008). A chart is cut again in three cases: it would overlap itself, it
+        would exceed ``max_stretch``, or the ratio of the largest to the smallest stretch would exceed 1.15 on more than
+        5 % of its area. All charts of a mesh have the same scale, and no chart is mirrored. A polygon stays in one
+        chart. Each mesh gets its own page.
 
         The coordinates are written to the corner attribute ``uv``, which is replaced if it exists. Edges at which
         charts meet become seams. Positions, faces and other attributes do not change, but tangents are removed.
-        Zero-area faces have no area in the texture. The report counts them. A polygon that is bent so far that it
-        overlaps itself is refused as ``WrongPlace``, so triangulate it first. With ``on_refusal="Skip"``, its triangles
-        overlap in the texture.
+        Zero-area faces have no area in the texture. The report counts them. If a polygon is bent so far that it
+        overlaps itself in the texture, the step is refused as ``WrongPlace``. Triangulate such polygons first. With
+        ``on_refusal="Skip"``, the triangles of the polygon overlap in the texture.
 
         Example: ``scene.unwrap(max_angle=60)``, in a recipe ``Unwrap(max_angle: 60)``
 
         :param seams: Edges that become borders of charts, for example ``sel.Tagged("seam")`` or
-            ``sel.Sharp(above=60)``. If omitted, only edges that the algorithm chooses. ``"All"``, ``"Boundary"``, or a
-            value of ``meshwright.sel``.
+            ``sel.Sharp(above=60)``. The algorithm also chooses borders itself. If omitted, the algorithm chooses all
+            borders. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
         :param max_angle: The largest angle between the normal of a face and the mean normal of its chart, in degrees.
             Smaller angles give more charts with less stretch. Defaults to ``70.0``.
         :param max_stretch: The largest ratio between the area scale of a triangle and the area scale of its whole
             chart. Defaults to ``4.0``.
-        :param page: The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for any size;
-            the size determines how large the padding is. Defaults to ``1024``.
+        :param page: The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for any size.
+            The size only determines how large the padding is. Defaults to ``1024``.
         :param padding: The number of empty texels around each chart. The distance between two charts is at least twice
             this number. Defaults to 2.
         :param uv: The name of the texture coordinates. Defaults to ``uv``.
@@ -2862,14 +2869,14 @@ class SceneOperations:
         A chart is a set of faces that are connected without seams of the texture coordinates. Afterwards, the area of
         each chart in the texture is proportional to its area on the surface. The shape of each chart does not change,
         even if it is stretched, mirrored or overlaps itself. Each zero-area chart becomes a point. The report counts
-        zero-area charts and charts that overlap themselves. Each mesh gets its own page. Tangents are removed, because
-        charts are rotated.
+        zero-area charts and charts that overlap themselves. Each mesh gets its own page, that is, the whole square of a
+        texture. Tangents are removed, because charts are rotated.
 
         Example: ``scene.pack_uvs(page=2048, padding=4)``, in a recipe ``PackUvs(page: 2048, padding: 4)``
 
         :param uv: The name of the texture coordinates. Defaults to ``uv``.
-        :param page: The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for any size;
-            the size determines how large the padding is. Defaults to ``1024``.
+        :param page: The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for any size.
+            The size only determines how large the padding is. Defaults to ``1024``.
         :param padding: The number of empty texels around each chart. The distance between two charts is at least twice
             this number. Defaults to 2.
         :param on: The objects that the step acts on. If omitted, all that it supports.
@@ -2942,8 +2949,8 @@ class SceneOperations:
         :param highlight_width: The width of highlighted edges and the diameter of highlighted vertices, in pixels. The
             defaults depend on the shorter side of a view: 2.8 and 7.5 for 240 pixels, 3.4 and 10 for 480, 4 and 13 for
             960, 8 and 26 for 1920. If there are many highlighted vertices, they are drawn smaller. Hidden edges are
-            faint, and hidden vertices are rings.
-        :param marks: More elements to highlight, each in its color.
+            drawn faintly, and hidden vertices as rings.
+        :param marks: More selections of elements to highlight, each with its own color.
             ``"of"``: The elements.
             ``"color"``: The color.
             ``"width"``: The width of edges and the diameter of vertices, in pixels. If omitted, the defaults of
@@ -2958,8 +2965,9 @@ class SceneOperations:
         :param turntable: If given, the picture is an animation in which the camera moves once around the scene.
             ``"frames"``: The number of images.
             ``"seconds"``: The duration of the turn.
-        :param images: The folder of images that are not next to their model, relative to the folder of the recipe. If
-            omitted, the folder of the recipe. Missing images are not drawn, and the report lists them.
+        :param images: The folder of texture images that are not stored next to their model. The path is relative to the
+            folder of the recipe. If omitted, the folder of the recipe. Missing images are not drawn, and the report
+            lists them.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
@@ -2985,12 +2993,12 @@ class SceneOperations:
     ) -> Self:
         """Draws Bezier curves, and de Casteljau's construction of their points, into an image file.
 
-        The figure has a panel for each curve and each ``t``. With ``by_level``, it instead has a panel for each curve,
-        each ``t`` and each level. A panel shows the control polygon, every level of de Casteljau's algorithm in a
-        different color, the point, and the curve, with the same scale in both axes. With ``by_level``, the panels for
-        one value of ``t`` each show one level more than the panel before, and only the last of these panels shows the
-        point. The extension of the file determines the format: ``.svg`` or ``.png``. The file is written only if the
-        whole recipe succeeds. The scene does not change.
+        The figure has one panel for each combination of a curve and a value of ``t``. With ``by_level``, it has one
+        panel for each combination of a curve, a value of ``t`` and a level. A panel shows the control polygon, every
+        level of de Casteljau's algorithm in a different color, the constructed point, and the curve, with the same
+        scale in both axes. With ``by_level``, each panel for a value of ``t`` shows one level more than the previous
+        panel, and only the last of these panels shows the constructed point. The extension of the file determines the
+        format: ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The scene does not change.
 
         Example: ``scene.curve_figure(path="figure.svg", t=[0.25, 0.5])``, in a recipe ``CurveFigure(path: "figure.svg",
         t: [0.25, 0.5])``
@@ -3030,12 +3038,12 @@ class SceneOperations:
     ) -> Self:
         """Draws the half-edges of some faces of a mesh into an image file.
 
-        Each half-edge is an arrow beside its edge, inside its face, with its name. A thin curve leads from the head of
-        the arrow to the next half-edge of the face. The twin of a half-edge is on the other side of the edge.
-        Half-edges on the boundary have no face and are gray. The faces are seen along their mean normal. Faces that
-        face away from the viewer or are seen nearly edge-on are left out. The report counts them. The extension of the
-        file determines the format: ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The
-        scene does not change.
+        Each half-edge is drawn as an arrow beside its edge and inside its face, and is labeled with its name. A thin
+        curve leads from the head of the arrow to the next half-edge of the face. The twin of a half-edge is on the
+        other side of the edge. Half-edges on the boundary have no face and are gray. The viewer looks at the faces from
+        the direction of their mean normal. Faces that face away from the viewer or are seen nearly edge-on are left
+        out, and the report counts them. The extension of the file determines the format: ``.svg`` or ``.png``. The file
+        is written only if the whole recipe succeeds. The scene does not change.
 
         A name is a letter and the id of the element: ``v`` for vertices, ``h`` for half-edges, ``f`` for faces.
         Half-edges ``2e`` and ``2e + 1`` belong to edge ``e``.
@@ -3072,9 +3080,9 @@ class SceneOperations:
         """Draws the charts of the texture coordinates of a mesh into an image file.
 
         A gray frame shows the page of the texture, where u and v are from 0 to 1; v points upwards. Thick lines are the
-        borders of charts, and thin lines are the other edges. Coordinates outside the page are also drawn. They make
-        the figure higher or its scale smaller. The extension of the file determines the format: ``.svg`` or ``.png``.
-        The file is written only if the whole recipe succeeds. The scene does not change.
+        borders of charts, and thin lines are the other edges. Coordinates outside the page are also drawn, so the
+        figure becomes higher or its scale becomes smaller. The extension of the file determines the format: ``.svg`` or
+        ``.png``. The file is written only if the whole recipe succeeds. The scene does not change.
 
         Example: ``scene.uv_picture(path="uv.svg")``, in a recipe ``UvPicture(path: "uv.svg")``
 
@@ -3083,7 +3091,7 @@ class SceneOperations:
             parameter ``name``.
         :param uv: The name of the texture coordinates. Defaults to ``uv``.
         :param fill: What the colors inside charts show. Defaults to ``"Charts"``.
-            ``"None"``: Nothing.
+            ``"None"``: No colors.
             ``"Charts"``: The charts, in eight colors that repeat.
             ``"Stretch"``: The stretch of angles.
         :param edges: Whether edges inside charts are drawn. Defaults to ``True``.
@@ -4328,13 +4336,13 @@ class MeshOperations:
 
         Vertex attributes are smoothed with the weights of the positions. Texture coordinates and other corner values
         are smoothed according to ``face_varying``, and seams are kept. Parts of an edge or a triangle copy the values
-        of the old edge or triangle. Normals are dropped, because they would be wrong. Edges and vertices that
-        ``crease()`` made sharp stay sharp for as many levels as their sharpness states.
+        of the old edge or triangle. Normals are dropped, because they would be wrong. An edge or a vertex to which
+        ``crease()`` gave the sharpness s stays sharp for s levels.
 
         Example: ``mesh.loop_subdivide(levels=2)``
 
         :param levels: The number of levels. Each level multiplies the number of triangles by four. Defaults to 1. With
-            ``until``, the maximum number of levels, which defaults to 16.
+            ``until``, this is the maximum number of levels, and it defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
@@ -4362,9 +4370,9 @@ class MeshOperations:
         :param to_limit: Whether to move the vertices of the last level to the limit surface and to store its normals
             and tangents. Defaults to ``False``.
         :param faces: The faces to refine. If omitted, all faces. Triangles next to the refined faces are cut in two or
-            four, so that no vertex lies inside an edge, and the surface outside the refined faces does not move. For
-            the ids of new elements, see ``subdivision::refine_faces``. ``"All"``, ``"Boundary"``,
-            ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
+            four, so that no vertex lies inside an edge. The surface outside the refined faces does not move. For the
+            ids of new elements, see ``subdivision::refine_faces``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``,
+            or a value of ``meshwright.sel``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
             for a bar of tqdm.
@@ -4394,13 +4402,13 @@ class MeshOperations:
 
         Vertex attributes are smoothed with the weights of the positions. Texture coordinates and other corner values
         are smoothed according to ``face_varying``, and seams are kept. Parts of an edge or a face copy the values of
-        the old edge or face. Normals are dropped, because they would be wrong. Edges and vertices that ``crease()``
-        made sharp stay sharp for as many levels as their sharpness states.
+        the old edge or face. Normals are dropped, because they would be wrong. An edge or a vertex to which
+        ``crease()`` gave the sharpness s stays sharp for s levels.
 
         Example: ``mesh.catmull_clark(levels=2)``
 
         :param levels: The number of levels. Each level replaces every corner of a face with a quad. Defaults to 1. With
-            ``until``, the maximum number of levels, which defaults to 16.
+            ``until``, this is the maximum number of levels, and it defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
@@ -4425,9 +4433,9 @@ class MeshOperations:
         :param to_limit: Whether to move the vertices of the last level to the limit surface and to store its normals
             and tangents. Defaults to ``False``.
         :param faces: The faces to refine. If omitted, all faces. Faces next to the refined faces get the new vertices
-            on common edges as corners, and the surface outside the refined faces does not move. For the ids of new
-            elements, see ``subdivision::refine_faces``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value
-            of ``meshwright.sel``.
+            on common edges as additional corners. The surface outside the refined faces does not move. For the ids of
+            new elements, see ``subdivision::refine_faces``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a
+            value of ``meshwright.sel``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
             for a bar of tqdm.
@@ -4460,7 +4468,7 @@ class MeshOperations:
         Example: ``mesh.midpoint(levels=2, into="Quads")``
 
         :param levels: The number of levels. Each level multiplies the number of faces by about four. Defaults to 1.
-            With ``until``, the maximum number of levels, which defaults to 16.
+            With ``until``, this is the maximum number of levels, and it defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
@@ -4470,8 +4478,9 @@ class MeshOperations:
             ``"Quads"``: Splits each face with n corners into n quads around its center.
         :param faces: The faces to refine. If omitted, all faces. With ``into="Triangles"``, triangles next to the
             refined faces are cut in two or four. With ``into="Quads"``, faces next to the refined faces get the new
-            vertices on common edges as corners. For the ids of new elements, see ``subdivision::refine_faces``.
-            ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
+            vertices on common edges as additional corners. For the ids of new elements, see
+            ``subdivision::refine_faces``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
+            ``meshwright.sel``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
             for a bar of tqdm.
@@ -4501,7 +4510,7 @@ class MeshOperations:
         Example: ``mesh.butterfly(levels=1)``
 
         :param levels: The number of levels. Each level multiplies the number of triangles by four. Defaults to 1. With
-            ``until``, the maximum number of levels, which defaults to 16.
+            ``until``, this is the maximum number of levels, and it defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
@@ -4531,14 +4540,14 @@ class MeshOperations:
 
         Vertex attributes are smoothed with the weights of the positions. Corner values are interpolated linearly within
         one old triangle. A triangle next to a flipped edge covers parts of two old triangles. If the old edge was a
-        seam, the triangle has texture coordinates of both sides, which distorts textures. New triangles copy the values
-        of their old triangle. Parts of a boundary edge copy the values of the edge; other edges have zero values (no
-        crease, no tags). Normals are dropped, because they would be wrong.
+        seam, the triangle mixes texture coordinates of both sides, which distorts textures. New triangles copy the
+        values of their old triangle. Parts of a boundary edge copy the values of the edge; other edges have zero values
+        (no crease, no tags). Normals are dropped, because they would be wrong.
 
         Example: ``mesh.sqrt3(levels=1)``
 
         :param levels: The number of levels. Each level multiplies the number of triangles by three. Defaults to 1. With
-            ``until``, the maximum number of levels, which defaults to 16.
+            ``until``, this is the maximum number of levels, and it defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
@@ -4563,19 +4572,19 @@ class MeshOperations:
         A level turns a closed mesh with V vertices, E edges and F faces into a mesh with 2 E vertices, 4 E edges and V
         + E + F faces. If the mesh has a boundary, a level creates additional elements along the boundary. V - E + F
         does not change. The face inside old face f has the id f, the face of edge e has the id F + e, and the faces of
-        vertices follow. Isolated vertices are kept; their ids follow those of all other vertices. Isolated vertices and
-        inner vertices of valence 2 do not become faces.
+        vertices follow. Isolated vertices are kept. Their ids follow the ids of all other vertices. Isolated vertices
+        and inner vertices of valence 2 do not become faces.
 
         Vertex attributes are smoothed with the weights of the positions. Corner values are smoothed within one old
-        face. The new faces of edges and vertices have corner values of several old faces, which distorts textures at a
-        seam. A face inside an old face copies the values of the old face; the face of an edge or a vertex copies the
-        values of an adjacent face. The two edges along an old edge copy its values; other edges have zero values (no
-        crease, no tags). Normals are dropped, because they would be wrong.
+        face. The new faces at edges and vertices mix corner values of several old faces. At a seam, this distorts
+        textures. A face inside an old face copies the values of the old face; the face of an edge or a vertex copies
+        the values of an adjacent face. The two edges along an old edge copy its values; other edges have zero values
+        (no crease, no tags). Normals are dropped, because they would be wrong.
 
         Example: ``mesh.doo_sabin(levels=1)``
 
         :param levels: The number of levels. Each level multiplies the number of faces by about four. Defaults to 1.
-            With ``until``, the maximum number of levels, which defaults to 16.
+            With ``until``, this is the maximum number of levels, and it defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
@@ -4602,8 +4611,8 @@ class MeshOperations:
         Every edge that crosses the plane gets a vertex on the plane. Every face that crosses the plane is cut along it.
         A concave face can be cut several times. A vertex counts as on the plane if its distance from the plane is at
         most 1e-9 times the largest extent of the mesh, or at most 1e-14 times the largest absolute coordinate. Such a
-        vertex is not moved. When edge e is cut, the part at the start of half-edge 2e keeps the id of the edge. When a
-        face is cut, the part with the first corner keeps the id of the face. New elements get the highest ids.
+        vertex is not moved. When an edge is cut, the part at the start of its first half-edge keeps the id of the edge.
+        When a face is cut, the part with the first corner keeps the id of the face. New elements get the highest ids.
         Attributes are interpolated at the crossings, separately on each side of a seam.
 
         With ``keep="Front"`` or ``keep="Back"``, the other side of the plane is removed. A face in the plane belongs to
@@ -4643,12 +4652,12 @@ class MeshOperations:
 
         The mesh is cut along a plane, as with ``bisect()``. The half on the side ``from_`` is kept and mirrored, and
         the halves are joined at the plane. Vertices near the plane (see ``bisect()``) are moved exactly onto it, so
-        that the result is symmetric. Faces in the plane are removed, because they would be walls inside the result.
+        that the result is symmetric. Faces in the plane are removed, because they would become walls inside the result.
         Where the surface only touches the plane, the halves are not joined. The report counts the faces that are
-        removed as a whole.
+        removed completely, not the faces that are cut.
 
         The elements of the kept half come first, in their old order. The elements of the mirror image follow.
-        Attributes are copied, so both halves have the same texture coordinates, tags and weights of joints. Normals and
+        Attributes are copied, so both halves have the same texture coordinates, tags and joint weights. Normals and
         tangents are dropped.
 
         Example: ``mesh.symmetrize(normal=(1, 0, 0))``
@@ -4698,9 +4707,9 @@ class MeshOperations:
           original.
         - Vertex tags: vertices with different tags, whole numbers or sharpness are not merged.
 
-        In a texture, the border of a chart is simplified like the surface, and can then cross another chart that is
-        close to it. The report counts faces that overlap, and ``pack_uvs()`` with a larger ``padding`` before the step
-        leaves more space between charts.
+        In a texture, the border of a chart is also simplified, and can then cross a chart that is close to it. The
+        report counts the faces that overlap. To leave more space between charts, use ``pack_uvs()`` with a larger
+        ``padding`` before this step.
 
         No triangle is turned over. Remaining elements get new ids, in the order of their old ids. If the number of
         faces cannot be reached and ``error`` is not given, the step is refused as ``Unreached``, and the message states
@@ -4712,18 +4721,19 @@ class MeshOperations:
             already has at most this number of faces does not change.
         :param ratio: The number of faces to reach, as a fraction of the number of faces of each mesh.
         :param error: The largest allowed Hausdorff distance between the old and the new surface, in scene units. The
-            limit is guaranteed, because the step adds up an upper bound for the distance by which each collapse moves
-            the surface. The true distance is usually between a third of the limit and the limit. If omitted, there is
-            no limit.
-        :param features: Edges that are treated as lines, for example ``sel.Sharp(above=30)``. If omitted, only the
-            lines that are always kept are treated as lines. ``"All"``, ``"Boundary"``, or a value of
+            limit is guaranteed: for each collapse, the step adds an upper bound of the distance by which the surface
+            moves. The true distance is usually between a third of the limit and the limit. If omitted, there is no
+            limit.
+        :param features: Edges to keep as lines, in addition to the lines that are always kept. For example,
+            ``sel.Sharp(above=30)``. If omitted, no additional edges. ``"All"``, ``"Boundary"``, or a value of
             ``meshwright.sel``.
         :param pin: Vertices that keep their exact positions, for example ``Boundary``. If omitted, no vertices.
             ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
         :param intersections: Whether the step may create intersections of faces. They can occur where parts of the
             surface are close together. Defaults to ``"Allow"``.
             ``"Allow"``: New intersections are allowed, and not detected.
-            ``"Refuse"``: No changed face intersects another face, so a mesh without self-intersections never gets any.
+            ``"Refuse"``: No changed face intersects another face, so a mesh without self-intersections stays without
+                self-intersections.
         :param on_refusal: What to do if the number of faces cannot be reached. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
@@ -4751,10 +4761,11 @@ class MeshOperations:
 
         Each pass splits long edges, collapses short edges, flips edges so that most vertices have six edges, and moves
         vertices along the surface (Botsch, Kobbelt, 2004). Most edges of the result have 4/5 to 4/3 of the target
-        length. All vertices lie on the original surface, except new vertices that cannot be moved onto it without
-        turning a triangle too far or moving the surface too far. The target length is either ``length``, or it follows
-        ``curvature``: edges are short where the surface is curved, and long where it is flat (Dunyach and others,
-        2013). Exactly one of the two must be given. All faces must be triangles.
+        length. All vertices lie on the original surface, with one exception: a new vertex stays where it is if moving
+        it onto the surface would turn a triangle too far or would move the surface too far. The target length is either
+        ``length``, or it follows ``curvature``: edges are short where the surface is curved, and long where it is flat
+        (Dunyach and others, 2013). Exactly one of ``length`` and ``curvature`` must be given. All faces must be
+        triangles.
 
         The following properties are kept:
 
@@ -4765,9 +4776,10 @@ class MeshOperations:
           sharp edges are rounded.
         - Attributes: each vertex and corner gets the values of the original surface at its position. Values are never
           interpolated across a line.
-        - Vertex tags: a new vertex has a tag if all old vertices around its position had the tag. A tagged vertex keeps
-          its exact position unless all corners of one of its triangles, or both of its neighbors on a line, also have
-          the tag. Vertices with sharpness also keep their exact positions.
+        - Vertex tags: a new vertex has a tag if all old vertices around its position had the tag. A tagged vertex can
+          move only inside a tagged region. A tagged vertex is inside such a region if all corners of one of its
+          triangles, or both of its neighbors on a line, also have the tag. All other tagged vertices keep their exact
+          positions. Vertices with sharpness also keep their exact positions.
 
         The number of faces depends on the area of the mesh, which is not known before the run. Therefore ``check``
         shows the largest number that fits the memory budget. When the step starts, it estimates the number from the
@@ -4785,12 +4797,12 @@ class MeshOperations:
                 guaranteed. To guarantee a distance, use the parameter ``error`` of the step.
             ``"min"``: The smallest length, in scene units.
             ``"max"``: The largest length, in scene units.
-        :param features: Edges that are treated as lines, for example ``sel.Sharp(above=30)``. If omitted, only the
-            lines that are always kept are treated as lines. ``"All"``, ``"Boundary"``, or a value of
+        :param features: Edges to keep as lines, in addition to the lines that are always kept. For example,
+            ``sel.Sharp(above=30)``. If omitted, no additional edges. ``"All"``, ``"Boundary"``, or a value of
             ``meshwright.sel``.
-        :param error: The largest allowed Hausdorff distance between the old and the new surface, in scene units. Edges
-            become shorter than the target length where this is necessary. The distance is measured at the end, in both
-            directions and for all points. If omitted, there is no limit.
+        :param error: The largest allowed Hausdorff distance between the old and the new surface, in scene units. To
+            keep this limit, some edges can become shorter than the target length. The distance is measured at the end,
+            in both directions and for all points. If omitted, there is no limit.
         :param pin: Vertices that keep their exact positions, for example ``Boundary``. If omitted, no vertices.
             ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
         :param passes: The largest number of passes, from 1 to 1000. The step ends earlier if a pass changes almost
@@ -4820,9 +4832,9 @@ class MeshOperations:
     ) -> Self:
         """Moves vertices so that noise disappears.
 
-        Only vertices in ``vertices`` that are not in ``pin`` and have a face move. All other vertices keep their exact
-        positions. Faces can have any number of corners, and degenerate faces are allowed. All elements keep their ids.
-        Attributes are kept, so textures stretch with the surface, but normals are dropped.
+        A vertex moves only if it is in ``vertices``, is not in ``pin``, and has a face. All other vertices keep their
+        exact positions. Faces can have any number of corners, and degenerate faces are allowed. All elements keep their
+        ids. Attributes are kept, so textures stretch with the surface, but normals are dropped.
 
         - ``choice.Laplacian``: strong smoothing; shrinks.
         - ``choice.Taubin``: removing noise; nearly the same.
@@ -4850,8 +4862,8 @@ class MeshOperations:
             ``"Fixed"``: The vertices do not move.
             ``"Free"``: The boundary is smoothed as a set of curves, so the movement of a vertex on the boundary depends
                 only on its neighbors along the boundary.
-        :param keep_volume: Whether the moved vertices are finally shifted along their normals, all by the same
-            distance, until the mesh has its original volume. The mesh must be closed. Defaults to ``False``.
+        :param keep_volume: Whether to restore the original volume of the mesh. To restore it, the step finally shifts
+            all moved vertices along their normals by the same distance. The mesh must be closed. Defaults to ``False``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
             for a bar of tqdm.
@@ -4873,24 +4885,24 @@ class MeshOperations:
         An attribute of vertices, corners or faces of the object ``from_`` becomes an attribute of the same kind of
         elements of the changed mesh. Numbers and vectors of vertices and corners are interpolated inside the face of
         the nearest point. Whole numbers, tags, and attributes that edits do not interpolate are copied from the nearest
-        corner of this face. Values of faces are copied from the face of the nearest point. An existing attribute with
-        the same type of values is overwritten; with a different type, the step fails. Without ``on``, the step acts on
-        all meshes except ``from_``.
+        corner of this face. Values of faces are copied from the face of the nearest point. If the attribute already
+        exists with the same type of values, it is overwritten. If its type is different, the step fails. Without
+        ``on``, the step acts on all meshes except ``from_``.
 
-        All corners of a face take their values from one chart of the source, that is, from faces that are connected
-        without crossing a seam of the attribute, so no triangle is stretched across a seam of texture coordinates.
-        Usually this is the chart that is nearest to the center of the face. A chart that is nearest to a corner is used
-        instead if it is much nearer to the whole face, as where parts of the source intersect.
+        All corners of a face take their values from one side of each seam, so no triangle is stretched across a seam of
+        texture coordinates. Usually this is the side at the center of the face. Seams divide the source into charts. If
+        the chart at a corner is much nearer to the whole face than the chart at the center, the values of the chart at
+        the corner are used. This happens where parts of the source intersect.
 
         Elements whose distance from the source exceeds ``within`` keep their values, or get zeros if the attribute is
-        new. If a corner or the center of a face is that far away, this applies to all corners of the face. The report
-        counts these elements.
+        new. If the distance of a corner or of the center of a face exceeds ``within``, this applies to all corners of
+        the face. The report counts these elements.
 
         Example: ``mesh.transfer(from_=scan, attributes=["uv", "color"], within=0.01)``
 
         :param from_: The mesh with the attributes.
         :param attributes: The names of the attributes, for example ``["uv", "color"]``.
-        :param within: The largest distance from the source, in scene units. If omitted, any distance.
+        :param within: The largest distance from the source, in scene units. If omitted, there is no limit.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
             for a bar of tqdm.
@@ -5262,29 +5274,29 @@ class MeshOperations:
         """Computes texture coordinates without overlaps.
 
         The surface is cut into charts, which are flattened and packed into a square page. Charts grow from flat regions
-        up to ``max_angle``. They are flattened by least squares conformal maps (Levy and others, 2002) and the hybrid
-        method of Liu and others (2008). A chart is cut again if it would overlap itself, if it would exceed
-        ``max_stretch``, or if, on more than 5 % of its area, the ratio of its largest to its smallest stretch would be
-        above 1.15. All charts of a mesh have the same scale, and no chart is mirrored. A polygon stays in one chart.
-        Each mesh gets its own page.
+        as far as ``max_angle`` allows. They are flattened by least squares conformal maps (Levy and others, 2002) and
+        the hybrid method of Liu and others (2008). A chart is cut again in three cases: it would overlap itself, it
+        would exceed ``max_stretch``, or the ratio of the largest to the smallest stretch would exceed 1.15 on more than
+        5 % of its area. All charts of a mesh have the same scale, and no chart is mirrored. A polygon stays in one
+        chart. Each mesh gets its own page.
 
         The coordinates are written to the corner attribute ``uv``, which is replaced if it exists. Edges at which
         charts meet become seams. Positions, faces and other attributes do not change, but tangents are removed.
-        Zero-area faces have no area in the texture. The report counts them. A polygon that is bent so far that it
-        overlaps itself is refused as ``WrongPlace``, so triangulate it first. With ``on_refusal="Skip"``, its triangles
-        overlap in the texture.
+        Zero-area faces have no area in the texture. The report counts them. If a polygon is bent so far that it
+        overlaps itself in the texture, the step is refused as ``WrongPlace``. Triangulate such polygons first. With
+        ``on_refusal="Skip"``, the triangles of the polygon overlap in the texture.
 
         Example: ``mesh.unwrap(max_angle=60)``
 
         :param seams: Edges that become borders of charts, for example ``sel.Tagged("seam")`` or
-            ``sel.Sharp(above=60)``. If omitted, only edges that the algorithm chooses. ``"All"``, ``"Boundary"``, or a
-            value of ``meshwright.sel``.
+            ``sel.Sharp(above=60)``. The algorithm also chooses borders itself. If omitted, the algorithm chooses all
+            borders. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
         :param max_angle: The largest angle between the normal of a face and the mean normal of its chart, in degrees.
             Smaller angles give more charts with less stretch. Defaults to ``70.0``.
         :param max_stretch: The largest ratio between the area scale of a triangle and the area scale of its whole
             chart. Defaults to ``4.0``.
-        :param page: The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for any size;
-            the size determines how large the padding is. Defaults to ``1024``.
+        :param page: The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for any size.
+            The size only determines how large the padding is. Defaults to ``1024``.
         :param padding: The number of empty texels around each chart. The distance between two charts is at least twice
             this number. Defaults to 2.
         :param uv: The name of the texture coordinates. Defaults to ``uv``.
@@ -5313,14 +5325,14 @@ class MeshOperations:
         A chart is a set of faces that are connected without seams of the texture coordinates. Afterwards, the area of
         each chart in the texture is proportional to its area on the surface. The shape of each chart does not change,
         even if it is stretched, mirrored or overlaps itself. Each zero-area chart becomes a point. The report counts
-        zero-area charts and charts that overlap themselves. Each mesh gets its own page. Tangents are removed, because
-        charts are rotated.
+        zero-area charts and charts that overlap themselves. Each mesh gets its own page, that is, the whole square of a
+        texture. Tangents are removed, because charts are rotated.
 
         Example: ``mesh.pack_uvs(page=2048, padding=4)``
 
         :param uv: The name of the texture coordinates. Defaults to ``uv``.
-        :param page: The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for any size;
-            the size determines how large the padding is. Defaults to ``1024``.
+        :param page: The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for any size.
+            The size only determines how large the padding is. Defaults to ``1024``.
         :param padding: The number of empty texels around each chart. The distance between two charts is at least twice
             this number. Defaults to 2.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
@@ -5389,8 +5401,8 @@ class MeshOperations:
         :param highlight_width: The width of highlighted edges and the diameter of highlighted vertices, in pixels. The
             defaults depend on the shorter side of a view: 2.8 and 7.5 for 240 pixels, 3.4 and 10 for 480, 4 and 13 for
             960, 8 and 26 for 1920. If there are many highlighted vertices, they are drawn smaller. Hidden edges are
-            faint, and hidden vertices are rings.
-        :param marks: More elements to highlight, each in its color.
+            drawn faintly, and hidden vertices as rings.
+        :param marks: More selections of elements to highlight, each with its own color.
             ``"of"``: The elements.
             ``"color"``: The color.
             ``"width"``: The width of edges and the diameter of vertices, in pixels. If omitted, the defaults of
@@ -5405,8 +5417,9 @@ class MeshOperations:
         :param turntable: If given, the picture is an animation in which the camera moves once around the scene.
             ``"frames"``: The number of images.
             ``"seconds"``: The duration of the turn.
-        :param images: The folder of images that are not next to their model, relative to the folder of the recipe. If
-            omitted, the folder of the recipe. Missing images are not drawn, and the report lists them.
+        :param images: The folder of texture images that are not stored next to their model. The path is relative to the
+            folder of the recipe. If omitted, the folder of the recipe. Missing images are not drawn, and the report
+            lists them.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
             for a bar of tqdm.
@@ -5431,12 +5444,12 @@ class MeshOperations:
     ) -> Self:
         """Draws Bezier curves, and de Casteljau's construction of their points, into an image file.
 
-        The figure has a panel for each curve and each ``t``. With ``by_level``, it instead has a panel for each curve,
-        each ``t`` and each level. A panel shows the control polygon, every level of de Casteljau's algorithm in a
-        different color, the point, and the curve, with the same scale in both axes. With ``by_level``, the panels for
-        one value of ``t`` each show one level more than the panel before, and only the last of these panels shows the
-        point. The extension of the file determines the format: ``.svg`` or ``.png``. The file is written only if the
-        whole recipe succeeds. The scene does not change.
+        The figure has one panel for each combination of a curve and a value of ``t``. With ``by_level``, it has one
+        panel for each combination of a curve, a value of ``t`` and a level. A panel shows the control polygon, every
+        level of de Casteljau's algorithm in a different color, the constructed point, and the curve, with the same
+        scale in both axes. With ``by_level``, each panel for a value of ``t`` shows one level more than the previous
+        panel, and only the last of these panels shows the constructed point. The extension of the file determines the
+        format: ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The scene does not change.
 
         Example: ``mesh.curve_figure(path="figure.svg", t=[0.25, 0.5])``
 
@@ -5472,12 +5485,12 @@ class MeshOperations:
     ) -> Self:
         """Draws the half-edges of some faces of a mesh into an image file.
 
-        Each half-edge is an arrow beside its edge, inside its face, with its name. A thin curve leads from the head of
-        the arrow to the next half-edge of the face. The twin of a half-edge is on the other side of the edge.
-        Half-edges on the boundary have no face and are gray. The faces are seen along their mean normal. Faces that
-        face away from the viewer or are seen nearly edge-on are left out. The report counts them. The extension of the
-        file determines the format: ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The
-        scene does not change.
+        Each half-edge is drawn as an arrow beside its edge and inside its face, and is labeled with its name. A thin
+        curve leads from the head of the arrow to the next half-edge of the face. The twin of a half-edge is on the
+        other side of the edge. Half-edges on the boundary have no face and are gray. The viewer looks at the faces from
+        the direction of their mean normal. Faces that face away from the viewer or are seen nearly edge-on are left
+        out, and the report counts them. The extension of the file determines the format: ``.svg`` or ``.png``. The file
+        is written only if the whole recipe succeeds. The scene does not change.
 
         A name is a letter and the id of the element: ``v`` for vertices, ``h`` for half-edges, ``f`` for faces.
         Half-edges ``2e`` and ``2e + 1`` belong to edge ``e``.
@@ -5511,16 +5524,16 @@ class MeshOperations:
         """Draws the charts of the texture coordinates of a mesh into an image file.
 
         A gray frame shows the page of the texture, where u and v are from 0 to 1; v points upwards. Thick lines are the
-        borders of charts, and thin lines are the other edges. Coordinates outside the page are also drawn. They make
-        the figure higher or its scale smaller. The extension of the file determines the format: ``.svg`` or ``.png``.
-        The file is written only if the whole recipe succeeds. The scene does not change.
+        borders of charts, and thin lines are the other edges. Coordinates outside the page are also drawn, so the
+        figure becomes higher or its scale becomes smaller. The extension of the file determines the format: ``.svg`` or
+        ``.png``. The file is written only if the whole recipe succeeds. The scene does not change.
 
         Example: ``mesh.uv_picture(path="uv.svg")``
 
         :param path: The file. A relative path is relative to the working directory.
         :param uv: The name of the texture coordinates. Defaults to ``uv``.
         :param fill: What the colors inside charts show. Defaults to ``"Charts"``.
-            ``"None"``: Nothing.
+            ``"None"``: No colors.
             ``"Charts"``: The charts, in eight colors that repeat.
             ``"Stretch"``: The stretch of angles.
         :param edges: Whether edges inside charts are drawn. Defaults to ``True``.

@@ -187,7 +187,7 @@ def Laplacian(
 def LimitDistance(*, below: float | Arg | Ron) -> Choice:
     """Stops as soon as the distance of every vertex to its limit position is less than ``below``.
 
-    Only for Loop and Catmull-Clark.
+    Available only for Loop and Catmull-Clark subdivision.
 
     :param below: The distance, in scene units.
     """

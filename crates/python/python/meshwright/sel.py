@@ -246,11 +246,11 @@ def Inside(value: Choice | Arg | Ron, /) -> Choice:
 def InsideOf(value: str | Arg | Ron, /) -> Choice:
     """The vertices inside the mesh of another object, given by its name.
 
-    A point is inside if the winding number of the mesh around the point is above 1/2 in magnitude. The mesh may have
+    A point is inside if the winding number of the mesh around the point is above 1/2 or below -1/2. The mesh can have
     small gaps. The edges whose vertices are all inside the mesh of another object, given by its name. A point is inside
-    if the winding number of the mesh around the point is above 1/2 in magnitude. The mesh may have small gaps. The
+    if the winding number of the mesh around the point is above 1/2 or below -1/2. The mesh can have small gaps. The
     faces whose vertices are all inside the mesh of another object, given by its name. A point is inside if the winding
-    number of the mesh around the point is above 1/2 in magnitude. The mesh may have small gaps.
+    number of the mesh around the point is above 1/2 or below -1/2. The mesh can have small gaps.
     """
     return Choice('InsideOf', value)
 
@@ -333,8 +333,8 @@ def Or(
 ) -> Choice:
     """The vertices in at least one of these selections.
 
-    An empty list selects none. The edges in at least one of these selections. An empty list selects none. The faces in
-    at least one of these selections. An empty list selects none.
+    An empty list selects no vertices. The edges in at least one of these selections. An empty list selects no edges.
+    The faces in at least one of these selections. An empty list selects no faces.
     """
     return Choice('Or', value)
 
@@ -398,10 +398,10 @@ def Shrink(
     value: Literal['All', 'Boundary', 'Isolated'] | Choice | Literal['All', 'Boundary'] | Literal['All', 'Boundary', 'SelfIntersecting'] | Arg | Ron,
     /,
 ) -> Choice:
-    """This selection without the vertices that share an edge with vertices outside it.
+    """This selection without the vertices that share an edge with vertices outside the selection.
 
-    This selection without the edges that share a vertex with edges outside it. This selection without the faces that
-    share a vertex with faces outside it.
+    This selection without the edges that share a vertex with edges outside the selection. This selection without the
+    faces that share a vertex with faces outside the selection.
     """
     return Choice('Shrink', value)
 

@@ -22,7 +22,7 @@ const MILLION: &str =
 #[ignore = "a measurement"]
 fn times_of_growing_meshes() {
     let Some(state) = device() else { return };
-    for rings in [50, 160, 500, 1000] {
+    for rings in [50, 160, 500, 1600] {
         let ball = scene(shapes::uv_sphere(2 * rings, rings));
         let look = Look {
             grid: false,

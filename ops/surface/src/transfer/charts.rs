@@ -4,8 +4,8 @@
 //! its values from one side of the seam:
 //!
 //! ```text
-//!    target    +-----------+           the center of the face is above side a, so both corners take
-//!    source    a-----a-----|b-----b    values from side a: the right corner those at the seam
+//!    target    +-----------+           the center of the face is above side a, so both corners take values
+//!    source    a-----a-----|b-----b    from side a; the right corner takes the values of side a at the seam
 //! ```
 
 use std::cmp::Reverse;
@@ -15,11 +15,12 @@ use geometry::surface_index::{SurfaceIndex, triangle_distance};
 use mesh::{DVec3, Domain, FaceId, HalfEdgeId, Mesh, Values};
 use op::{Cancelled, Progress};
 
-/// Corners are moved toward the center of their face by this fraction of the distance, so that the nearest face of a
-/// corner at a seam is on the side of its face.
+/// Corners are moved toward the center of their face by this fraction of the distance, so that, for a corner at a seam,
+/// the nearest face of the source is on the same side of the seam as the face of the corner.
 const INSET: f64 = 1e-6;
 
-/// Polygons with very many corners count as touching each other. Their distance would take too long.
+/// The largest number of pairs of triangles for which the distance between two polygons is computed. With more pairs,
+/// the computation would take too long, so the polygons count as touching each other.
 const MAX_PAIRS: usize = 4096;
 
 /// The charts of an attribute of corners. The faces of a chart are connected by edges at which the values of the corners
@@ -30,7 +31,7 @@ pub(super) struct Charts<'a> {
     /// The chart of each face, by face index.
     pub(super) of_face: Vec<usize>,
     faces: Vec<Vec<FaceId>>,
-    /// The index of each chart, which is built when it is first needed.
+    /// The surface index of each chart. An index is built when it is first needed.
     indices: Vec<Option<SurfaceIndex>>,
     /// The faces beside seams inside a chart.
     seams: Option<SurfaceIndex>,
@@ -114,8 +115,8 @@ impl<'a> Charts<'a> {
         Ok(self.indices[chart].as_ref().expect("a chart has faces"))
     }
 
-    /// Returns the first of the charts, unless another chart is less than half as far away. The distance of a chart is
-    /// the largest distance of a corner or the center of the face from the chart.
+    /// Returns the first candidate, unless another candidate is less than half as far from the face `f`. The distance
+    /// between a chart and a face is the largest distance of a corner or the center of the face from the chart.
     pub(super) fn nearest(
         &mut self,
         candidates: &[usize],
@@ -142,11 +143,12 @@ impl<'a> Charts<'a> {
         Ok(chart)
     }
 
-    /// Returns the faces of `chart` on the side of its seams at the center of the face `f` of the target; `None` if the
-    /// chart has no seam near this face. `farthest` is the largest distance of a corner or the center from the source.
+    /// Returns the faces of `chart` that are on the same side of its seams as the center of the face `f` of the target;
+    /// `None` if the chart has no seam near this face. `farthest` is the largest distance of a corner or the center
+    /// from the source.
     ///
     /// First finds the source under the face: the nearest faces that connect the center with all corners. Then returns
-    /// those that are connected with the center without crossing a seam.
+    /// the faces among them that are connected with the center without crossing a seam.
     pub(super) fn side_under(
         &mut self,
         chart: usize,
@@ -192,8 +194,9 @@ impl<'a> Charts<'a> {
         Ok(index.map(|index| Side { faces, index }))
     }
 
-    /// Returns the faces within the smallest distance from `triangles` at which the faces connect `start` with all
-    /// `goals`, across seams too. The distance is at most `limit`; then some goals are not connected.
+    /// Returns the faces that are connected with `start` and lie within a distance from `triangles`. Connections can
+    /// cross seams. The distance is the smallest distance at which the faces include all `goals`, but at most `limit`.
+    /// If `limit` is reached, some goals can be missing.
     fn connecting(
         &self,
         start: FaceId,

@@ -4,11 +4,12 @@ use mesh::{DVec3, FaceId, Mesh, VertexId, angle_between, parallel};
 
 use crate::vertex_normals::Weight;
 
-/// A sum of face vectors that is shorter than this fraction of its parts counts as zero, because it is rounding error.
+/// A sum of face vectors counts as zero if it is shorter than this fraction of the sum of the magnitudes of its parts,
+/// because the sum is then only rounding error.
 const CANCELLED: f64 = 1e-14;
 
-/// Returns the unit normal of every vertex of a dense mesh, and the number of vertices without a normal, which get the
-/// zero vector.
+/// Returns the unit normal of every vertex of a dense mesh, and the number of vertices without a normal. These vertices
+/// get the zero vector.
 ///
 /// The faces are added in their order around the vertex, so the result is the same for any number of threads. Lengths
 /// are scaled by a power of two, so the result does not depend on the size of the mesh.

@@ -254,7 +254,7 @@ fn values_of_attributes_are_in_a_range() {
     for (text, expected) in [
         (
             "Attribute(name: \"flow\", min: 1)",
-            "the type of the face attribute \"flow\" is 3 numbers: choose one with `component`, from 0",
+            "the type of the face attribute \"flow\" is 3 numbers: choose one number with `component`, counted from 0",
         ),
         (
             "Attribute(name: \"wall\", of: Vertices(Not(All)), min: 1)",

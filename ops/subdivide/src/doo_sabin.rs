@@ -36,8 +36,8 @@ use crate::step::{Step, Until};
 
 /// Replaces every edge and every vertex with a face and shrinks the old faces, for a number of levels.
 ///
-/// A level turns a closed mesh with V vertices, E edges and F faces into a mesh with 2 E vertices, 4 E edges and V + E
-/// + F faces. If the mesh has a boundary, a level creates additional elements along the boundary. V - E + F does not
+/// A level turns a closed mesh with V vertices, E edges and F faces into a mesh with 2 E vertices, 4 E edges and V +
+/// E + F faces. If the mesh has a boundary, a level creates additional elements along the boundary. V - E + F does not
 /// change. The face inside old face f has the id f, the face of edge e has the id F + e, and the faces of vertices
 /// follow. Isolated vertices are kept. Their ids follow the ids of all other vertices. Isolated vertices and inner
 /// vertices of valence 2 do not become faces.

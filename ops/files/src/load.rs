@@ -82,7 +82,7 @@ impl Load {
 
 impl Operation for Load {
     const NAME: &'static str = "Load";
-    const VERSION: u32 = 2;
+    const VERSION: u32 = 3;
     const SUMMARY: &'static str = "Read the objects of a file";
     const EXAMPLE: &'static str = r#"Load(path: "teapot.bez")"#;
     const WORDS: &'static [&'static str] = &["import", "open", "read"];

@@ -53,6 +53,7 @@ const fn yes() -> bool {
 
 impl Operation for Join {
     const NAME: &'static str = "Join";
+    const VERSION: u32 = 2;
     const SUMMARY: &'static str = "Join meshes into one object";
     const EXAMPLE: &'static str = r#"Join(objects: ["mesh", "other"], name: "joined")"#;
     const WORDS: &'static [&'static str] = &["merge", "combine", "append"];

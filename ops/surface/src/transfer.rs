@@ -63,6 +63,7 @@ impl Transfer {
 
 impl MeshOperation for Transfer {
     const NAME: &'static str = "Transfer";
+    const VERSION: u32 = 2;
     const SUMMARY: &'static str = "Copy attributes from the nearest points of another object";
     const EXAMPLE: &'static str =
         r#"Transfer(from: "scan", attributes: ["uv", "color"], within: 0.01)"#;

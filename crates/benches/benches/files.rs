@@ -3,8 +3,8 @@
 //!
 //! Other readers are measured in the same run, on the same files. `tobj` and `mesh-loader` return flat arrays, `alum`
 //! returns a half-edge mesh, and the `gltf` crate returns accessors, which are copied into arrays here. If
-//! `python3 -c "import rapidobj"` works (`pip install rapidobj`), the C++ reader rapidobj is measured too. It uses all threads,
-//! returns 32-bit arrays, and triangulates polygons.
+//! `python3 -c "import rapidobj"` works (`pip install rapidobj`), the C++ reader rapidobj is measured too. It uses all
+//! threads, returns 32-bit arrays, and triangulates polygons.
 //!
 //! OBJ files of most programs have six decimals; Meshwright writes enough digits to restore the same `f64`. Both kinds
 //! of files are read.

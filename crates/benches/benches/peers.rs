@@ -1,7 +1,8 @@
 //! Compares the speed of local edits with other half-edge meshes in Rust.
 //!
 //! Each library edits the same torus of a million triangles. It flips every edge whose flip is legal, splits every
-//! edge, and collapses every edge whose collapse is legal. The edges are in the same random order for all libraries.
+//! edge, and (except tri-mesh) collapses every edge whose collapse is legal. The edges are in the same random order for
+//! all libraries.
 //! The time of an edit includes the checks that the library makes.
 //!
 //! The far corners of an edge are the corners opposite to the edge in the two triangles beside it. A flip is illegal if

@@ -16,7 +16,7 @@ pub struct Command {
     pub operation: String,
     /// The parameters with their values as RON.
     pub parameters: Vec<(String, String)>,
-    /// The selection for the first parameter that selects elements and has no value.
+    /// The selection for the first parameter that selects elements, if that parameter has no value.
     pub selection: Option<SelectionText>,
     /// The object that the step acts on. If `None`, the object of the selection if the scene has several meshes, and
     /// otherwise all objects.
@@ -311,16 +311,17 @@ impl Editor {
     }
 }
 
-/// Returns the first parameter that selects elements and has no value, and the kind of elements that it selects. A command
-/// gives it the selection of the picked elements.
+/// Returns the first parameter that selects elements, and the kind of elements that it selects. A command gives it the
+/// selection of the picked elements. `None` if the parameter already has a value.
 fn unset_selection(panel: &Panel) -> Option<(&PanelField, Option<ElementKind>)> {
-    panel
+    let first = panel
         .fields
         .iter()
         .find_map(|field| match field.kind.inner() {
-            FieldKind::Selection(kind) if field.value.is_none() => Some((field, *kind)),
+            FieldKind::Selection(kind) => Some((field, *kind)),
             _ => None,
-        })
+        });
+    first.filter(|(field, _)| field.value.is_none())
 }
 
 impl Panel {

@@ -1,7 +1,7 @@
 use std::path::Path;
 
 use engine::{Engine, Options, Run, Silent};
-use mesh::Element;
+use mesh::{Element, VertexId};
 use scene::Digest;
 
 use super::*;
@@ -91,6 +91,27 @@ fn picked_elements_that_a_new_scene_does_not_have_are_dropped() {
     editor.end_preview();
     settled(&mut editor);
     assert_eq!(editor.picked(), Some(&picked));
+}
+
+#[test]
+fn picked_elements_go_only_to_the_first_selection() {
+    let (mut editor, _) = opened(CUBE);
+    editor.set_picked(Some(Picked::one("cube", Element::Vertex(VertexId::new(2)))));
+    let selection = editor.selection();
+    let smooth = Command {
+        selection,
+        ..Command::new("Smooth").with("by", "Taubin()")
+    };
+    let steps = |command: &Command| editor.steps_of(command).unwrap().concat();
+    assert_eq!(
+        steps(&smooth),
+        "Smooth(vertices: Vertices([2]), by: Taubin())"
+    );
+    // With a value for `vertices`, the picked vertex does not go to `pin`.
+    assert_eq!(
+        steps(&smooth.with("vertices", "Boundary")),
+        "Smooth(by: Taubin(), vertices: Boundary)"
+    );
 }
 
 #[test]
@@ -277,7 +298,7 @@ fn a_session_gives_a_recipe_that_replays_to_the_same_digest() {
     editor.save().unwrap();
     assert!(!editor.document().is_dirty());
     assert_eq!(Some(replayed(store, "a.ron")), editor.run().digest);
-    let [v, w] = mesh.edge_vertices(diagonal).map(mesh::VertexId::index);
+    let [v, w] = mesh.edge_vertices(diagonal).map(VertexId::index);
     let (v, w) = (v.min(w), v.max(w));
     let lines: Vec<&str> = editor.text().lines().map(str::trim).collect();
     assert_eq!(lines[..2], ["// A cube.", "("]);

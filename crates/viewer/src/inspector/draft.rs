@@ -81,6 +81,12 @@ impl Draft {
                 Some(Change::Set(value) | Change::Drag(value)) => {
                     self.panel.set(&of.name, Some(&value));
                 }
+                // Without a value, the parameter would take the picked elements again.
+                Some(Change::Reset)
+                    if picked.as_ref().is_some_and(|(name, _)| of.name == *name) =>
+                {
+                    self.panel.set(&of.name, of.default.as_deref());
+                }
                 Some(Change::Reset) => self.panel.set(&of.name, None),
                 None => {}
             }

@@ -15,8 +15,8 @@
 //! longest side of the box of the centers; each child gets half of the triangles. A node also has a slab: two parallel
 //! planes around its triangles. The tree depends only on the mesh, not on the number of threads.
 //!
-//! A face with four corners is divided into a fan of two triangles. A face with more corners is divided by ear clipping
-//! ([`triangulate`](mod@crate::triangulate)).
+//! A face with four corners is divided into a fan of two triangles. A face with more corners is divided by
+//! [`triangulate`](mod@crate::triangulate).
 
 mod build;
 mod intersect;
@@ -35,7 +35,7 @@ pub use intersect::{self_intersecting_faces, triangles_intersect};
 pub use nearest::Nearest;
 pub use ray::RayHit;
 use slab::Slab;
-pub use triangle::triangle_distance;
+pub use triangle::{nearest_on_triangle, triangle_distance};
 pub use winding::Winding;
 
 /// The triangles of a surface in a tree of boxes. The index copies the triangles, so later changes of the mesh do

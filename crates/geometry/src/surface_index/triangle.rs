@@ -36,7 +36,7 @@ pub(crate) fn between_segments([a, b]: [DVec3; 2], [c, d]: [DVec3; 2]) -> f64 {
 /// triangle is treated as its three sides.
 ///
 /// Source: Ericson, "Real-Time Collision Detection", 2005, §5.1.5.
-pub(crate) fn nearest_on_triangle(p: DVec3, &[a, b, c]: &[DVec3; 3]) -> DVec3 {
+pub fn nearest_on_triangle(p: DVec3, &[a, b, c]: &[DVec3; 3]) -> DVec3 {
     let (ab, ac) = (b - a, c - a);
     if ab.cross(ac) == DVec3::ZERO {
         let sides = [[a, b], [b, c], [c, a]].map(|[a, b]| nearest_on_segment(p, a, b));

@@ -8,10 +8,11 @@
 //!    source    a-----a-----|b-----b    from side a; the right corner takes the values of side a at the seam
 //! ```
 
+use std::cell::Cell;
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap};
 
-use geometry::surface_index::{SurfaceIndex, triangle_distance};
+use geometry::surface_index::{SurfaceIndex, nearest_on_triangle, triangle_distance};
 use mesh::{DVec3, Domain, FaceId, HalfEdgeId, Mesh, Values};
 use op::{Cancelled, Progress};
 
@@ -20,7 +21,7 @@ use op::{Cancelled, Progress};
 const INSET: f64 = 1e-6;
 
 /// The largest number of pairs of triangles for which the distance between two polygons is computed. With more pairs,
-/// the computation would take too long, so the polygons count as touching each other.
+/// the computation would take too long, so the distance of the center of one polygon from the other is used.
 const MAX_PAIRS: usize = 4096;
 
 /// The charts of an attribute of corners. The faces of a chart are connected by edges at which the values of the corners
@@ -168,7 +169,14 @@ impl<'a> Charts<'a> {
         let radius = corners
             .iter()
             .fold(0.0_f64, |r, p| r.max(p.distance(center)));
-        if seams.nearest(center, 0).distance > 2.0 * (radius + farthest) {
+        let reach = DVec3::splat(2.0 * (radius + farthest));
+        let (low, high) = (center - reach, center + reach);
+        let is_near = Cell::new(false);
+        seams.visit_boxes(
+            &mut |min, max| !is_near.get() && min.cmple(high).all() && max.cmpge(low).all(),
+            &mut |_| is_near.set(true),
+        );
+        if !is_near.get() {
             return Ok(None);
         }
         let corners: Vec<DVec3> = corners.iter().map(|p| p.lerp(center, INSET)).collect();
@@ -176,7 +184,8 @@ impl<'a> Charts<'a> {
         let face_of = |p: &DVec3| index.triangle(index.nearest(*p, 0).triangle).face;
         let start = face_of(&center);
         let goals: BTreeSet<FaceId> = corners.iter().map(face_of).collect();
-        let under = self.connecting(start, goals, &fan(&corners, center), radius + farthest);
+        let fan = fan(&corners);
+        let under = self.connecting(start, goals, &fan, radius + farthest, progress)?;
         let mut faces = BTreeSet::from([start]);
         let mut open = vec![start];
         while let Some(f) = open.pop() {
@@ -203,53 +212,60 @@ impl<'a> Charts<'a> {
         mut goals: BTreeSet<FaceId>,
         triangles: &[[DVec3; 3]],
         limit: f64,
-    ) -> BTreeSet<FaceId> {
-        let distance = |f: FaceId| {
-            let corners: Vec<DVec3> = (self.mesh.face_vertices(f))
-                .map(|v| self.mesh.position(v))
-                .collect();
-            let parts = fan(&corners, self.mesh.face_center(f));
-            if parts.len() * triangles.len() > MAX_PAIRS {
-                return 0.0;
+        progress: &dyn Progress,
+    ) -> Result<BTreeSet<FaceId>, Cancelled> {
+        // A face whose center is within `reached_distance` will be reached in any case.
+        let distance = |f: FaceId, reached_distance: f64| {
+            let center = self.mesh.face_center(f);
+            let to_center = |t: &[DVec3; 3]| center.distance(nearest_on_triangle(center, t));
+            let to_center = triangles
+                .iter()
+                .map(to_center)
+                .fold(f64::INFINITY, f64::min);
+            let n_triangles = self.mesh.degree(f) - 2;
+            if to_center <= reached_distance || n_triangles * triangles.len() > MAX_PAIRS {
+                return to_center;
             }
+            let corners = self.mesh.face_vertices(f).map(|v| self.mesh.position(v));
+            let parts = fan(&corners.collect::<Vec<_>>());
             let pairs = parts
                 .iter()
                 .flat_map(|s| triangles.iter().map(move |t| (s, t)));
-            pairs.fold(f64::INFINITY, |d, (s, t)| d.min(triangle_distance(s, t)))
+            pairs.fold(to_center, |d, (s, t)| d.min(triangle_distance(s, t)))
         };
         let mut reached = BTreeSet::new();
         let mut seen = BTreeSet::from([start]);
         // Distances are not negative, so their bits have the same order.
-        let mut open = BinaryHeap::from([Reverse((distance(start).to_bits(), start))]);
-        let mut largest = 0;
+        let mut open = BinaryHeap::from([Reverse((distance(start, 0.0).to_bits(), start))]);
+        let mut largest = 0.0;
         while let Some(Reverse((bits, f))) = open.pop() {
-            if bits > largest {
-                if goals.is_empty() || f64::from_bits(bits) > limit {
+            let distance_of_f = f64::from_bits(bits);
+            if distance_of_f > largest {
+                if goals.is_empty() || distance_of_f > limit {
                     break;
                 }
-                largest = bits;
+                largest = distance_of_f;
             }
             reached.insert(f);
+            if reached.len().is_multiple_of(256) {
+                let (done, total) = (reached.len() as u64, self.mesh.n_faces() as u64);
+                progress.report("find the source under a face", done, total)?;
+            }
             goals.remove(&f);
             for h in self.mesh.face_half_edges(f) {
                 if let Some(g) = self.mesh.face(h.twin())
                     && seen.insert(g)
                 {
-                    open.push(Reverse((distance(g).to_bits(), g)));
+                    open.push(Reverse((distance(g, largest).to_bits(), g)));
                 }
             }
         }
-        reached
+        Ok(reached)
     }
 }
 
-/// Divides a polygon into triangles around its center. A triangle is not divided.
-fn fan(corners: &[DVec3], center: DVec3) -> Vec<[DVec3; 3]> {
-    if let &[a, b, c] = corners {
-        return vec![[a, b, c]];
-    }
-    let n = corners.len();
-    (0..n)
-        .map(|i| [corners[i], corners[(i + 1) % n], center])
-        .collect()
+/// Divides a polygon into triangles at its first corner.
+fn fan(corners: &[DVec3]) -> Vec<[DVec3; 3]> {
+    let pairs = corners[1..].windows(2);
+    pairs.map(|pair| [corners[0], pair[0], pair[1]]).collect()
 }

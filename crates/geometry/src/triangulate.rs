@@ -8,14 +8,14 @@
 //!    a ------- b          a ------- b          '---'                  '---'
 //! ```
 //!
-//! A quadrilateral is cut along its shorter diagonal. A larger polygon is cut by ear clipping, then diagonals
-//! are flipped until the result is a constrained Delaunay triangulation. If ear clipping fails, the polygon
+//! A quadrilateral is cut along its shorter diagonal. A larger polygon is cut by ear clipping or into monotone pieces,
+//! then diagonals are flipped until the result is a constrained Delaunay triangulation. If this fails, the polygon
 //! becomes a fan. See [`Cutter`] for the details.
 //!
 //! Corner indices start at 0 and follow the face. The corners of a triangle are in ascending order, so a triangle
 //! has the orientation of the face.
 
-mod pieces;
+mod monotone;
 
 use earcut::{Earcut, Refiner};
 
@@ -27,8 +27,11 @@ pub type Triangle = [u32; 3];
 /// Squared lengths whose relative difference is at most this number are treated as equal. An area that is
 /// smaller than this, relative to the size of the face, is treated as 0.
 const TOLERANCE: f64 = 1e-12;
-/// The largest number of corners for which a face is cut by ear clipping, which uses 32-bit indices. A face
-/// with more corners becomes a fan.
+/// The largest number of corners for which a face is cut by ear clipping, which then takes at most about 50 ms.
+const MAX_EARS: usize = 4096;
+/// The smallest number of corners for which the cut can be cancelled. Smaller faces take little time.
+const MIN_CANCELLED: usize = 256;
+/// The largest number of corners for which a face is cut. A face with more corners becomes a fan.
 const MAX_CORNERS: usize = 10_000_000;
 
 /// How a face is cut.
@@ -47,7 +50,7 @@ pub enum Cut {
     Polygon {
         /// The triangles, sorted.
         triangles: Vec<Triangle>,
-        /// Whether the triangles are a fan because ear clipping failed or was not tried.
+        /// Whether the triangles are a fan because the polygon could not be cut or has too many corners.
         is_fan: bool,
     },
 }
@@ -62,7 +65,7 @@ impl Cut {
         }
     }
 
-    /// Whether the triangles are a fan because ear clipping failed or was not tried.
+    /// Whether the triangles are a fan because the polygon could not be cut or has too many corners.
     pub fn is_fan(&self) -> bool {
         matches!(self, Self::Polygon { is_fan: true, .. })
     }
@@ -101,11 +104,13 @@ impl Cut {
 /// therefore cut at that corner.
 ///
 /// A larger face is projected along its normal and cut by ear clipping (Held, "FIST: Fast Industrial-Strength
-/// Triangulation of Polygons", 2001, as implemented by the crate `earcut`). A face with more than 4096 corners is first
-/// cut into pieces, so that the time does not grow with the square of the number of corners. Then diagonals are flipped
-/// until the result is a constrained Delaunay triangulation. Ear clipping can fail if the area of the face is zero or
-/// its sides cross. Ear clipping is not tried for faces with more than ten million corners. In these cases the face
-/// becomes a fan around its vertex with the lowest id.
+/// Triangulation of Polygons", 2001, as implemented by the crate `earcut`). The time of ear clipping can grow with the
+/// square of the number of corners, so a face with more than 4096 corners is cut into monotone pieces instead (de Berg
+/// and others, "Computational Geometry: Algorithms and Applications", 2008, chapter 3). Then diagonals are flipped until
+/// the result is a constrained Delaunay triangulation.
+///
+/// A face becomes a fan around its vertex with the lowest id if it has more than ten million corners, or if it cannot be
+/// cut, which happens if its area is zero or its sides cross.
 ///
 /// # Examples
 ///
@@ -177,8 +182,8 @@ impl Cutter {
         turns_left && changes.count() == 2
     }
 
-    /// Triangulates the points by ear clipping, and improves the triangles by flips. Returns `None` if the result is
-    /// not a triangulation.
+    /// Triangulates the points, and improves the triangles by flips. Returns `None` if the points cannot be triangulated or
+    /// `is_cancelled` returns `true`.
     fn ears(&mut self, is_cancelled: &dyn Fn() -> bool) -> Option<Vec<Triangle>> {
         let n = self.points.len();
         let normal = doubled_area(&self.points).try_normalize()?;
@@ -189,11 +194,14 @@ impl Cutter {
         self.flat.clear();
         let project = |p: &DVec3| [x.dot(*p), y.dot(*p)];
         self.flat.extend(self.points.iter().map(project));
-        let mut clip = |points: &[[f64; 2]]| {
-            let is_stopped = points.len() >= pieces::LEAST && is_cancelled();
-            (!is_stopped).then(|| clip(&mut self.earcut, &mut self.indices, points))?
+        if n >= MIN_CANCELLED && is_cancelled() {
+            return None;
+        }
+        let triangles = if n > MAX_EARS {
+            monotone::triangulate(&self.flat, is_cancelled)?
+        } else {
+            clip(&mut self.earcut, &mut self.indices, &self.flat)?
         };
-        let triangles = pieces::triangulate(&self.flat, &mut clip).or_else(|| clip(&self.flat))?;
         self.indices.clear();
         self.indices.extend(triangles.iter().flatten());
         self.refiner.refine(&mut self.indices, &self.flat);

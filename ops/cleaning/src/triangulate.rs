@@ -30,10 +30,11 @@ use op::prelude::*;
 /// that corner. If a diagonal would join two vertices that are already joined by an edge or another diagonal, the other
 /// diagonal is chosen where possible. The report counts the duplicate diagonals that remain.
 ///
-/// A face with more than four corners is projected along its normal and cut by ear clipping. Then diagonals are flipped
-/// until the triangulation is a constrained Delaunay triangulation. A face that cannot be triangulated in this way,
-/// because it has zero area, its sides cross, or it has more than ten million corners, becomes a triangle fan around
-/// its vertex with the lowest id. The report counts these faces.
+/// A face with more than four corners is projected along its normal and cut by ear clipping or, with more than 4096
+/// corners, into monotone pieces. Then diagonals are flipped until the triangulation is a constrained Delaunay
+/// triangulation. A face that cannot be triangulated in this way, because it has zero area, its sides cross, or it has
+/// more than ten million corners, becomes a triangle fan around its vertex with the lowest id. The report counts these
+/// faces.
 ///
 /// The triangles of a face take its place in the order of the faces and have its values. Vertices and edges keep their
 /// ids. The corners of the triangles have the values of the corners of the face at the same vertices.
@@ -50,7 +51,7 @@ impl MeshOperation for Triangulate {
     const SUMMARY: &'static str = "Cut polygons into triangles";
     const EXAMPLE: &'static str = "Triangulate()";
     // Version 2 cuts faces with more than 4096 corners into pieces first, which can change equally good diagonals.
-    const VERSION: u32 = 2;
+    const VERSION: u33 = 2;
     const WORDS: &'static [&'static str] = &["triangles", "ears"];
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {

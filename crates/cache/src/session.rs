@@ -304,7 +304,7 @@ impl<'a> Session<'a> {
     }
 
     /// Checks that the step would give the recorded result if it ran now. If so, and if a stage is given, restores the
-    /// output files of the step into the stage, which is the folder that collects the outputs of the run until it
+    /// output files of the step into the stage. The stage is the folder that collects output files until the run
     /// succeeds.
     fn use_record(
         &mut self,

@@ -8,8 +8,8 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use op::Progress;
 use recipe::{Listener, StepDone};
 
-/// The flag that Ctrl-C sets. Every long loop checks the flag. Simultaneous runs also use it as their listener, which
-/// shows no progress.
+/// The flag that Ctrl-C sets. Every long loop checks the flag. Runs that show no progress, such as simultaneous runs,
+/// use the flag as their listener.
 pub(crate) static INTERRUPT: Cancel = Cancel::new();
 
 /// Makes the first Ctrl-C cancel the run cleanly and the second end the program immediately.

@@ -31,7 +31,7 @@ pub(crate) struct Checking {
 }
 
 impl Checking {
-    /// Checks with this budget. Losses are not errors.
+    /// Creates a value with this budget. Losses are not errors.
     pub(crate) fn for_budget(budget: u64) -> Self {
         let strict = false;
         Self { budget, strict }

@@ -43,7 +43,7 @@ pub(crate) fn read_recipe() -> anyhow::Result<Source> {
     Ok(Source::from_bytes(name, bytes)?)
 }
 
-/// Fails if the path is `-` and the command accepts only files.
+/// Fails if the path is `-`. `command` is the name of a command that accepts only files.
 pub(crate) fn refuse(path: &Path, command: &str) -> anyhow::Result<()> {
     if is_pipe(path) {
         let message = format!("`{command}` cannot use standard input or output: name a file");

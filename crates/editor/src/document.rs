@@ -35,7 +35,7 @@ pub struct Document {
 #[derive(Clone, Debug)]
 struct State {
     text: Arc<str>,
-    /// What the change that led to this text did, for the Undo menu.
+    /// What the change that led to this text did, for the Undo and Redo buttons.
     label: String,
     /// Where the step cursor was after the change.
     cursor: usize,
@@ -255,7 +255,7 @@ impl Document {
         }
     }
 
-    /// Ends a conflict: the text of the file becomes the text of the document. An undo brings back the text before.
+    /// Ends a conflict: the text of the file becomes the text of the document. An undo brings back the previous text.
     pub fn take_theirs(&mut self) {
         if let Some(Conflict { theirs }) = self.conflict.take() {
             self.replace(theirs.clone(), "take the changed file", false);

@@ -57,8 +57,8 @@ impl Journal {
         }
     }
 
-    /// Writes the text of the document if it is not saved, and removes the journal if it is. An error when the journal
-    /// is written is ignored, because the text is still in memory.
+    /// Writes the text of the document if it is not saved, and removes the journal if it is. Errors while the journal
+    /// is written are ignored, because the text is still in memory.
     pub(crate) fn keep(&mut self, document: &Document, store: &dyn Store) {
         if !document.is_dirty()
             || document.undo_label().is_none() && document.redo_label().is_none()
@@ -97,7 +97,7 @@ impl Journal {
 }
 
 /// Returns the unsaved texts of editors that were not closed, for example because of a crash, from the folder of
-/// journals. On systems with a folder `/proc`, texts of other processes that still run are left out.
+/// journals. On systems with a folder `/proc`, texts of other processes that are still running are left out.
 pub fn recoverable(store: &dyn Store, folder: &Path) -> Vec<Recovery> {
     let folders = store.list(folder).unwrap_or_default();
     folders

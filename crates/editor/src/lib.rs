@@ -8,8 +8,8 @@
 //! ```
 //!
 //! The recipe's text is the only state that an edit changes: an [`Editor`] changes the text, and the engine thread runs
-//! it again. Undo goes back in the history of texts. The scenes after the steps of recent texts are kept in memory, so
-//! that an undo usually runs no step. This crate has no window: a program draws what [`Editor`] returns and forwards
+//! the recipe. Undo goes back in the history of texts. The scenes after the steps of recent texts are kept in memory,
+//! so that an undo usually runs no step. This crate has no window: a program draws what [`Editor`] returns and forwards
 //! input.
 //!
 //! | task | items |

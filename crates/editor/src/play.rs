@@ -16,7 +16,7 @@ const MAX_EDITS: usize = 10_000;
 /// The operation whose level is played as splits, flips and moves.
 const LOOP: &str = "LoopSubdivide";
 
-/// The local edits of a step, and how many of them are done at the moment.
+/// The local edits of a step, and how many of them are done.
 #[derive(Debug)]
 pub struct Play {
     mesh: Mesh,

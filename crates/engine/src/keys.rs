@@ -1,5 +1,5 @@
-//! Keys of steps. If a step and all steps before it are unchanged, the key of the step is unchanged, and so is its
-//! result.
+//! Keys of steps. The key of a step depends on the step, on all steps before it, and on their input files. If the key
+//! is unchanged, the result of the step is unchanged.
 
 use std::path::{Path, PathBuf};
 

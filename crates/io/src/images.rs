@@ -184,8 +184,8 @@ pub(crate) fn sniffed(bytes: &[u8]) -> Option<&'static str> {
     }
 }
 
-/// A scene, and the image files that must be written with it. If the format stores materials, every image of the scene
-/// is either embedded or a path.
+/// A scene, and the image files that must be written with it. For OBJ and glTF, every image of the scene is either
+/// embedded or a path.
 pub(crate) struct Settled<'a> {
     pub(crate) scene: Cow<'a, Scene>,
     pub(crate) files: Vec<(PathBuf, Content<'static>)>,

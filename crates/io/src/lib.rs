@@ -134,7 +134,7 @@ pub struct ReadOptions {
     pub placements: Placements,
     /// Whether reading fails if anything in the file would be left out.
     pub strict: bool,
-    /// Whether reading marks the copies of vertices that it splits because they are not manifold. If the mesh is then
+    /// Whether reading marks the copies of vertices that it splits to make the mesh a manifold. If the mesh is then
     /// written to an `.obj`, `.ply`, `.off`, `.gltf` or `.glb` file, the copies are merged, so that the file has the
     /// same vertices as the file that was read. This option is for conversions without edits.
     pub keep_vertices: bool,
@@ -213,7 +213,7 @@ pub fn read(store: &dyn Store, path: &Path, options: &ReadOptions) -> Result<Loa
 }
 
 /// Reads the objects of a file from its bytes. `path` determines the format, appears in errors, and locates the files
-/// that this file refers to. Unlike after [`read()`], [`Loaded::files`] lists only the referenced files, not `path`.
+/// that this file refers to. [`Loaded::files`] lists only these files, whereas [`read()`] also lists `path`.
 ///
 /// # Errors
 ///
@@ -491,7 +491,8 @@ fn write_placed(
         files: mut all,
     } = images::settle(store, path, format, scene, options)?;
     // The writers of OBJ, PLY, OFF and glTF use the marks to merge the copies of split vertices again. For all other
-    // formats, the marks are removed: their readers merge the copies by position, or all copies are stored.
+    // formats, the marks are removed: the readers of these formats merge the copies by position, or the files contain
+    // all copies.
     let scene = &*if keeps_vertices(path) {
         scene
     } else {

@@ -337,7 +337,7 @@ impl Mesh {
         }
     }
 
-    /// If the entries have become larger than the mesh and [`JOURNAL_ALLOWANCE`] together, replaces them by one copy of
+    /// If the entries take at least as many bytes as the mesh plus [`JOURNAL_ALLOWANCE`], replaces them by one copy of
     /// the mesh as it was at `begin`. This function is called between edits. Does nothing while inner levels are open,
     /// because inner levels should be short.
     pub(crate) fn bound_journal(&mut self) {

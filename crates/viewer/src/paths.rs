@@ -12,7 +12,7 @@ use crate::{files, help};
 /// A dialog that ends sooner was not shown. This happens on Linux without a desktop portal.
 const SHORTEST_DIALOG: Duration = Duration::from_millis(200);
 
-/// The purpose of the file for whose path the user is asked.
+/// Why the user is asked for the path of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Purpose {
     Open,

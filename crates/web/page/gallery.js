@@ -3,7 +3,7 @@ import { byId, element } from "./dom.js";
 
 let loading;
 
-/// Loads the scenes once. Returns `scenes` and `files`, which has the content of each file as base64 by its path.
+/// Loads the scenes once. Returns `scenes`, and `files`: the content of each file by its path, as base64.
 function shipped() {
     loading ??= fetched().catch((error) => {
         // The next call tries again, for example after the network is back.

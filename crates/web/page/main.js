@@ -272,7 +272,7 @@ function edited() {
     try {
         localStorage.setItem("recipe", editor.text);
     } catch {
-        // In this case, the text is lost when the page is closed.
+        // If the browser does not allow it, the text is lost when the page is closed.
     }
 }
 

@@ -192,7 +192,7 @@ export class View {
         this.fit(this.#camera.position.clone().sub(this.#controls.target));
     }
 
-    /// If all meshes were in the view before a change, but are not now, moves the camera until they are.
+    /// Moves the camera so that all meshes are in the view, if they were before a change but are not now.
     #keepAll(sawAll) {
         if (sawAll && !this.#seesAll()) {
             this.#refit();
@@ -230,8 +230,8 @@ export class View {
         return distance;
     }
 
-    /// Turns the current meshes into the meshes of the previous run, and moves them by `move`. Drops them if `keep` is
-    /// false.
+    /// Makes the current meshes the meshes of the previous run, and moves them by `move`. If `keep` is false, drops
+    /// them.
     #retire(keep, move) {
         for (const child of this.#earlier.children.flatMap((object) => object.children)) {
             child.geometry.dispose();

@@ -24,8 +24,8 @@ use op::prelude::*;
 ///   with three sides or at a hole with three edges.
 /// - `DuplicateEdge`: a second edge joins the ends.
 /// - `RepeatedVertex`: both ends are also corners of a face that is not beside the edge.
-/// - `Vanishes`: after the collapse, no face would be left around the edge, as for a single triangle, or only two faces
-///   that lie back to back, as for a tetrahedron.
+/// - `Vanishes`: around the edge, the collapse would leave no face, as for a single triangle, or only two faces that
+///   lie back to back, as for a tetrahedron.
 /// - `SameFace`: the same face is on both sides of the edge, or would be on both sides of another edge.
 /// - `SameOpposite`: the two triangles beside the edge share another edge.
 ///
@@ -61,8 +61,8 @@ impl MeshOperation for CollapseEdges {
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let selected = self.edges.count(plan);
         let n = self.on_refusal.done(selected);
-        // On a side of an edge with a triangle, the triangle is removed and two edges become one. On a side with a
-        // larger face or no face, no face is removed.
+        // A triangle beside the edge is removed, and its two other edges become one. A larger face beside the
+        // edge stays.
         let least = u64::from(plan.is_triangles());
         let faces = n.times(Range { min: least, max: 2 });
         plan.vertices = plan.vertices.minus(n);

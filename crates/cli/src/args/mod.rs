@@ -63,7 +63,7 @@ pub(crate) enum Command {
     Edit(EditArgs),
     /// Serve Meshwright's web page to browsers on this computer
     ///
-    /// The server sends the headers without which a browser does not let a page use threads. Other computers cannot
+    /// The server sends the headers that a browser requires before a page can use threads. Other computers cannot
     /// connect. Ctrl-C ends the server.
     Web(WebArgs),
     /// Write a small commented recipe to start from

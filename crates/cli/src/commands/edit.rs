@@ -17,7 +17,7 @@ pub(crate) fn run(args: &EditArgs) -> anyhow::Result<bool> {
         bail!(
             "the editor is not installed: expected {}\n\
              help: if `cargo install` has installed this program, run `cargo install --path crates/viewer` in the \
-             source of Meshwright, which installs the editor in the same folder",
+             source of Meshwright to install the editor in the same folder",
             editor.display()
         );
     }

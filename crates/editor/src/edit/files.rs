@@ -137,7 +137,7 @@ impl Editor {
     }
 
     /// Ends a conflict with another program that changed the file: its text becomes the text of the document. An undo
-    /// brings back the text before.
+    /// brings back the previous text.
     pub fn take_theirs(&mut self) {
         self.document.take_theirs();
         self.text_changed(None);

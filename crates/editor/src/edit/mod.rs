@@ -236,7 +236,7 @@ impl Editor {
         self.run_version == Some(self.document.version())
     }
 
-    /// Whether a run is in progress or waits.
+    /// Whether a run is in progress or waiting.
     pub fn is_running(&self) -> bool {
         !self.is_canceled && (!self.is_checked || self.run.is_running())
     }

@@ -16,7 +16,7 @@ const MAX_AT_ONCE: usize = 50_000;
 /// The selections that describe the picked elements.
 #[derive(Default)]
 pub(super) enum Proposals {
-    /// They were not requested yet.
+    /// They have not been requested yet.
     #[default]
     Unknown,
     /// A thread searches for them.
@@ -87,8 +87,9 @@ impl Editor {
         };
     }
 
-    /// Whether the search for the selections that describe several picked elements has not ended yet. In a large mesh,
-    /// the search takes long. Commands wait for the search; a window calls this function before it shows a selection.
+    /// Whether the search for the selections that describe several picked elements is still in progress. In a large
+    /// mesh, the search takes long. Commands wait for the search; a window calls this function before it shows a
+    /// selection.
     pub fn is_searching(&mut self) -> bool {
         let is_one = self.picked.as_ref().is_some_and(|picked| picked.len() == 1);
         if !is_one && self.first_proposal.is_none() {
@@ -106,7 +107,7 @@ impl Editor {
         }
     }
 
-    /// Chooses the next selection that describes the picked elements; after the last selection, the first.
+    /// Chooses the next selection that describes the picked elements. After the last selection, chooses the first.
     pub fn next_proposal(&mut self) {
         let first = self.first_proposal.take();
         self.proposals();

@@ -10,8 +10,8 @@ use super::{CommandError, Editor};
 use crate::text::{self, Outline};
 
 impl Editor {
-    /// Adds expectations about the scene at the cursor: its counts and, if they are true, that it is manifold and that
-    /// it is closed. If the cursor is before the end, the step before the cursor gets an id, and the expectations are
+    /// Adds expectations about the scene at the cursor: its counts, that it is manifold if it is, and that it is closed
+    /// if it is. If the cursor is before the end, the step before the cursor gets an id, and the expectations are
     /// checked after this step. Returns the expectations.
     ///
     /// # Errors

@@ -22,7 +22,7 @@ pub enum FieldKind {
     Text,
     /// Two or three numbers `(x, y, z)`, with this length.
     Vector(usize),
-    /// One of several variants. Some of them have content.
+    /// One of several variants, some of which have content.
     Variants(Vec<Variant>),
     /// A struct with these fields.
     Struct(Vec<PanelField>),
@@ -177,7 +177,7 @@ impl FieldKind {
         }
     }
 
-    /// Returns the kind of the value itself: for `Optional(kind)`, `kind`.
+    /// Returns the kind of the value itself, without `Optional` around it.
     pub fn inner(&self) -> &Self {
         match self {
             Self::Optional(inner) => inner.inner(),

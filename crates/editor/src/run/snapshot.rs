@@ -1,4 +1,4 @@
-//! A cache of the scenes after steps, with the keys of the steps.
+//! A cache of the scenes after steps, indexed by the keys of the steps.
 
 use std::collections::HashMap;
 use std::sync::Arc;

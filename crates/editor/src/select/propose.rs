@@ -1,9 +1,9 @@
 //! From picked elements to selections of recipes that describe them.
 //!
-//! A selection describes the picked elements if it selects exactly these elements. Candidates are tried in the order of
-//! how much they say about the elements: tags, the boundary, materials, loops and paths, components, thresholds,
-//! numbers. For a single element, its number comes first. Each candidate is resolved on the mesh and kept if it selects
-//! exactly the picked elements.
+//! A selection describes the picked elements if it selects exactly these elements. Candidates are tried in this order,
+//! the most meaningful first: tags, the boundary, materials, loops and paths, components, thresholds, numbers. For a
+//! single element, its number comes first. Each candidate is resolved on the mesh and kept if it selects exactly the
+//! picked elements.
 
 use mesh::{Domain, EdgeId, FaceId, Id, MATERIAL, Mesh, Values, VertexId};
 use op::{ElementKind, Selected};

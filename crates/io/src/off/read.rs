@@ -366,8 +366,8 @@ pub(crate) fn peek(
         if (3..=MAX_COMPARED as u64).contains(&degree) {
             let words = (0..degree).map_while(|_| cursor.argument());
             let vertices: Vec<&[u8]> = words.map(|(_, word)| word).collect();
-            // The index `0` is checked separately, because `are_different` refuses words that begin with a zero. It
-            // differs from all other words that `are_different` accepts.
+            // `are_different` refuses words that begin with a zero. Therefore, the index `0` is checked separately: it
+            // may occur at most once, and differs from all words that `are_different` accepts.
             let others: Vec<&[u8]> = (vertices.iter().copied())
                 .filter(|word| *word != b"0")
                 .collect();

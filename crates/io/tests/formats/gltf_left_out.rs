@@ -112,7 +112,7 @@ fn names_of_textures_and_extras_of_materials_are_kept() {
         let back = crate::read(&path).unwrap();
         assert_eq!(back.objects, scene.objects(), "{extension}");
     }
-    // OBJ files cannot store extras of materials and names of textures.
+    // OBJ files can store neither extras of materials nor names of textures.
     let path = folder.path("a.obj");
     let losses = mesh_io::write(&Disk, &path, &scene, &WriteOptions::default());
     let losses: Vec<_> = losses

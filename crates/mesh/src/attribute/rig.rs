@@ -42,8 +42,8 @@ pub fn morph_of(name: &str) -> Option<usize> {
     number(name.strip_prefix(MORPH)?)
 }
 
-/// Returns the morph target whose normals the attribute with this name stores; `None` if the name is not that of
-/// normals of a morph target.
+/// Returns the morph target whose normals the attribute with this name stores; `None` if an attribute with this name
+/// does not store normals of a morph target.
 pub fn morph_normal_of(name: &str) -> Option<usize> {
     number(name.strip_prefix(MORPH_NORMAL)?)
 }

@@ -59,14 +59,14 @@ class Editor:
     def split(self, edge: int, at: float = 0.5) -> int:
         """Inserts a vertex on an edge and joins it to the opposite corners of triangles. Returns the vertex.
 
-        :param at: The position along the edge, from 0 at the first of its :meth:`edge_vertices` to 1, exclusive.
+        :param at: The position along the edge, strictly between 0 (the first of its :meth:`edge_vertices`) and 1.
         """
         return self._core.split(edge, at)
 
     def collapse(self, edge: int, at: float = 0.5) -> int:
         """Merges both ends of an edge into one vertex. Returns the vertex that remains.
 
-        :param at: The position along the edge, from 0 at the first of its :meth:`edge_vertices` to 1.
+        :param at: The position along the edge, from 0 (the first of its :meth:`edge_vertices`) to 1.
         """
         return self._core.collapse(edge, at)
 
@@ -89,7 +89,7 @@ class Editor:
     def inset(self, face: int, fraction: float) -> list[int]:
         """Shrinks a face, with a ring of faces around it. Returns the new faces.
 
-        :param fraction: How far each corner moves toward the center, from 0 to 1, exclusive.
+        :param fraction: How far each corner moves toward the center, strictly between 0 and 1.
         """
         return self._core.inset(face, fraction)
 

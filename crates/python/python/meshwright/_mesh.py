@@ -180,7 +180,8 @@ class Mesh(MeshConversions, MeshOperations):
 
     @property
     def face_starts(self) -> NDArray[np.uint64]:
-        """The index in :attr:`corners` of the first corner of each face, and the number of corners as last entry."""
+        """The index in :attr:`corners` of the first corner of each face, and the number of corners as the last
+        entry."""
         return self._polygons[1]
 
     @property
@@ -340,7 +341,7 @@ class Mesh(MeshConversions, MeshOperations):
     @property
     def is_closed(self) -> bool:
         """Whether every edge has two faces, so that the mesh is watertight. Every mesh is a manifold: each edge has one
-        or two faces, and two faces of an edge have the same orientation."""
+        or two faces, and two faces of an edge are oriented consistently."""
         return self._core.is_closed()
 
     @property

@@ -91,7 +91,8 @@ class Scene(SceneOperations, Mapping[str, Mesh]):
 
     @cached_property
     def digest(self) -> str:
-        """The digest of the scene. It is equal for equal scenes on every machine, and the program prints the same."""
+        """The digest of the scene. It is equal for equal scenes on every machine, and the program prints the same
+        digest."""
         return self._core.digest()
 
     # ---- Operations
@@ -203,7 +204,7 @@ WRITES = {"Save", "Picture", "CurveFigure", "HalfEdgeFigure", "UvPicture"}
 
 
 def whole_step(operation: str, fields: Mapping[str, Any], on: str | Sequence[str] | None, id: str | None) -> str:
-    """A step with the fields around its operation, if it has any: its id and the names of its objects."""
+    """A step of a recipe, with its id and the names of its objects if they are given."""
     step = _ron.step(operation, fields)
     if on is None and id is None:
         return step

@@ -12,7 +12,7 @@ use super::layout::Pane;
 /// The name of the file in the state folder.
 pub(super) const FILE: &str = "window.ron";
 
-/// The layout of the window. If the file cannot be parsed, all values are the defaults.
+/// The layout of the window. If the file is missing or cannot be parsed, all values are the defaults.
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq)]
 #[serde(default)]
 pub(crate) struct Remembered {

@@ -113,8 +113,8 @@ impl Request {
     }
 }
 
-/// Returns the real path of the regular file at a path. Returns `None` if the file does not exist, or if a link leads
-/// to a file outside of the folder.
+/// Returns the path of a regular file in the folder, with links resolved. Returns `None` if there is no such file, or
+/// if a link leads out of the folder.
 fn inside(folder: &Path, path: &Path) -> Option<PathBuf> {
     let real = folder.join(path).canonicalize().ok()?;
     (real.starts_with(folder) && real.is_file()).then_some(real)

@@ -24,7 +24,7 @@ FOLDER = Path(__file__).parent / "python" / "meshwright"
 
 
 def use_built_library() -> None:
-    """Makes a package of the sources beside this file and of the library that cargo built."""
+    """Makes a package from the sources beside this file and the library that cargo built."""
     folder = Path(__file__).resolve().parents[2] / "target"
     found = [path for path in folder.glob("*/*meshwright_core.*") if path.suffix in (".so", ".dylib", ".dll")]
     found.sort(key=lambda path: path.stat().st_mtime, reverse=True)
@@ -121,7 +121,7 @@ TOKEN = re.compile(r'\s*("[^"]*"|[A-Za-z_]\w*|[-+]?[\d._]+(?:e[-+]?\d+)?|[()\[\]
 
 def in_python(code: str) -> str | None:
     """The Python expression for a value or a parameter of a recipe: ``sel.Sharp(above=30)`` for `Sharp(above: 30)`.
-    `None` if the text is no such value."""
+    `None` if the text is not such a value."""
     tokens = TOKEN.findall(code)
     if "".join(tokens) != re.sub(r'\s+(?=(?:[^"]*"[^"]*")*[^"]*$)', "", code):
         return None
@@ -143,7 +143,7 @@ def in_python(code: str) -> str | None:
 
 
 def word(name: str) -> str:
-    """The Python name of a word alone. Most words are also reasons, formats or attributes, and stay as they are."""
+    """The Python name of a single word. Most words are also reasons, formats or attributes, and are not changed."""
     if name in operations():
         return f"{snake(name)}()"
     modules = [("sel", selections()), ("choice", others()), ("expect", variants(EXPECTATIONS))]
@@ -152,7 +152,7 @@ def word(name: str) -> str:
 
 
 def expression(tokens: list[str]) -> tuple[str, list[str]]:
-    """The Python expression for the value at the beginning, and the tokens behind it."""
+    """The Python expression for the value at the beginning, and the tokens after it."""
     first, rest = tokens[0], tokens[1:]
     if first in "([":
         parts, rest = arguments(rest)
@@ -171,7 +171,7 @@ def expression(tokens: list[str]) -> tuple[str, list[str]]:
 
 
 def arguments(tokens: list[str]) -> tuple[list[str], list[str]]:
-    """The values before the closing bracket, and the tokens behind it."""
+    """The values before the closing bracket, and the tokens after it."""
     parts = []
     while tokens[0] not in ")]":
         name = ""
@@ -249,7 +249,7 @@ def takes_selection(schema: Any) -> bool:
 def docstring(
     text: str, fields: list[tuple[str, Any]], indent: str, example: str = "", more: Sequence[str] = ()
 ) -> list[str]:
-    """The lines of a docstring: the text, an example, the parameters, and `more` lines behind the parameters."""
+    """The lines of a docstring: the text, an example, the parameters, and the lines `more` after the parameters."""
     first, *paragraphs = filter(str.strip, text.split("\n\n"))
     lines = block('"""' + first, indent)
     for paragraph in paragraphs:

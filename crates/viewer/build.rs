@@ -1,4 +1,4 @@
-//! Lists the pictures of the reference of operations, so that the program holds them.
+//! Lists the pictures of the reference of operations, so that the program contains them.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};

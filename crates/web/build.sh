@@ -24,7 +24,7 @@ if ! [ -d "$sysroot/lib/rustlib/$target" ]; then
     [ -x "$linker" ] || skip "the toolchain has no rust-lld"
     root=$work/root/usr
     if ! [ -d "$root/src" ] || ! [ -x "$root/bin/rustc" ]; then
-        # Package lists in a folder of their own, which needs no root.
+        # The package lists are in a separate folder, so that apt-get does not need root.
         mkdir -p "$work/lists/partial" "$work/cache/archives/partial" "$work/debs"
         printf '%s\n' "Dir::State::lists \"$work/lists\";" "Dir::Cache \"$work/cache\";" > "$work/apt.conf"
         [ "$(id -u)" != 0 ] || echo 'APT::Sandbox::User "root";' >> "$work/apt.conf"
@@ -70,7 +70,8 @@ package() {
 package "$work/target" "$out"
 node crates/web/tests/scenes.mjs "$out"
 
-# Threads need shared memory and atomic operations, also in the standard library, which is therefore built from its sources.
+# Threads need shared memory and atomic operations. The standard library must support them, too, and is therefore built
+# from its sources.
 if [ -n "${compiler:-}" ]; then
     flags="-C target-feature=+atomics"
     for argument in --shared-memory --import-memory --max-memory=4294967296 --export=__heap_base \

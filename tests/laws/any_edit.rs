@@ -1,5 +1,5 @@
-//! Encodes any edit of a mesh as numbers, for the random tests and the fuzzer: local edits, and algorithms that change the
-//! whole surface.
+//! Encodes any edit of a mesh as numbers, for the random tests and the fuzzer: local edits, and algorithms that change
+//! the whole surface.
 
 use geometry::surface_index::{SurfaceIndex, Winding};
 use geometry::{deform, remesh, simplify, smooth, uv};
@@ -222,7 +222,7 @@ fn change_surface(mesh: &mut Mesh, code: EditCode) {
                 with_uvs.set(mesh::UV, unwrapped.uvs);
                 mesh.replace(with_uvs);
             }
-            // The measures must not panic.
+            // Measuring the mesh must not panic.
             let is_source: Vec<bool> = (0..vertices.len()).map(|v| v == usize::from(b)).collect();
             geometry::geodesic_distances(mesh, &is_source, &NoProgress).ok();
             geometry::thickness(mesh, &NoProgress).ok();
@@ -337,7 +337,7 @@ fn transfer(mesh: &mut Mesh, a: u16) {
     }
 }
 
-/// Measures the mesh, which must not panic, and scatters points over it.
+/// Measures the mesh and scatters points over it. Neither must panic.
 fn measure(mesh: &Mesh, a: u16) {
     geometry::occlusion(mesh, 4, a.into(), &NoProgress).ok();
     let count = usize::from(a % 8);

@@ -126,7 +126,8 @@ const LONG_STEPS: &[&str] = &[
     "Picture(path: \"a.png\", size: (2000, 2000))",
 ];
 
-/// The bound is loose, so that the test does not fail on a slow machine.
+/// The limit of one second is much longer than the usual time between two calls, so that the test does not fail on a
+/// slow machine.
 #[test]
 #[cfg(unix)]
 fn long_steps_report_progress_at_least_once_a_second() {

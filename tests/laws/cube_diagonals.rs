@@ -58,7 +58,8 @@ fn no_pattern_of_flipped_diagonals_keeps_more_than_twelve_rotations_of_a_cube() 
             .iter()
             .all(|scene| is_symmetric(scene, None, Some(12)))
     );
-    // In the two patterns, the diagonals are the edges of a tetrahedron and of its mirror image.
+    // Two patterns keep twelve rotations. In one of them, the diagonals are the edges of a tetrahedron. The other
+    // pattern is its mirror image.
     assert_eq!(
         scenes
             .iter()

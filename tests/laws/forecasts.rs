@@ -37,7 +37,7 @@ fn disagreements(loaded: &Loaded) -> Vec<String> {
     for (done, forecast) in outcome.steps.iter().zip(&loaded.forecast.steps) {
         let planned = forecast.losses.iter().chain(&forecast.possible_losses);
         let planned: BTreeSet<&str> = planned.map(|loss| loss.name.as_str()).collect();
-        // Whether there are holes, so that normals are dropped, depends on the connectivity.
+        // Normals are dropped only if there are holes. This depends on the connectivity, which `check` does not know.
         let fills = done.label == "FillHoles";
         let is_unknown = |name: &str| {
             let depends = OF_VALUES.contains(&name) || fills && name == "normal";
@@ -57,7 +57,7 @@ fn disagreements(loaded: &Loaded) -> Vec<String> {
                 found.push(format!("{}: {n} {what}, but planned {range:?}", done.label));
             }
         }
-        // What is certain happens.
+        // The losses that the forecast lists as certain must occur.
         let lost = |name: &str| done.report.losses.iter().any(|loss| loss.name == name);
         for loss in forecast.losses.iter().filter(|loss| !lost(&loss.name)) {
             found.push(format!("{}: not lost: {loss}", done.label));
@@ -117,7 +117,8 @@ fn check_knows_what_small_recipes_refuse_and_lose() {
     for (name, text) in FILES {
         std::fs::write(folder.path().join(name), text).expect("the file can be written");
     }
-    // Operations that write pictures take long and lose nothing.
+    // Operations with a path are left out. The cases already contain `Load` and `Save`, and the other operations with a
+    // path write pictures, which take long and lose nothing.
     let operations = registry.entries().iter().map(|entry| entry.example);
     let operations = operations.filter(|example| !example.contains("path:"));
     let cases: Vec<String> = operations

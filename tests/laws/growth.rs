@@ -14,8 +14,9 @@
 //! provides new memory for each run.
 //!
 //! Each time is the median of several runs on one thread, in processor time, so that other programs matter little. The
-//! mesh is doubled twice between compared times. If a growth is too large, it is measured again, and then on a mesh that
-//! is four times as large, because the time also jumps at the size at which the data no longer fit in a cache.
+//! time on a mesh is compared with the time on a mesh that is four times as large (doubled twice). If the growth is too
+//! large, it is measured again, and then with both meshes four times as large, because the time also jumps at the size
+//! at which the data no longer fit in a cache.
 
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -62,7 +63,9 @@ const STEEPER: &[(&str, f64)] = &[
     // Tarjan, "Generalized Nested Dissection", 1979.
     ("Measure(of: Geodesic", 8.5),
     ("Smooth(by: Implicit", 8.5),
-    // Holes of at most 500 edges are filled in cubic time. The boundaries of the largest grids are longer.
+    // The time to fill a hole of at most 500 edges is cubic in the number of edges. The boundary of a grid with n faces
+    // has a length proportional to n^0.5, so the time is proportional to n^1.5, except for the largest grids, whose
+    // boundaries have more than 500 edges.
     ("FillHoles(", 8.5),
 ];
 
@@ -188,7 +191,7 @@ fn growth(scene: impl Fn(usize) -> Scene, work: impl Fn(Scene) -> bool) -> Growt
         return Growth::TooLong;
     }
     if first < LONG_ENOUGH {
-        // The time hardly depends on the size of the mesh.
+        // The time is short even for the largest mesh, so it hardly depends on the size of the mesh.
         return Growth::By(1.0);
     }
     let growth = |small: &Scene, large: &Scene| {
@@ -207,8 +210,8 @@ fn growth(scene: impl Fn(usize) -> Scene, work: impl Fn(Scene) -> bool) -> Growt
     if first <= MAX_GROWTH {
         return Growth::By(first);
     }
-    // The time can jump once, at the size at which data no longer fit in a cache or memory is no longer reused. A slow
-    // search also shows on larger meshes.
+    // The time can jump once, at the size at which data no longer fit in a cache or memory is no longer reused. If the
+    // algorithm is too slow, the growth is also too large between larger meshes.
     Growth::By(first.min(growth(&large, &scene(16 * n))))
 }
 
@@ -263,8 +266,8 @@ fn time_to_check(text: &str) -> Duration {
     times.min().expect("three times")
 }
 
-/// A quadratic search among 8000 parts is noticed, because it would take most of the time. Only a growth by a factor of 8
-/// for four times the parts is refused, so that the test does not fail on a busy machine.
+/// A quadratic search among 8000 parts is noticed, because it would take most of the time. The test fails only if four
+/// times the parts take more than 8 times as long, so that it does not fail on a busy machine.
 #[test]
 fn reading_and_checking_a_recipe_is_not_quadratic() {
     let failures = on_one_thread(|| {

@@ -1,5 +1,5 @@
-//! Tests general properties, for example of every operation on every fixture, of every schema, of random sequences of
-//! edits, and of the book and the sources.
+//! Tests of general properties: of every operation on every fixture, of every schema, of random sequences of edits, of
+//! the book, and of the sources.
 
 mod all_edits;
 mod any_edit;

@@ -41,7 +41,8 @@ fn every_file_is_in_the_registry() {
     for (name, path) in files() {
         assert!(
             registry.entries().iter().any(|entry| entry.name == name),
-            "{} is not registered: add `.with::<{name}>()` to `register` in the lib.rs of its group, or add the group to ops/all",
+            "{} is not registered: add `.with::<{name}>()` to `register` in the lib.rs of its group, or add the group \
+             to ops/all",
             path.display()
         );
     }

@@ -76,7 +76,7 @@ fn a_kind_of_geometry_is_refused_exactly_if_writing_fails() {
     );
 }
 
-/// A mesh with attributes of all types and domains, and the usual ones.
+/// Returns a mesh with a float, an integer and a tag attribute in every domain, and with the standard attributes.
 fn rich() -> Object {
     let mut mesh = shapes::cube();
     let mut add = |domain, name: &str, values: fn(usize) -> Values| {
@@ -152,7 +152,7 @@ fn the_losses_of_writing_are_planned() {
             else {
                 continue;
             };
-            // The names in the plan do not depend on whether the objects are joined.
+            // Only the names of the losses are compared, because they do not depend on whether the objects are joined.
             let lost: BTreeSet<String> = report.losses.into_iter().map(|l| l.attribute).collect();
             let (_, plan) = planned(&path, scene);
             let names = |losses: &[Loss]| losses.iter().map(|l| l.name.clone()).collect();

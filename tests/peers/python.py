@@ -15,7 +15,7 @@ FACES = 62_500
 
 
 class Clock:
-    """Keeps the lowest time of each step in several runs, and the lowest time of all processors together."""
+    """Keeps the lowest elapsed time and the lowest time of all processors together, for each step of several runs."""
 
     def __init__(self):
         self.best = {}
@@ -31,7 +31,7 @@ class Clock:
 def by_meshwright(source, target, clock):
     m = clock.step("load", lambda: mw.read(source).mesh())
     m = clock.step("weld", lambda: m.weld(distance=0))
-    # trimesh does not keep the normals, so they are not a part of the further work here either.
+    # trimesh does not keep the normals, so the following steps here also use the mesh without them.
     clock.step("normals", lambda: m.vertex_normals())
     small = clock.step("simplify", lambda: m.simplify(faces=FACES))
     m = clock.step("subdivide twice", lambda: small.midpoint(levels=2))
@@ -44,7 +44,7 @@ def by_trimesh(source, target, clock):
     m = clock.step("load", lambda: trimesh.load_mesh(source, process=False))
     clock.step("weld", lambda: m.merge_vertices())
     clock.step("normals", lambda: numpy.asarray(m.vertex_normals))
-    # With the default, 7, the largest distance is 14 times as large.
+    # With the default aggression, 7, the largest distance is 14 times as large.
     simplify = m.simplify_quadric_decimation
     small = clock.step("simplify", lambda: simplify(face_count=FACES, aggression=2))
     m = clock.step("subdivide twice", lambda: small.subdivide().subdivide())

@@ -11,7 +11,7 @@ import numpy
 import pymeshlab
 
 RUNS = 3
-# The lengths, relative to the mean edge length of the model.
+# The target lengths, relative to the mean edge length of the model.
 LENGTHS = [1, 0.45]
 
 
@@ -52,7 +52,7 @@ def by_pymeshlab(source, target, length):
     meshes = pymeshlab.MeshSet()
     meshes.load_new_mesh(str(source))
     start = time.perf_counter()
-    # Without features, like the others.
+    # Without sharp features, as in the runs of the other programs.
     meshes.meshing_isotropic_explicit_remeshing(
         iterations=10, targetlen=pymeshlab.PureValue(length), featuredeg=180
     )

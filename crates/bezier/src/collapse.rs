@@ -8,11 +8,11 @@
 //!     corner 0 --- side 0 --- corner 1
 //! ```
 //!
-//! To test a side, its boundary curve is sampled at i/m for i from 0 to m, where m is the number of segments, but at
-//! most 3. The side is collapsed if every sample differs from the first sample by at most 1e-12 times the extent of the
-//! patch, in every coordinate. With three or more segments, a collapsed side is one point, because a cubic that has the
-//! same value at four parameters is constant. With fewer segments, a collapsed side can also be a loop whose samples
-//! coincide.
+//! To test a side, its boundary curve is sampled at i/m for i from 0 to m, where m is the number of segments or 3,
+//! whichever is smaller. The side is collapsed if every sample differs from the first sample by at most 1e-12 times the
+//! extent of the patch, in every coordinate. With three or more segments, a collapsed side is one point, because a
+//! cubic that has the same value at four parameters is constant. With fewer segments, a collapsed side can also be a
+//! loop whose samples coincide.
 
 use glam::DVec3;
 
@@ -27,7 +27,7 @@ const TOLERANCE: f64 = 1e-12;
 /// The collapsed sides of a patch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Sides {
-    /// Whether each side is collapsed, in the order of the picture.
+    /// Whether each side is collapsed. The sides are numbered as in the picture at the top of the file.
     pub(crate) collapsed: [bool; 4],
     /// Whether all rows or all columns coincide, so that the patch is a curve or a point.
     has_no_area: bool,

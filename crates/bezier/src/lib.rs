@@ -13,9 +13,9 @@
 //! - A **tessellation** samples patches at u = i/n, v = j/n and joins the samples by triangles or
 //!   quads. See [`tessellate()`] and [`counts`].
 //!
-//! Faces are counter-clockwise when seen from the side of the normal ds/du x ds/dv. The positions on
-//! a boundary that two patches share are equal bit for bit. A collapsed side (all of its points
-//! coincide) becomes one vertex, with an exact normal.
+//! Faces are counter-clockwise when seen from the side to which the normal ds/du x ds/dv points. The positions
+//! on a boundary that two patches share are equal bit for bit. A side is collapsed if all of its points coincide.
+//! A collapsed side becomes one vertex, with an exact normal.
 //!
 //! # Examples
 //!

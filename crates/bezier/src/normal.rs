@@ -30,12 +30,12 @@
 //!
 //! Before the coefficients are compared with zero, the derivatives along u are divided by the largest
 //! difference of control points that are neighbors along u, and the derivatives along v by the largest
-//! difference along v. A coefficient of at most [`VANISHING`] is then treated as zero. Because of this scaling,
-//! even thin and tiny patches get normals.
+//! difference along v. A coefficient is then treated as zero if the magnitude of each of its coordinates is at most
+//! [`VANISHING`]. Because of this scaling, even thin and tiny patches get normals.
 
 use glam::{DVec2, DVec3};
 
-/// The largest coefficient of the scaled normal that is treated as zero.
+/// A coefficient of the scaled normal is treated as zero if the magnitude of each coordinate is at most this value.
 ///
 /// The value is well above the rounding errors of the coefficients (1e-14), and above the coefficients at an
 /// edge that is collapsed only within the tolerance of [`tessellate`](crate::tessellate()). Near a pole (within

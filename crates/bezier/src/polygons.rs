@@ -16,7 +16,7 @@ use crate::BezierError;
 pub struct Tessellation {
     /// The position of every vertex.
     pub positions: Vec<DVec3>,
-    /// The exact unit normal of the patch at every vertex; zero where the patch has none
+    /// The exact unit normal of the patch at every vertex; zero where the patch has no normal
     /// (see [`Patch::normal`](crate::Patch::normal)).
     pub normals: Vec<DVec3>,
     /// The parameters (u, v) of every vertex in its patch.

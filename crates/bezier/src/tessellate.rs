@@ -18,18 +18,17 @@
 //! A collapsed side, whose points coincide (as at the pole of a teapot's lid), becomes one vertex, and adjacent
 //! collapsed sides together become one vertex. A cell with one collapsed side becomes a triangle; a cell with more
 //! collapsed sides becomes no face. To test a side, its boundary curve is sampled at i/m for i from 0 to m, where m is
-//! n, but at most 3. The side is collapsed if every sample differs from the first sample by at most 1e-12 times the
-//! extent of the control points of the patch, in every coordinate. The vertex of adjacent collapsed sides is at the
-//! start of the first of these sides, in the order v = 0, u = 1, v = 1, u = 0. The UV and the normal of this vertex are
-//! those of the middle of that first side.
+//! n or 3, whichever is smaller. The side is collapsed if every sample differs from the first sample by at most 1e-12
+//! times the extent of the control points of the patch, in every coordinate. The vertex of adjacent collapsed sides is
+//! at the start of the first of these sides, in the order v = 0, u = 1, v = 1, u = 0. The UV and the normal of this
+//! vertex are those of the middle of that first side.
 //!
 //! A patch is a curve or a point if all of its rows or all of its columns coincide, with the same tolerance. A
 //! patch gives no vertices and no faces if it is a curve or a point, or if none of its cells becomes a face. The
 //! result lists these patches.
 //!
-//! Other degeneracies are not detected. Faces can have zero area if a patch folds onto itself, or if the
-//! segments are so few that the corners of a cell are collinear (as at the tip of the teapot's spout with
-//! one segment).
+//! Other degeneracies are not detected. Faces can have zero area if a patch folds onto itself. With too few
+//! segments, the corners of a cell can also be collinear (as at the tip of the teapot's spout with one segment).
 
 use std::num::NonZero;
 
@@ -74,7 +73,7 @@ pub fn tessellate(
 /// # Errors
 ///
 /// Returns the errors of [`counts`], for the resulting size of `out`, and [`BezierError::OutOfMemory`].
-/// `out` is unchanged.
+/// If an error is returned, `out` is unchanged.
 pub fn tessellate_patch(
     patch: &Patch,
     segments: u32,
@@ -107,7 +106,7 @@ pub fn tessellate_patch(
     Ok(())
 }
 
-/// Returns the exact number of elements of the result of [`tessellate`], without computing it.
+/// Returns the exact number of elements of the result of [`tessellate`], without computing the result.
 ///
 /// # Errors
 ///
@@ -129,7 +128,7 @@ struct PatchTessellator<'a> {
     sides: Sides,
     /// See [`Patch::max_steps`].
     max_steps: DVec2,
-    /// The vertices of collapsed sides, by the first side of their chain.
+    /// For the first side of each chain of collapsed sides, the vertex of the chain. `None` until the vertex is added.
     collapsed: [Option<u32>; 4],
 }
 

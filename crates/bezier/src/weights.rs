@@ -1,4 +1,4 @@
-//! The weights of a parameter. If a curve is reversed, its weights are exchanged bit for bit.
+//! The weights 1 - t and t of a parameter t. For the reversed curve, the two weights are exchanged, bit for bit.
 
 use crate::Point;
 

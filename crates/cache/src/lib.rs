@@ -1,9 +1,9 @@
 //! The step cache: stores the results of steps in a folder that several processes can share.
 //!
 //! ```text
-//! steps/ab/cdef..     the records of a step (report, counts, files, references to blobs), by its key
-//! blobs/12/3456..     arrays of scenes and output files, each by the BLAKE3 digest of its content
-//! recipes/..          for each recipe, the data behind the keys of the steps in its last run, to explain changes
+//! steps/ab/cdef..     the records of the step with the key abcdef.. (report, counts, files, references to blobs)
+//! blobs/12/3456..     an array of a scene, or an output file, whose content has the BLAKE3 digest 123456..
+//! recipes/..          for each recipe, the data from which the keys of its last run were computed, to explain changes
 //! tmp/                files that are being written
 //! sizes               the number of bytes that each run has added
 //! key                 the secret key of the cache: random bytes that enter the digests of records
@@ -33,8 +33,8 @@
 //! changes one attribute of a large mesh therefore adds only that attribute.
 //!
 //! **Size.** At the end of a run that has stored something, the numbers of bytes that all runs have added are summed.
-//! If the sum exceeds the limit, all files are listed. If these files exceed the limit too, the least recently used
-//! ones are removed until the remaining files take at most nine tenths of the limit.
+//! If the sum exceeds the limit or is not known, all files are listed. If these files exceed the limit, the least
+//! recently used ones are removed until the remaining files take at most nine tenths of the limit.
 
 mod blob;
 mod evict;
@@ -74,8 +74,8 @@ pub struct Cache {
 pub struct Caching<'a> {
     /// The cache.
     pub cache: &'a Cache,
-    /// The file of the recipe, if it has one. The data behind the keys of the steps is stored for this file, so
-    /// that the next run can report changes.
+    /// The file of the recipe, if it has one. The data from which the keys of the steps are computed is stored for this
+    /// file, so that the next run can report which data has changed.
     pub recipe: Option<&'a Path>,
     /// Whether [`Outcome::scene`](recipe::Outcome::scene) must be available even if no step needs it.
     pub want_scene: bool,
@@ -99,8 +99,9 @@ impl StepCache for Caching<'_> {
 }
 
 impl Cache {
-    /// Returns the cache in `folder`. The folder is created when something is stored. The size of the cache is kept
-    /// below `limit` bytes. `program` identifies the program and its version. Results of other programs are not used.
+    /// Returns the cache in `folder`. The folder is created when something is stored. If the files exceed `limit` bytes
+    /// at the end of a run that has stored something, the least recently used files are removed. `program` identifies
+    /// the program and its version. Results of other programs are not used.
     pub fn new(folder: impl Into<PathBuf>, limit: u64, program: impl Into<String>) -> Self {
         Self {
             folder: Folder::new(folder.into()),

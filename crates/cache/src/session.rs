@@ -43,8 +43,8 @@ pub(crate) struct Session<'a> {
     ingredients: Option<Ingredients>,
     /// The computing time since the last stored scene.
     unstored_time: Duration,
-    /// The last step that ran because something changed, so that later steps can also have to run. The tuple has the
-    /// number of the step (counted from 1) and its label.
+    /// The last step that ran because something changed. As a consequence, later steps may also have to run. The tuple
+    /// has the number of the step (counted from 1) and its label.
     last_changed: Option<(usize, String)>,
     notes: Vec<String>,
 }
@@ -137,8 +137,8 @@ impl CachedRun for Session<'_> {
                     "the result of step {number} {label} is not stored, because its input files cannot be determined ({}: {why})",
                     path.display()
                 ));
-                // Later steps can still be cached, because the identity of the scene after this step is computed from the scene
-                // itself, not from the inputs of the step.
+                // Later steps can still be cached, because the identity of the scene after this step is computed from
+                // the scene itself, and not from the inputs of the step.
                 if is_dense(done.scene) {
                     let digest = position.digest.unwrap_or_else(|| done.scene.digest());
                     position.digest = Some(digest);
@@ -303,8 +303,9 @@ impl<'a> Session<'a> {
         Err(first.unwrap_or(RerunReason::Gone))
     }
 
-    /// Checks that the step would give the recorded result if it ran now. If so, and if there is a stage, the
-    /// output files of the step are restored into the stage.
+    /// Checks that the step would give the recorded result if it ran now. If so, and if a stage is given, restores the
+    /// output files of the step into the stage. The stage is the folder that collects output files until the run
+    /// succeeds.
     fn use_record(
         &mut self,
         record: &Record,
@@ -443,7 +444,7 @@ fn rerun_reason(why: Unusable) -> RerunReason {
     }
 }
 
-/// Whether storing this number of bytes takes at most `time`.
+/// Whether `bytes` is less than [`ALWAYS_STORED`], or storing this number of bytes takes at most `time`.
 fn is_worth_storing(bytes: u64, time: Duration) -> bool {
     bytes < ALWAYS_STORED || bytes as f64 / BYTES_PER_SECOND <= time.as_secs_f64()
 }

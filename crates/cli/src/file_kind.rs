@@ -22,12 +22,13 @@ pub(crate) enum FileKind {
 const MAX_SWEEP: u64 = 1 << 20;
 
 /// Checks the kind of a file by its extension. Recipes and sweeps share an extension, so they are distinguished by
-/// their contents. Files that are missing or of an unknown kind are accepted here, because the command itself reports
-/// them.
+/// their contents. If a recipe or a sweep is expected, a file with an unknown extension must begin like a recipe.
+/// Missing files, and other files of an unknown kind, are accepted here, because the command itself reports them.
 ///
 /// # Errors
 ///
-/// [`WrongUsage`], which names the commands for the file.
+/// [`WrongUsage`] if the path is a folder, or the file is not of the expected kind. If the kind of the file is known,
+/// the message names the commands for the file.
 pub(crate) fn expect_kind(path: &Path, expected: FileKind) -> anyhow::Result<()> {
     let shown = path.display();
     if path.is_dir() {
@@ -51,8 +52,8 @@ pub(crate) fn expect_kind(path: &Path, expected: FileKind) -> anyhow::Result<()>
     }
 }
 
-/// Whether a file can be a recipe or a sweep: whether its name ends in `.ron`, or it begins with a parenthesis, a comment
-/// or an attribute. Files that cannot be read are accepted here.
+/// Whether a file can be a recipe or a sweep. Returns `true` if the name of the file ends in `.ron`, or if the file is
+/// empty or begins with a parenthesis, a comment or an attribute. Also returns `true` if the file cannot be read.
 fn can_be_ron(path: &Path) -> bool {
     const MAX_START: u64 = 4096;
     if path.extension().is_some_and(|ending| ending == "ron") {

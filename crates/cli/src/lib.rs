@@ -54,7 +54,8 @@ pub fn run(registry: Registry) -> ExitCode {
 }
 
 /// Returns the recipes that `meshwright test` runs for these recipes and folders of recipes, including the recipes that
-/// cannot be read. Recipes without expectations, and recipes that others of the list call, are not run by themselves.
+/// cannot be read. Recipes without expectations are left out. Recipes that were found in a folder are also left out if
+/// other recipes of the list call them.
 ///
 /// # Errors
 ///
@@ -73,8 +74,8 @@ pub fn batch_inputs(patterns: &[String]) -> Result<Vec<String>, String> {
     Ok(inputs.into_iter().map(|input| input.path).collect())
 }
 
-/// Runs the program with these arguments, of which the first is the name of the program, and returns its exit code.
-/// Ends the process if the arguments are invalid or request help.
+/// Runs the program with these arguments and returns its exit code. The first argument is the name of the program. Ends
+/// the process if the arguments are invalid or request help.
 pub fn run_with(registry: &Registry, arguments: &[OsString]) -> u8 {
     if arguments.len() <= 1 {
         print_error(args::help::FIRST_STEPS);

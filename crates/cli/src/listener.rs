@@ -8,8 +8,8 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use op::Progress;
 use recipe::{Listener, StepDone};
 
-/// Set by Ctrl-C. Every long loop checks whether `INTERRUPT` is set. Also serves as a listener that shows nothing, for
-/// simultaneous runs.
+/// The flag that Ctrl-C sets. Every long loop checks the flag. Runs that show no progress, such as simultaneous runs,
+/// use the flag as their listener.
 pub(crate) static INTERRUPT: Cancel = Cancel::new();
 
 /// Makes the first Ctrl-C cancel the run cleanly and the second end the program immediately.
@@ -32,7 +32,7 @@ pub(crate) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Shows the progress of the current step if standard error is a terminal, otherwise nothing.
+/// Shows the progress of the current step. If standard error is not a terminal, shows nothing.
 pub(crate) struct Terminal<'a> {
     bar: ProgressBar,
     /// The number and the label of the step, if a recipe is run.
@@ -79,7 +79,7 @@ impl Progress for Terminal<'_> {
     fn advance(&self, what: &str, done: u64, total: u64) -> bool {
         if !self.bar.is_hidden() {
             let step = lock(&self.step);
-            // The step and its task are one message, so that they always belong together.
+            // The step and its task are one message, so that a step is never shown with the task of another step.
             let message = match step.as_str() {
                 "" => what.to_owned(),
                 step => format!("{step}: {what}"),

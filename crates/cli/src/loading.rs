@@ -21,7 +21,7 @@ pub(crate) fn load(args: &RecipeArgs, engine: &Engine) -> anyhow::Result<Loaded>
     load_recipe(&args.recipe, &args.values, &args.out, checking, engine)
 }
 
-/// What recipes are checked for.
+/// How recipes are checked.
 #[derive(Clone, Copy)]
 pub(crate) struct Checking {
     /// The memory budget for meshes, in bytes.
@@ -31,7 +31,7 @@ pub(crate) struct Checking {
 }
 
 impl Checking {
-    /// The check for a budget, in which losses are not errors.
+    /// Creates a value with this budget. Losses are not errors.
     pub(crate) fn for_budget(budget: u64) -> Self {
         let strict = false;
         Self { budget, strict }

@@ -4,8 +4,8 @@ use recipe::{Diagnostic, InOrder, JobEnd, JobLimits, Jobs, Severity};
 
 use crate::listener::is_interrupted;
 
-/// Number of runs that are checked before the first of these runs starts. The loaded recipe of each checked run stays
-/// in memory.
+/// The number of runs that are checked together before the first of them starts. The loaded recipe of each checked run
+/// stays in memory.
 pub(crate) const CHECKED_AHEAD: usize = 1000;
 
 /// The result of a job. The error is the message of a failure or panic, or `None` if the job was not started or was

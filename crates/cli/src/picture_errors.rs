@@ -65,7 +65,8 @@ struct Drawn {
 }
 
 impl Pictures {
-    /// Draws locations of a scene, unless the maximum is reached. Errors are kept for [`warn`](Self::warn).
+    /// Draws a scene with the locations of a failure, unless the maximum number of pictures is reached. Errors are kept
+    /// for [`warn`](Self::warn).
     pub(crate) fn draw(&self, scene: &Scene, places: &[ErrorLocation], caption: &str) {
         let (budget, progress) = (self.budget, &INTERRUPT);
         self.add(caption, || {

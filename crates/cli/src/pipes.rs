@@ -15,7 +15,7 @@ use store::{Disk, Memory, Store as _};
 
 use crate::args::WrongUsage;
 
-/// The largest number of bytes of a mesh file that are read from standard input, whose size is not known in advance.
+/// The maximum size of a mesh file on standard input, in bytes. The actual size is not known before reading.
 const MAX_INPUT: u64 = 1 << 32;
 
 /// Whether a path stands for standard input or standard output. A file with this name is `./-`.
@@ -43,7 +43,7 @@ pub(crate) fn read_recipe() -> anyhow::Result<Source> {
     Ok(Source::from_bytes(name, bytes)?)
 }
 
-/// Refuses standard input for a command that cannot read from it.
+/// Fails if the path is `-`. `command` is the name of a command that accepts only files.
 pub(crate) fn refuse(path: &Path, command: &str) -> anyhow::Result<()> {
     if is_pipe(path) {
         let message = format!("`{command}` cannot use standard input or output: name a file");

@@ -35,9 +35,9 @@ pub struct ControlPoint {
 }
 
 impl ControlPoint {
-    /// Returns the position in the space of the object, if the control point is dragged to a pixel: in the plane of the
-    /// curve, or for patches in the plane through the control point that is parallel to the picture. `None` if the pixel
-    /// shows no point of the plane.
+    /// Returns the position in the space of the object, if the control point is dragged to a pixel. A control point of
+    /// a curve stays in the plane of the curve. A control point of patches stays in the plane through it that is
+    /// parallel to the picture. `None` if the pixel shows no point of this plane.
     pub fn dragged_to(&self, view: &Projection, pixel: DVec2) -> Option<DVec3> {
         let of_object = view.of_object(self.to_scene);
         let at = if self.is_of_curve {

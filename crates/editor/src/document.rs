@@ -23,7 +23,7 @@ pub struct Document {
     current: usize,
     /// The text of the file when it was last read or written.
     saved: Option<Arc<str>>,
-    /// The state of the file when it was last looked at; `None` if the file did not exist.
+    /// The state of the file when it was last checked; `None` if the file did not exist.
     seen: Option<Entry>,
     conflict: Option<Conflict>,
     /// Whether the file was removed by another program.
@@ -35,7 +35,7 @@ pub struct Document {
 #[derive(Clone, Debug)]
 struct State {
     text: Arc<str>,
-    /// What the change to this text did, for the menu of undo.
+    /// What the change that led to this text did, for the Undo and Redo buttons.
     label: String,
     /// Where the step cursor was after the change.
     cursor: usize,
@@ -124,7 +124,7 @@ impl Document {
         &self.path
     }
 
-    /// Returns the file with its stamp when it was last looked at, if the recipe has a file.
+    /// Returns the file and the stamp that it had when it was last checked, if the recipe has a file.
     pub(crate) fn seen(&self) -> Option<(PathBuf, String)> {
         self.has_file
             .then(|| (self.path.clone(), stamp_line(&self.path, self.seen)))
@@ -142,8 +142,8 @@ impl Document {
 
     /// Replaces the text. `label` says what the change does. Returns whether the text is different.
     ///
-    /// If `merges` is set and the last change had the same label, both become one step of the history, as for letters that
-    /// are typed one after another.
+    /// If `merges` is set and the last change had the same label, both become one step of the history. Typing uses
+    /// this, so that an undo removes more than one letter.
     pub fn replace(&mut self, text: impl Into<Arc<str>>, label: &str, merges: bool) -> bool {
         let text = text.into();
         if *self.text() == text {
@@ -182,12 +182,12 @@ impl Document {
         self.history[self.current].cursor
     }
 
-    /// Returns what an undo would undo; `None` if nothing can be undone.
+    /// Returns the label of the change that an undo would undo; `None` if nothing can be undone.
     pub fn undo_label(&self) -> Option<&str> {
         (self.current > 0).then(|| self.history[self.current].label.as_str())
     }
 
-    /// Returns what a redo would do again; `None` if nothing can be redone.
+    /// Returns the label of the change that a redo would redo; `None` if nothing can be redone.
     pub fn redo_label(&self) -> Option<&str> {
         self.history
             .get(self.current + 1)
@@ -204,7 +204,7 @@ impl Document {
         can
     }
 
-    /// Goes forward to the text that was undone last. Returns whether there was one.
+    /// Redoes the change that was undone last. Returns whether there was one.
     pub fn redo(&mut self) -> bool {
         let can = self.current + 1 < self.history.len();
         if can {
@@ -218,8 +218,8 @@ impl Document {
     ///
     /// # Errors
     ///
-    /// [`SaveError`] if the file cannot be written, or was changed by another program since it was read. In the second case,
-    /// [`conflict`](Self::conflict) has their text.
+    /// [`SaveError`] if the file cannot be written, or was changed by another program since it was read. In the second
+    /// case, [`conflict`](Self::conflict) has the text of the file.
     pub fn save(&mut self, store: &dyn Store) -> Result<(), SaveError> {
         if self.has_file && self.follow(store) == Some(FileChange::Conflict) {
             return Err(SaveError::Conflict(self.path.clone()));
@@ -255,7 +255,7 @@ impl Document {
         }
     }
 
-    /// Ends a conflict: the text of the file becomes the text of the document. An undo brings back the own text.
+    /// Ends a conflict: the text of the file becomes the text of the document. An undo brings back the previous text.
     pub fn take_theirs(&mut self) {
         if let Some(Conflict { theirs }) = self.conflict.take() {
             self.replace(theirs.clone(), "take the changed file", false);
@@ -263,7 +263,8 @@ impl Document {
         }
     }
 
-    /// Looks whether another program has changed the file, and follows the change if the text has no unsaved changes.
+    /// Checks whether another program has changed the file. If so, and if the document has no unsaved changes, the text
+    /// of the file becomes the text of the document.
     pub fn follow(&mut self, store: &dyn Store) -> Option<FileChange> {
         if !self.has_file {
             return None;
@@ -280,7 +281,7 @@ impl Document {
         let theirs = match recipe::Source::open_in(store, &self.path) {
             Ok(source) => source.text,
             Err(error) => {
-                // The file may be half-written: it is read again at the next look if it changes.
+                // The file may be half-written: it is read again if it changes before a later check.
                 self.seen = seen;
                 return Some(FileChange::Unreadable(error.to_string()));
             }

@@ -1,7 +1,8 @@
-//! The journal: the unsaved text is written to a folder after every change, and offered after a crash.
+//! The journal: the unsaved text is written to a folder after every change, and is offered at the next start after a
+//! crash.
 //!
-//! Each editor has a folder of its own in the folder of journals. It is removed when the text is saved and when the editor
-//! is closed.
+//! Each editor has a folder of its own in the folder of journals. This folder is removed when the text is saved and
+//! when the editor is closed.
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -56,8 +57,8 @@ impl Journal {
         }
     }
 
-    /// Writes the text of the document if it is not saved, and removes the journal if it is. A journal that cannot be
-    /// written is left out: the text is still in memory.
+    /// Writes the text of the document if it is not saved, and removes the journal if it is. Errors while the journal
+    /// is written are ignored, because the text is still in memory.
     pub(crate) fn keep(&mut self, document: &Document, store: &dyn Store) {
         if !document.is_dirty()
             || document.undo_label().is_none() && document.redo_label().is_none()
@@ -95,8 +96,8 @@ impl Journal {
     }
 }
 
-/// Returns the unsaved texts of editors that were not closed, such as after a crash, from the folder of journals. Texts of
-/// editors that still run are left out.
+/// Returns the unsaved texts of editors that were not closed, for example because of a crash, from the folder of
+/// journals. On systems with a folder `/proc`, texts of other processes that are still running are left out.
 pub fn recoverable(store: &dyn Store, folder: &Path) -> Vec<Recovery> {
     let folders = store.list(folder).unwrap_or_default();
     folders

@@ -1,4 +1,4 @@
-//! Actions and their keys. The table is data: a file can change it.
+//! Actions and their keys. A file can change the keys.
 
 use std::collections::BTreeMap;
 
@@ -66,7 +66,7 @@ pub enum Action {
     Quit,
     /// Cancel the run, or close what is open.
     Cancel,
-    /// Show the next selection that means the picked elements.
+    /// Show the next selection that describes the picked elements.
     NextProposal,
     /// Pick the elements around the picked elements too.
     Grow,

@@ -7,9 +7,10 @@
 //!   +---- edits of spans <--- Command(operation, selection) <--- pick, key, drag -------+
 //! ```
 //!
-//! The recipe's text is the only source: an [`Editor`] changes it and nothing else, and the engine thread follows. Undo is
-//! the history of texts; the scenes after its steps are known, so that an undo runs nothing. This crate knows no window: a
-//! program draws what [`Editor`] returns and forwards input.
+//! The recipe's text is the only state that an edit changes: an [`Editor`] changes the text, and the engine thread runs
+//! the recipe. Undo goes back in the history of texts. The scenes after the steps of recent texts are kept in memory,
+//! so that an undo usually runs no step. This crate has no window: a program draws what [`Editor`] returns and forwards
+//! input.
 //!
 //! | task | items |
 //! | --- | --- |

@@ -16,12 +16,12 @@ const MAX_EDITS: usize = 10_000;
 /// The operation whose level is played as splits, flips and moves.
 const LOOP: &str = "LoopSubdivide";
 
-/// The local edits of a step, at one moment between two of them.
+/// The local edits of a step, and how many of them are done.
 #[derive(Debug)]
 pub struct Play {
     mesh: Mesh,
     edits: Vec<PlayedEdit>,
-    /// For each edit, the change that undoes it if it is done, and that does it otherwise.
+    /// For each edit, the change that undoes the edit if it is done, or does it if it is not.
     changes: Vec<Option<Change>>,
     at: usize,
 }

@@ -1,5 +1,5 @@
-//! Keys of steps: two steps have the same key if they and all steps before them are the same, so that their results are
-//! the same.
+//! Keys of steps. The key of a step depends on the step, on all steps before it, and on their input files. If the key
+//! is unchanged, the result of the step is unchanged.
 
 use std::path::{Path, PathBuf};
 
@@ -7,23 +7,25 @@ use store::{Entry, Store};
 
 use crate::Loaded;
 
-/// The key of a step, which stands for the step and all steps before it.
+/// The key of a step: a hash of the memory budget, of the step and all steps before it, and of the lengths and
+/// modification times of their input files.
 pub type StepKey = [u8; 32];
 
 /// The keys of a recipe.
 #[derive(Clone, Debug, Default)]
 pub struct StepKeys {
-    /// The key after each step.
+    /// The key of each step.
     pub steps: Vec<StepKey>,
-    /// The key of each expectation, by its index: it stands for the expectation and the steps before it.
+    /// The key of each expectation: a hash of the expectation, of the key of the step before it, and of the lengths and
+    /// modification times of all input files.
     pub expectations: Vec<StepKey>,
-    /// The key of the empty scene.
+    /// The key before the first step.
     pub start: StepKey,
 }
 
 impl StepKeys {
-    /// Returns the keys of a recipe that was read and checked. Files that the forecast does not list are not part of the
-    /// keys, such as the materials of a model.
+    /// Returns the keys of a recipe that was read and checked. The keys do not depend on files that the forecast does
+    /// not list, such as the material files of a model.
     pub fn of(loaded: &Loaded) -> Self {
         let recipe = &loaded.recipe;
         let store = &*loaded.files.store;
@@ -83,7 +85,7 @@ impl StepKeys {
         }
     }
 
-    /// Returns the key of the scene at the end.
+    /// Returns the key of the last step; the key before the first step if the recipe has no steps.
     pub fn end(&self) -> StepKey {
         self.steps.last().copied().unwrap_or(self.start)
     }

@@ -8,7 +8,8 @@
 //! ```
 //!
 //! A [`Listener`] receives the scene after each step if the listener wants scenes. To cancel the run, return false from
-//! [`advance`](op::Progress::advance), or use [`Cancel`] from another thread.
+//! the method [`advance`](op::Progress::advance) of the listener, or use the listener [`Cancel`] and call
+//! [`Cancel::set`] from another thread.
 //!
 //! # Examples
 //!

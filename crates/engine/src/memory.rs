@@ -1,11 +1,11 @@
-//! The memory of scenes that are kept.
+//! Measures the memory that several scenes take together.
 
 use std::collections::HashSet;
 use std::sync::Arc;
 
 use scene::{Geometry, Scene};
 
-/// Adds up the memory of scenes. Scenes share their unchanged meshes, which are counted once. The scenes must not be dropped
+/// Adds up the memory of scenes. A mesh that several scenes share is counted once. The scenes must not be dropped
 /// before this value.
 #[derive(Debug, Default)]
 pub struct SceneMemory {

@@ -16,7 +16,7 @@ pub struct Stop<'a> {
     pub before: Option<&'a str>,
 }
 
-/// No step of the recipe has the given id.
+/// No step or call of the recipe has the given id or label.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("no step of {path} has the id \"{id}\": {help}")]
 pub struct UnknownStep {

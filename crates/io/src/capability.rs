@@ -39,8 +39,9 @@ impl Stored<'_> {
         }
     }
 
-    /// Returns how much of an attribute is stored. `values` determines only the type of the values. If the type is
-    /// unknown, it is the usual type of an attribute with this name.
+    /// Returns how much of an attribute is stored. Only the type of `values` is used. If `values` is `None`, the
+    /// attribute is assumed to have the usual type of attributes with this name. If this name has no usual type, and
+    /// the result depends on the type, it is [`Storage::Partial`].
     pub fn storage(&self, domain: Domain, name: &str, values: Option<&Values>) -> Storage {
         let of_type = |values: &Values| self.storage_of(domain, name, values);
         if let Some(values) = values {
@@ -85,7 +86,8 @@ impl Stored<'_> {
             Format::Off => match (domain, name, values) {
                 (Domain::Vertex, "normal", Values::Vec3(_))
                 | (Domain::Vertex, "color", Values::Vec4(_)) => Kept,
-                // Corners of the same vertex can differ. A file stores either colors or indices of faces.
+                // Texture coordinates are lost if corners of the same vertex differ. For faces, a file stores either
+                // colors or color indices.
                 (Domain::Corner, "uv", Values::Vec2(_))
                 | (Domain::Face, "color", Values::Vec4(_))
                 | (Domain::Face, COLOR_INDEX, Values::Int(_)) => Partial,
@@ -181,7 +183,7 @@ impl Format {
         )
     }
 
-    /// What becomes of the names of several meshes that are joined.
+    /// How the names of several meshes that are joined are handled.
     pub(crate) const fn joined_names(self) -> Names {
         match self {
             Self::Ply => Names::Tags,

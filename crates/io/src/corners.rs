@@ -26,8 +26,8 @@ impl CornerNumbers {
     /// is compared with the latest [`MAX_COMPARED`] distinct values at its vertex, so that the time for a vertex with a
     /// million corners stays linear. If a vertex has more distinct values, a value can get a second number.
     pub(crate) fn new(mesh: &Mesh, equal: impl Fn(HalfEdgeId, HalfEdgeId) -> bool + Sync) -> Self {
-        // Only one task writes each entry. An entry of `same` is written by the task of the origin of the half-edge, an
-        // entry of `numbers` by the task of the number.
+        // Each entry is written by only one task: an entry of `same` by the task that handles the origin of the
+        // half-edge, and an entry of `numbers` by the task that handles the number.
         let unset = || -> Vec<AtomicU32> { mesh::zeroed(mesh.n_half_edges()) };
         let (same, numbers) = (unset(), unset());
         let number_of = |i: usize| u32::try_from(i).unwrap_or(u32::MAX);

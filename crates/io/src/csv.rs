@@ -2,9 +2,10 @@
 //!
 //! | column | content |
 //! | --- | --- |
-//! | `object` | the name of the object, if there are several; the numbers then count from 0 in each object |
-//! | `vertex` | the number of the vertex; with faces, `face`; with corners, both |
-//! | `x`, `y`, `z` | the position; of faces, the mean of the corners |
+//! | `object` | the name of the object, if there are several objects; the numbers then count from 0 in each object |
+//! | `face` | in tables of faces and corners: the number of the face |
+//! | `vertex` | in tables of vertices and corners: the number of the vertex |
+//! | `x`, `y`, `z` | the position; in tables of faces, the mean of the corners |
 //! | name of an attribute | a number, or 0 and 1 for a tag |
 //! | `name[0]`, `name[1]`, ... | the components of a vector |
 //!
@@ -209,7 +210,7 @@ fn quoted(name: &str) -> String {
     }
 }
 
-/// Returns the name, or the name with the first number from 2 with which it is not used.
+/// Returns the name if it is unused. Otherwise, appends the smallest number from 2 that makes the name unused.
 pub(crate) fn unused(name: String, is_used: impl Fn(&str) -> bool) -> String {
     if !is_used(&name) {
         return name;

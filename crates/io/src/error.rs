@@ -1,4 +1,4 @@
-//! Why a file could not be read or written.
+//! Errors that occur when a file is read or written.
 
 use std::io;
 use std::path::{Path, PathBuf};

@@ -103,7 +103,7 @@ pub(crate) fn is_mark(domain: Domain, column: &Column) -> bool {
     domain == Domain::Vertex && column.name == COPY_DISTANCE
 }
 
-/// Removes the attribute of [`FileVertices`] from all meshes.
+/// Removes the marks of copies from all meshes.
 pub(crate) fn without_marks(scene: Cow<Scene>) -> Cow<Scene> {
     let has_marks = |object: &Object| {
         let mesh = object.as_mesh();

@@ -184,8 +184,8 @@ pub(crate) fn sniffed(bytes: &[u8]) -> Option<&'static str> {
     }
 }
 
-/// A scene in which every image is a path or embedded, if the format stores materials, and the image files that must be
-/// written with this scene.
+/// A scene, and the image files that must be written with it. For OBJ and glTF, every image of the scene is either
+/// embedded or a path.
 pub(crate) struct Settled<'a> {
     pub(crate) scene: Cow<'a, Scene>,
     pub(crate) files: Vec<(PathBuf, Content<'static>)>,

@@ -21,14 +21,14 @@ pub(crate) struct Joined<'a> {
     pub(crate) losses: Vec<Loss>,
 }
 
-/// What becomes of the names of several objects.
+/// How the names of several objects are handled.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) enum Names {
-    /// They are lost.
+    /// The names are lost.
     Lost,
     /// Each face gets a tag: `o:` followed by the name of its object.
     Tags,
-    /// The format stores them itself.
+    /// The format stores the names.
     Kept,
 }
 

@@ -1,9 +1,9 @@
 //! Reads and writes OBJ, glTF, PLY, STL, OFF, Bezier and Meshwright scene files. Reads COLLADA files, and writes CSV
 //! and NPZ files.
 //!
-//! [`read()`] reads the objects of a file, [`write()`] writes a scene to files, and [`peek()`] returns the kinds and
-//! the counts of the objects of a file without building meshes. The extension of the file name determines the
-//! [`Format`]:
+//! [`read()`] reads the objects of a file, and [`write()`] writes a scene to files. [`peek()`] returns the kinds of the
+//! objects in a file and the counts of their elements, without building meshes. The extension of the file name
+//! determines the [`Format`]:
 //!
 //! | extension | content | module |
 //! | --- | --- | --- |
@@ -18,17 +18,17 @@
 //! | `.bzc` | a Bezier curve | `bez` |
 //! | `.csv` (write only) | a table of vertices, faces or corners | `csv` |
 //! | `.npz` (write only) | the arrays of a mesh for `NumPy` | `npz` |
-//! | `.gz` after one of these, except `.glb`, `.mws` and `.npz` | the same, compressed with gzip | `gzip` |
+//! | `.gz` after one of these extensions, except `.glb`, `.mws` and `.npz` | the same, compressed with gzip | `gzip` |
 //!
-//! Every loss is reported, except that comments and headers of files are not kept. Content that a reader leaves out or
+//! Every loss is reported, except the loss of comments and headers of files. Content that a reader leaves out or
 //! changes is reported as a [`Note`] with a count. Content that a format cannot store is reported as a [`Loss`]. Errors
 //! in the syntax of a file have a position: the line and the column in a text file, the byte offset in a binary file,
 //! or the JSON pointer in a glTF file. A path in a file must not lead out of the folder of the file. A file is written
 //! completely or not at all.
 //!
-//! Formats for meshes have a folder, whose `mod.rs` lists how each construct of the format is converted. Most of these
-//! folders have the modules `read` (from bytes to polygons) and `write`. For example, the faces of an OBJ file are read
-//! in `obj/statement.rs`, and those of a glTF file in `gltf/primitives.rs`. The formats share these modules:
+//! Formats for meshes have a folder, whose `mod.rs` lists how each part of a file is converted. Most of these folders
+//! have the modules `read` (from bytes to polygons) and `write`. For example, the faces of an OBJ file are read in
+//! `obj/statement.rs`, and those of a glTF file in `gltf/primitives.rs`. The formats share these modules:
 //!
 //! | module | purpose |
 //! | --- | --- |
@@ -134,9 +134,9 @@ pub struct ReadOptions {
     pub placements: Placements,
     /// Whether reading fails if anything in the file would be left out.
     pub strict: bool,
-    /// Whether the copies of split vertices are marked. If the mesh is then written to an `.obj`, `.ply`, `.off`,
-    /// `.gltf` or `.glb` file, the copies are merged, so that the file has the same vertices as the file that was read.
-    /// This option is for conversions without edits.
+    /// Whether reading marks the copies of vertices that it splits to make the mesh a manifold. If the mesh is then
+    /// written to an `.obj`, `.ply`, `.off`, `.gltf` or `.glb` file, the copies are merged, so that the file has the
+    /// same vertices as the file that was read. This option is for conversions without edits.
     pub keep_vertices: bool,
     /// The memory budget in bytes for content whose size does not depend on the size of the file: all images together,
     /// and the decompressed content of a `.gz` file. Defaults to 4 GiB.
@@ -213,7 +213,7 @@ pub fn read(store: &dyn Store, path: &Path, options: &ReadOptions) -> Result<Loa
 }
 
 /// Reads the objects of a file from its bytes. `path` determines the format, appears in errors, and locates the files
-/// that this file refers to. In this case, [`Loaded::files`] lists only the referenced files, not `path` itself.
+/// that this file refers to. [`Loaded::files`] lists only these files, whereas [`read()`] also lists `path`.
 ///
 /// # Errors
 ///
@@ -490,8 +490,9 @@ fn write_placed(
         scene,
         files: mut all,
     } = images::settle(store, path, format, scene, options)?;
-    // Only OBJ, PLY and OFF can store non-manifold vertices. For all other formats, the marks of the copies of split
-    // vertices are removed. These formats merge the copies by position, or store all copies.
+    // The writers of OBJ, PLY, OFF and glTF use the marks to merge the copies of split vertices again. For all other
+    // formats, the marks are removed: the readers of these formats merge the copies by position, or the files contain
+    // all copies.
     let scene = &*if keeps_vertices(path) {
         scene
     } else {

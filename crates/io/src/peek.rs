@@ -14,8 +14,8 @@ pub struct Peek {
     pub format: Format,
     /// The objects that reading the file would give, in order and with their names.
     pub objects: Vec<PeekObject>,
-    /// The nodes, skins and animations, but not the arrays of numbers: all skins are without inverse bind matrices, and the
-    /// numbers of samplers have no meaning. In `.mws` files, the arrays are there too.
+    /// The nodes, skins and animations, without the arrays of numbers: skins have no inverse bind matrices, and the
+    /// inputs and outputs of samplers are not valid. For `.mws` files, the graph also has the arrays.
     pub graph: Graph,
     /// The content that reading would leave out, as far as it is known without building the objects. Examples are
     /// unused elements of a PLY file, statements of an OBJ file that do not describe polygons, and missing images and
@@ -32,8 +32,8 @@ pub struct PeekObject {
     pub geometry: PeekGeometry,
     /// The names of the materials of the object. `None` if the names are known only after reading.
     pub materials: Option<Vec<String>>,
-    /// The attributes that the mesh can have, apart from those that [`PeekMesh`] describes. For an exact mesh, all its
-    /// attributes. `None` if they are known only after reading.
+    /// The attributes that the mesh can have, apart from those that [`PeekMesh`] describes. If [`PeekMesh::is_exact`]
+    /// is set, all attributes of the mesh. `None` if they are known only after reading.
     pub attributes: Option<Vec<(Domain, String)>>,
 }
 
@@ -141,11 +141,11 @@ pub struct PeekMesh {
     /// The number of morph targets.
     pub targets: u64,
     /// The number of faces whose corners certainly have different vertices. Reading keeps these faces, unless a policy
-    /// drops them. In OBJ, OFF, PLY and binary STL files, these are the faces with at most 16 corners that have no vertex
-    /// twice, and in `.mws` files, all faces. In other formats, the number is 0, because the vertices of faces are not
-    /// examined.
+    /// drops them. In OBJ, OFF, PLY and binary STL files, these are the faces with at most 16 corners that have no
+    /// vertex twice. In `.mws` files, these are all faces. In other formats, the number is 0, because the vertices of
+    /// faces are not examined.
     pub simple_faces: u64,
-    /// The number of corners of these faces.
+    /// The number of corners of the faces that `simple_faces` counts.
     pub simple_corners: u64,
     /// Whether reading keeps all vertices of the file, and only splits some of them.
     pub keeps_vertices: bool,
@@ -166,7 +166,7 @@ pub struct PeekRanges {
     pub degrees: RangeInclusive<u64>,
 }
 
-/// The largest number of corners of a face that is compared with its other corners.
+/// The maximum number of corners of a face whose vertices are compared with each other.
 pub(crate) const MAX_COMPARED: usize = 16;
 
 /// Whether the words are indices of different elements: all positive or all negative, and without leading zeros.

@@ -337,9 +337,9 @@ impl Mesh {
         }
     }
 
-    /// Replaces the entries by one copy of the mesh as it was at `begin`, if the entries have become larger than
-    /// the mesh. This function is called between edits. Does nothing while inner levels are open, because inner levels
-    /// should be short.
+    /// If the entries take at least as many bytes as the mesh plus [`JOURNAL_ALLOWANCE`], replaces them by one copy of
+    /// the mesh as it was at `begin`. This function is called between edits. Does nothing while inner levels are open,
+    /// because inner levels should be short.
     pub(crate) fn bound_journal(&mut self) {
         let Some(journal) = &self.journal else { return };
         let [level] = journal.levels[..] else { return };

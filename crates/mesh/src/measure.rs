@@ -22,8 +22,10 @@ fn length(v: DVec3) -> f64 {
     }
 }
 
-/// Returns a multiple of a vector by a power of two, and the exponent that restores the vector. If the components are
-/// neither very small nor very large, the vector is returned as it is.
+/// Scales a vector by a power of two, so that squares of its components cannot overflow and its length does not
+/// underflow. Returns the scaled vector and the exponent of the power of two by which the scaled vector must be
+/// multiplied to restore the vector. If the largest absolute value of a component is zero, not finite, or neither very
+/// small nor very large, the vector is returned unchanged, with the exponent 0.
 fn ordinary(v: DVec3) -> (DVec3, i32) {
     let largest = v.abs().max_element();
     if (1e-70..1e70).contains(&largest) || largest == 0.0 || !largest.is_finite() {

@@ -1,7 +1,7 @@
 //! Runs work on all threads, in blocks of elements. No result depends on the number of threads.
 //!
-//! All functions share one loop of the crate `rayon`. The loop calls a function pointer once for each block. A generic
-//! loop would be compiled again for every closure, which is expensive.
+//! All functions share one loop of the crate `rayon`. The loop calls a `dyn` closure. A generic loop would be compiled
+//! again for every closure, which would slow down builds.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
@@ -11,8 +11,9 @@ use rayon::prelude::*;
 
 use crate::zeroed::reserved;
 
-/// The number of elements in a block. Blocks are large enough to make the cost of scheduling negligible. The number does
-/// not depend on the number of threads, because the order of the additions determines the last bits of a sum.
+/// The number of elements in a block. Blocks are so large that the cost of scheduling is negligible. This number must
+/// not depend on the number of threads: sums are computed block by block, and the order of the additions determines the
+/// last bits of a sum.
 pub const BLOCK: usize = 4096;
 
 /// Calls `work` with each number below `n`. Each call is scheduled separately, so it should take at least a few
@@ -50,7 +51,7 @@ pub fn map<R: Send>(n: usize, make: impl Fn(usize) -> R + Sync) -> Vec<R> {
     results(n, &make)
 }
 
-// The functions that take a function pointer are compiled once for each type of results or elements, and not once for each
+// A function that takes a `dyn` closure is compiled once for each type of results or elements, and not once for each
 // closure.
 
 fn results<R: Send>(n: usize, make: &(dyn Fn(usize) -> R + Sync)) -> Vec<R> {
@@ -102,7 +103,7 @@ pub fn collect<T: Send>(n: usize, value: impl Fn(usize) -> T + Sync) -> Vec<T> {
     });
     #[expect(
         unsafe_code,
-        reason = "without it, values that cannot be zero would be collected in blocks and copied once more"
+        reason = "safe code would collect values of types without a zero value in blocks and copy them once more"
     )]
     // SAFETY: the capacity is at least n, and `fill` has passed each of the first n slots to the closure, which wrote
     // it. If `value` panics, this line is not reached.
@@ -193,8 +194,8 @@ pub fn fold<T: Copy + Send + Sync>(
     blocks.into_iter().fold(start, join)
 }
 
-/// Returns the number of elements in a block of a list of `n` elements. Blocks of short lists are smaller, so that each
-/// thread has some. Sums have blocks of fixed length instead.
+/// Returns the number of elements in a block of a list of `n` elements. Blocks of short lists are smaller, so that the
+/// work is spread over all threads. Sums do not call this function: their blocks always have [`BLOCK`] elements.
 fn block_for(n: usize) -> usize {
     const SMALLEST: usize = 64;
     (n / (8 * rayon::current_num_threads())).clamp(SMALLEST, BLOCK)

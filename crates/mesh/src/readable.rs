@@ -1,8 +1,8 @@
 //! Formats numbers and sizes in messages for people.
 
 /// Formats a number for people, with six significant digits. Numbers whose magnitude is below 1e-5 or at least 1e15 are
-/// in scientific notation. All other numbers keep all digits before the decimal point. Coordinates are always finite, so
-/// a result that is not finite has overflowed: it is too large for a number.
+/// in scientific notation. All other numbers keep all digits before the decimal point. A number that is not finite is
+/// written as `too large`: coordinates are always finite, so only an overflow leads to such a number.
 pub fn readable(x: f64) -> String {
     if !x.is_finite() {
         return "too large".to_owned();
@@ -33,8 +33,7 @@ fn trimmed(text: &str) -> String {
     format!("{digits}{exponent}")
 }
 
-/// Formats a number of bytes for people: in MiB, in KiB if the number is less than 0.1 MiB, or in bytes if the number is
-/// less than 1 KiB.
+/// Formats a number of bytes for people: in bytes below 1 KiB, in KiB below 0.1 MiB, and otherwise in MiB.
 pub fn readable_bytes(bytes: u64) -> String {
     let mebi = bytes as f64 / f64::from(1 << 20);
     match bytes {

@@ -96,8 +96,8 @@ impl Mesh {
         e.half_edges().map(|h| self.face(h))
     }
 
-    /// Returns the half-edge whose `next` is `h`. Walks around the face, or, if `h` has no face, around its
-    /// origin.
+    /// Returns the half-edge whose `next` is `h`. If `h` has a face, walks around the face; otherwise, walks around the
+    /// origin of `h`.
     #[inline]
     pub fn prev(&self, h: HalfEdgeId) -> HalfEdgeId {
         let prev = if self.face(h).is_some() {

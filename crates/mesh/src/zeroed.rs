@@ -32,7 +32,7 @@ pub fn zeroed<T: Zeroable>(n: usize) -> Vec<T> {
     new
 }
 
-/// Returns an empty list with space for `n` values, in large pages as [`zeroed`].
+/// Returns an empty list with space for `n` values. As in [`zeroed`], large lists request large pages.
 ///
 /// # Panics
 ///

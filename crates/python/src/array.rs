@@ -22,7 +22,7 @@ pub(crate) struct Array {
     columns: usize,
 }
 
-/// Memory that never changes: a part of a shared mesh, or a list of this array alone.
+/// Memory that never changes: a part of a shared mesh, or a list that only this array has.
 enum Memory {
     Part(Arc<Mesh>, Part),
     Ids(Vec<u32>),

@@ -16,7 +16,7 @@ pub(crate) struct Editor(Mutex<Kernel>);
 /// Converts a number to an id.
 fn id<I: Id>(number: u32) -> PyResult<I> {
     if number == u32::MAX {
-        return Err(PyValueError::new_err("ids end at 2^32 - 2"));
+        return Err(PyValueError::new_err("an id must not exceed 2^32 - 2"));
     }
     Ok(I::new(number as usize))
 }

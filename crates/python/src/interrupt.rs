@@ -1,5 +1,5 @@
-//! Runs work on another thread. Meanwhile the calling thread lets other Python threads run, calls the progress callback,
-//! and looks for Ctrl-C, which Python notices only on the main thread.
+//! Runs work on another thread. Meanwhile, the calling thread lets other Python threads run, calls the progress
+//! callback, and checks for Ctrl-C, which Python reports only on the main thread.
 
 use std::panic::resume_unwind;
 use std::process;
@@ -16,7 +16,7 @@ use pyo3::prelude::*;
 /// How often signals are checked and progress is shown.
 const INTERVAL: Duration = Duration::from_millis(40);
 
-/// The process that has run work. Its threads do not exist in forked processes.
+/// The id of the process that has run work. The threads of this process do not exist in forked processes.
 static PROCESS: AtomicU32 = AtomicU32::new(0);
 
 /// Receives progress on the threads of the work, for the calling thread.
@@ -43,8 +43,8 @@ impl Listener for Monitor {
     }
 }
 
-/// Runs `work`. `callback(step, task, done, total)` is called now and then on this thread; an exception in it cancels the
-/// work.
+/// Runs `work`. `callback(step, task, done, total)` is called at intervals on this thread; an exception in it cancels
+/// the work.
 ///
 /// # Errors
 ///
@@ -94,7 +94,7 @@ pub(crate) fn run<T: Send>(
     }
 }
 
-/// Reports the end of the work to the calling thread when dropped, so that also a panic ends the waiting.
+/// Reports the end of the work to the calling thread when dropped, so that a panic ends the waiting, too.
 struct End<'a>(&'a AtomicBool, thread::Thread);
 
 impl Drop for End<'_> {

@@ -7,7 +7,7 @@
 //! array.rs      Array: a read-only view of memory for `NumPy`
 //! matrix.rs     sparse matrices
 //! recipes.rs    Recipe: reads, checks and runs a recipe
-//! interrupt.rs  runs work on a thread, so that Ctrl-C and other Python threads work meanwhile
+//! interrupt.rs  runs work on another thread, so that Ctrl-C and other Python threads are not blocked
 //! errors.rs     the exceptions
 //! ```
 
@@ -54,7 +54,7 @@ fn operations() -> String {
     serde_json::Value::Array(entries.collect()).to_string()
 }
 
-/// Runs the program `meshwright` with these arguments, of which the first is its name, and returns its exit code.
+/// Runs the program `meshwright`, and returns its exit code. The first of the arguments is the name of the program.
 #[pyfunction]
 #[expect(clippy::needless_pass_by_value, reason = "Python passes a new list")]
 fn program(py: Python<'_>, arguments: Vec<OsString>) -> u8 {

@@ -69,7 +69,7 @@ impl Mesh {
         Array::of(&self.0, part).ok_or_else(|| PyKeyError::new_err("array"))
     }
 
-    /// The vertex of each corner, face by face, and where the corners of each face start.
+    /// The vertex of each corner, face by face, and the index of the first corner of each face.
     fn polygons(&self, py: Python<'_>) -> PyResult<(Array, Array)> {
         let (corners, starts) = run(py, None, |_| {
             let mesh = &self.0;
@@ -127,7 +127,7 @@ impl Mesh {
         Ok(Array::column(values))
     }
 
-    /// A mesh with an attribute more, whose values are a contiguous buffer of rows.
+    /// The mesh with an additional attribute. Its values are a contiguous buffer of rows.
     fn with_attribute(
         &self,
         py: Python<'_>,
@@ -184,7 +184,7 @@ impl Mesh {
         Ok(Self(Arc::new(changed)))
     }
 
-    /// A mesh without this attribute.
+    /// The mesh without this attribute.
     fn without_attribute(&self, domain_name: &str, name: &str) -> PyResult<Self> {
         let mut mesh = (*self.0).clone();
         let removed = mesh.remove_column(domain(domain_name)?, name);
@@ -192,7 +192,7 @@ impl Mesh {
         Ok(Self(Arc::new(mesh)))
     }
 
-    /// A mesh with other positions: a contiguous buffer of three numbers for each vertex.
+    /// The mesh with other positions: a contiguous buffer of three numbers for each vertex.
     fn with_positions(&self, py: Python<'_>, positions: &Bound<'_, PyAny>) -> PyResult<Self> {
         let Values::Vec3(positions) = values_from(positions, 3)? else {
             return Err(PyValueError::new_err("positions must be numbers"));

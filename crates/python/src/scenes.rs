@@ -183,7 +183,7 @@ impl Scene {
         Self(self.0.only(|name| names.iter().any(|n| n == name)))
     }
 
-    /// The scene with a mesh as its only mesh of this name.
+    /// The scene with this mesh as the geometry of the object `name`, which is added if it does not exist.
     fn with_mesh(&self, name: &str, mesh: &Mesh) -> PyResult<Self> {
         let mut scene = self.0.clone();
         if let Some((geometry, _)) = scene.parts_mut(name) {
@@ -209,7 +209,7 @@ impl Scene {
         Ok(Self(scene))
     }
 
-    /// The scene with every object where its nodes show it, and without nodes.
+    /// The scene without nodes, with every object moved to the place where its nodes show it.
     fn placed(&self) -> Self {
         Self(self.0.placed().into_owned())
     }
@@ -224,9 +224,9 @@ impl Scene {
         run(py, None, |_| self.0.digest().to_string())
     }
 
-    /// Runs the steps of a recipe on this scene. `files` are inputs in memory, where outputs then stay too; without
-    /// them, files are on disk. Returns the new scene, and a dictionary with the report of each step, warnings and the
-    /// outputs in memory.
+    /// Runs the steps of a recipe on this scene. `files` are inputs in memory; outputs then stay in memory, too. If
+    /// `files` is `None`, files are on disk. Returns the new scene, and a dictionary with the report of each step,
+    /// warnings and the outputs in memory.
     #[pyo3(signature = (text, input, output, files, budget, progress))]
     #[expect(
         clippy::too_many_arguments,

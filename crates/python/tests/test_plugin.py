@@ -48,7 +48,7 @@ def test_the_recipes_are_those_that_the_program_tests(tmp_path: Path) -> None:
     assert run(tmp_path, ".") == (0, {"PASSED a.ron::a"})
     assert run(tmp_path) == (0, {"PASSED a.ron::a"})
     assert run(tmp_path, "a.ron::a") == (0, {"PASSED a.ron::a"})
-    # A recipe that is named is tested, although another one calls it. Alone, it has no mesh.
+    # A recipe that is named is tested, although another recipe calls it. It fails, because it has no mesh of its own.
     assert run(tmp_path, "lib/called.ron") == (1, {"FAILED lib/called.ron::called"})
     (tmp_path / "broken.ron").write_text("(recipe: 1, steps: [Cub()])")
     assert run(tmp_path, ".") == (1, {"PASSED a.ron::a", "FAILED broken.ron::broken"})

@@ -83,8 +83,8 @@ fn line(step: &RecipeStep, value: &Value) -> String {
 }
 
 impl Rebase<'_> {
-    /// Returns the edits of a recipe's text that rewrite its relative paths of input files. `value` is the tree of the text,
-    /// and `inputs` are the files that the recipe reads.
+    /// Returns the edits of a recipe's text that rewrite the relative paths of input files. `value` is the tree of the
+    /// text, and `inputs` are the files that the recipe reads.
     pub fn edits(&self, value: &Value, inputs: &[PathBuf]) -> Vec<(Span, String)> {
         let mut edits = Vec::new();
         let mut values = vec![value.clone()];

@@ -8,9 +8,10 @@
 //! Jobs run on the same threads as the parallel loops inside them. While every thread has a job, no thread is idle, so
 //! each loop runs on the thread of its job at no extra cost. When no jobs are left to start, idle threads help with the
 //! loops of the last jobs. If there is not enough memory for the next job, a thread does not block, because a blocked
-//! thread could not help. Instead, the thread returns to the pool, and the thread that next completes a job wakes it
-//! again. While a thread waits inside a job for a part of a loop, it does not start another job. So no job has to wait
-//! for another job, and a job cannot deadlock on a lock that a suspended job on the same thread holds.
+//! thread could not help with these loops. Instead, the thread returns to the pool. A thread that has completed a job
+//! starts the next job if there is now enough memory, and wakes another thread if the limits allow one more job. While
+//! a thread waits inside a job for a part of a loop, the thread does not start another job. So no job has to wait for
+//! another job, and a job cannot deadlock on a lock that a suspended job on the same thread holds.
 
 use std::any::Any;
 use std::cell::Cell;

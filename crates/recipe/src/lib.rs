@@ -6,10 +6,10 @@
 //! ```
 //!
 //! [`read`] turns text into operations of a [`Registry`](op::Registry) and reports every error at once. It checks each
-//! value against the schema of its type (module [`schema_check`]), and then deserializes the value. [`check`] plans all
-//! steps without computing geometry: it forecasts counts and memory, reports forecasts above the budget as errors, and
-//! checks files and names. [`run`] runs the steps. Outputs are written only if every step succeeds and every expectation
-//! holds.
+//! value against the schema of the value's type (module [`schema_check`]), and then deserializes the value. [`check`]
+//! plans all steps without computing geometry: it forecasts counts and memory, reports forecasts above the budget as
+//! errors, and checks files and names. [`run`] runs the steps. Outputs are written only if every step succeeds and
+//! every expectation holds.
 
 pub mod capsule;
 pub mod compare;

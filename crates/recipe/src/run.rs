@@ -146,7 +146,7 @@ struct Runner<'a> {
 pub struct StepError {
     /// The reason: one line that starts in lower case and has no final period.
     pub message: String,
-    /// The places in the scene that the failure is about.
+    /// The locations in the scene that the failure refers to, if any are known.
     pub places: Vec<ErrorLocation>,
 }
 

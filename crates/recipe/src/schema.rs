@@ -1,4 +1,4 @@
-//! JSON schemas: of whole recipes, for editors, and of the parts of recipes, for the reader of recipes.
+//! JSON schemas. Text editors use the schema of whole recipes. The reader of recipes uses the schemas of their parts.
 
 use std::collections::HashMap;
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
@@ -11,8 +11,8 @@ use crate::expect::Expectation;
 use crate::params::Param;
 use crate::recipe::{Kind, MAX_STEPS, OnLoss};
 
-/// The operations of a registry with their schemas. Each schema is created when it is first needed. Can be shared by
-/// threads that read many recipes.
+/// The operations of a registry with their schemas. Each schema is created when it is first needed. Threads that read
+/// many recipes can share one `Schemas` value.
 #[derive(Debug)]
 pub struct Schemas<'r> {
     pub(crate) registry: &'r Registry,

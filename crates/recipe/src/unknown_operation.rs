@@ -20,8 +20,10 @@ const BOOLEANS: &[&str] = &[
 /// operations with a similar name, then operations whose list of words contains a word of the name. If there are
 /// operations of the second kind, only one operation with a similar name is suggested. If there are operations of
 /// neither kind, the text suggests operations whose names share a word with the name. If there are no such operations
-/// either, the text names the command that lists all operations. If the name is that of a boolean operation, the text
-/// says that there are none.
+/// either, the text names the command that lists all operations.
+///
+/// If the name contains a word for a boolean operation, the text instead says that there are no boolean operations, and
+/// names other operations that may help.
 pub fn suggest_operations(name: &str, registry: &Registry) -> String {
     let entries = registry.entries();
     let known = entries.iter().map(|entry| entry.name);

@@ -23,7 +23,7 @@ pub struct Texture {
     alpha: Alpha,
 }
 
-/// Textures that are decoded, so that a texture is decoded once for several drawings.
+/// A cache of decoded textures, so that a texture is decoded once for several drawings.
 #[derive(Clone, Debug, Default)]
 pub struct TextureCache(Vec<(scene::Texture, Alpha, Arc<Texture>)>);
 
@@ -44,7 +44,7 @@ impl TextureCache {
         decoded
     }
 
-    /// Removes the textures for which this returns false.
+    /// Removes the textures for which `keep` returns false.
     pub fn retain(&mut self, mut keep: impl FnMut(&Arc<Texture>) -> bool) {
         self.0.retain(|(_, _, texture)| keep(texture));
     }

@@ -120,9 +120,9 @@ pub struct Lexer<'s> {
 impl<'s> Lexer<'s> {
     /// Creates a lexer for `source`.
     ///
-    /// A string can span several lines. If a quote is missing, everything after it is misread: strings as other
-    /// tokens, and other tokens as strings. Therefore, in a source text with an unclosed string, every string ends at
-    /// the latest at the end of its line, so that only the line with the missing quote is misread.
+    /// A string can span several lines. If a quote is missing, everything after it is misread: strings as other tokens,
+    /// and other tokens as strings. Therefore, in a source text with an unclosed string, every string except raw
+    /// strings ends at the latest at the end of its line, so that only the line with the missing quote is misread.
     pub fn new(source: &'s str) -> Self {
         let mut lexer = Self {
             source,

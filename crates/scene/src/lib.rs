@@ -133,8 +133,8 @@ impl Scene {
         Arc::make_mut(&mut self.graph)
     }
 
-    /// Returns a scene of the objects that `is_wanted` accepts, with their nodes, the joints of their skins and the
-    /// ancestors of all these nodes, but without cameras and lights.
+    /// Returns a scene of the objects that `is_wanted` accepts. The scene has the nodes of these objects, the joints of
+    /// their skins, the roots of these joints, and the ancestors of all these nodes. It has no cameras and no lights.
     #[must_use]
     pub fn only(&self, is_wanted: impl Fn(&str) -> bool) -> Self {
         let objects = self.objects.iter().filter(|o| is_wanted(&o.name));
@@ -184,8 +184,8 @@ impl Scene {
         Ok(self.graph_mut().append(graph))
     }
 
-    /// Removes an object and returns it. The nodes that reference the object are removed, unless they have other
-    /// children, a camera or a light, or are joints.
+    /// Removes an object and returns it. The nodes that reference the object are removed, unless they still have
+    /// children, have a camera or a light, or are joints or roots of joints of a skin.
     pub fn remove(&mut self, name: &str) -> Option<Object> {
         let index = self.objects.iter().position(|o| o.name == name)?;
         self.unplace(name);
@@ -193,16 +193,17 @@ impl Scene {
     }
 
     /// Removes an object from all nodes, so that its own space becomes the space of the scene. The nodes that
-    /// referenced the object are removed, unless they have other children, a camera or a light, or are joints.
+    /// referenced the object are removed, unless they still have children, have a camera or a light, or are joints or
+    /// roots of joints of a skin.
     pub fn unplace(&mut self, name: &str) {
         if !self.graph.is_empty() {
             self.graph_mut().remove_object(name);
         }
     }
 
-    /// Renames an object. A node or mesh of the object with the same name is renamed too. If no node of the object has
-    /// this name, the mesh is always renamed. The object keeps its position in the list. Returns whether the object
-    /// exists.
+    /// Renames an object. A node that references the object is renamed too if it has the same name. The mesh is renamed
+    /// if it has the same name, or if no node was renamed. The object keeps its position in the list. Returns whether
+    /// the object exists.
     ///
     /// # Errors
     ///

@@ -17,9 +17,9 @@ use crate::{Geometry, Object, Pose, Scene};
 pub struct Instance<'s> {
     /// The object.
     pub object: &'s Object,
-    /// A name that is unique among all instances. The only instance of an object has the name of the object.
-    /// Otherwise, the name of the instance is the name of the node (if the node has none, of the object), followed by a
-    /// number if necessary.
+    /// A name that is unique among all instances. The only instance of an object has the name of the object. If an
+    /// object has several instances, each has the name of its node (or of the object, if the node has no name),
+    /// followed by a number if necessary.
     pub name: String,
     /// The map from the space of the object to the scene. For a skinned mesh, the map of the first joint.
     pub to_scene: DAffine3,
@@ -28,9 +28,9 @@ pub struct Instance<'s> {
 }
 
 impl Instance<'_> {
-    /// Returns the object with points in scene space and with the name of the instance. Only meshes are placed.
-    /// Morph targets deform the mesh by the weights of the node (if the node has none, by the default weights), and a
-    /// skin deforms it by the placements of the joints.
+    /// Returns the object with the name of the instance. The points of a mesh are mapped to scene space; other geometry
+    /// is unchanged. Morph targets deform the mesh by the weights of the node (if the node has none, by the default
+    /// weights), and a skin deforms it by the placements of the joints.
     pub fn placed(&self) -> Object {
         let geometry = match &self.object.geometry {
             Geometry::Mesh(mesh) if self.pose.deforms() => {

@@ -19,7 +19,7 @@ type Normals<'a> = (Domain, &'a [DVec3]);
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pose {
     /// For each joint of the skin, the map from the points in the bind pose to the scene. `None` if the node has no
-    /// skin or the mesh has no weights of joints.
+    /// skin, the skin has no joints, or the mesh has no weights of joints.
     pub joints: Option<Arc<[DAffine3]>>,
     /// The weights of the morph targets.
     pub weights: Vec<f64>,
@@ -86,9 +86,9 @@ impl Pose {
     }
 
     /// Returns the normals of the mesh and of its morph targets in this pose, before joints move them. These columns
-    /// replace the columns of the same names in `attributes`. The list is empty if no normals change. All columns are of
-    /// corners if one of the old columns is of corners, and otherwise of vertices. `vertex_of` returns the vertex of a
-    /// corner.
+    /// replace the columns of the same names in `attributes`. The list is empty if no normals change. If one of the old
+    /// columns is of corners, all new columns are of corners; otherwise, all are of vertices. `vertex_of` returns the
+    /// vertex of a corner.
     ///
     /// The new normal is the normalized sum of the old normal and the weighted differences between the normals of the
     /// morph targets and the old normal, as in glTF 2.0, section 3.7.2.2. The differences themselves do not change. If

@@ -238,7 +238,7 @@ impl Entry {
 #[derive(Debug, thiserror::Error)]
 #[error("cannot {what} {}: {error}", path.display())]
 pub struct StoreError {
-    /// What could not be done: `read`, `write`, `make the folder` or `list`.
+    /// The action that failed: `read`, `write`, `list`, `make the folder` or `remove the folder`.
     pub what: &'static str,
     /// The file or folder.
     pub path: PathBuf,

@@ -4,13 +4,13 @@ use std::path::{Path, PathBuf};
 
 use crate::{Store, StoreError};
 
-/// A folder that is removed with its content when this value is dropped. The folders that were created to contain it are
-/// then removed too, if they are empty.
+/// A folder that is removed with its content when this value is dropped. Its parent folders that were created together
+/// with it are then removed too, if they are empty.
 #[derive(Debug)]
 pub struct TemporaryFolder<'s> {
     store: &'s dyn Store,
     path: PathBuf,
-    /// The folders that were created to contain this folder, from the inside out.
+    /// The parent folders that were created together with this folder, from the innermost to the outermost.
     parents: Vec<PathBuf>,
 }
 

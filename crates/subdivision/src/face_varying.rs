@@ -12,12 +12,12 @@
 //!            /   |   \
 //! ```
 //!
-//! [`FaceVarying`] decides which vertices are corners of a piece. The rules are those of OpenSubdiv's
-//! face-varying interpolation. In this crate, the rules are applied to each level separately, so computing two
-//! levels at once gives the same result as computing one level twice. The results can differ from those of
-//! OpenSubdiv in one case: if two pieces meet at a vertex, a semi-sharp piece can sharpen the other piece.
-//! OpenSubdiv decides on the first level whether this happens, and keeps the decision. If the pieces, their
-//! seam and their vertex have different semi-sharp values, later levels can differ.
+//! [`FaceVarying`] decides which vertices are corners of a piece. The rules are those of OpenSubdiv's face-varying
+//! interpolation. In this crate, the rules are applied to each level separately, so computing two levels at once gives
+//! the same result as computing one level twice. The results can differ from those of OpenSubdiv in one case: two
+//! pieces meet at a vertex, and a semi-sharp edge is inside one of them. While this edge is sharp, the value of the
+//! other piece can stay unchanged, too. OpenSubdiv decides on the first level whether this happens, and keeps the
+//! decision. If the pieces, their seam and their vertex have different semi-sharp values, later levels can differ.
 
 use mesh::{DVec4, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 use progress::{Cancelled, Meter};

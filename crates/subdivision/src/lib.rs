@@ -1,13 +1,14 @@
 //! Subdivision surfaces: refine a coarse mesh into ever finer ones.
 //!
-//! Each level adds vertices on edges, in faces or both, connects them into smaller faces, and, in most smooth schemes,
-//! moves each old vertex to a weighted mean of its neighborhood. (Doo-Sabin replaces the old vertices.) [`Rules`] hold
-//! the scheme and its options; [`subdivide`] computes the given number of levels.
+//! Each level adds vertices on edges, in faces, or both, and connects the vertices into smaller faces. Most smooth
+//! schemes also move each old vertex to a weighted mean of its neighborhood. Butterfly keeps the old vertices in place,
+//! and Doo-Sabin replaces them. [`Rules`] hold the scheme and its options; [`subdivide`] computes the given number of
+//! levels.
 //!
 //! | scheme | faces become | old vertices | limit surface |
 //! | --- | --- | --- | --- |
-//! | [`Loop`](Scheme::Loop) | 4 triangles each | move | smooth, curvature continuous except at valence ≠ 6 |
-//! | [`CatmullClark`](Scheme::CatmullClark) | a quad for each corner | move | smooth, curvature continuous except at valence ≠ 4 |
+//! | [`Loop`](Scheme::Loop) | 4 triangles each | move | smooth, curvature continuous except at vertices whose valence is not 6 |
+//! | [`CatmullClark`](Scheme::CatmullClark) | a quad for each corner | move | smooth, curvature continuous except at vertices whose valence is not 4 |
 //! | [`Midpoint`](Scheme::Midpoint) | 4 triangles, or a quad for each corner | stay | the mesh itself |
 //! | [`Butterfly`](Scheme::Butterfly) | 4 triangles each | stay | smooth, through all vertices |
 //! | [`Sqrt3`](Scheme::Sqrt3) | 3 triangles each, then old edges are flipped | move | smooth |

@@ -21,9 +21,9 @@
 //! ```
 //!
 //! Without smoothing, each piece is similar to its old triangle, or is half of a triangle that is similar to the old
-//! triangle. So the number of levels does not matter for the smallest angle: over all levels, its cotangent grows by at
-//! most a factor of three. Source: Bank, Sherman and Weiser, "Refinement Algorithms and Data Structures for Regular
-//! Local Mesh Refinement", 1983.
+//! triangle. So the smallest angle has a bound that does not depend on the number of levels: over all levels together,
+//! the cotangent of this angle grows by at most a factor of three. Source: Bank, Sherman and Weiser, "Refinement
+//! Algorithms and Data Structures for Regular Local Mesh Refinement", 1983.
 //!
 //! # Polygons
 //!
@@ -76,7 +76,7 @@ use smoothed::{LocalMasks, SmoothedElements};
 /// elsewhere. Normals are dropped.
 ///
 /// If the result is refined again, triangles that were cut in two are treated as ordinary triangles. So each call can
-/// halve angles once, however many levels it computes.
+/// halve angles once more. Within one call, angles are halved at most once, even if the call computes several levels.
 ///
 /// If `levels` is 0 or no face is chosen, returns the compacted mesh.
 ///

@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A scheme with its options, which only Loop and Catmull-Clark use. The rules, the mesh and, for Sqrt3, the index of
-/// the level determine the next level.
+/// A scheme and its options. Only Loop and Catmull-Clark use the options. The rules, the mesh and, for Sqrt3, the index
+/// of the level determine the next level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Rules {
     /// The scheme.

@@ -21,7 +21,7 @@ use mesh::{CREASE, EdgeId, HalfEdgeId, Mesh, VERTEX_SHARPNESS, VertexId};
 use crate::parallel::any;
 use crate::rules::{Boundary, Creasing, Rules};
 
-/// Sharpness from this value on does not decrease.
+/// A sharpness of at least this value does not decrease.
 pub(crate) const INFINITE: f64 = 10.0;
 
 /// The sharpness of the edges and vertices of a mesh.
@@ -51,7 +51,8 @@ pub(crate) enum VertexRule<K> {
 pub(crate) struct Blend<K> {
     /// The rule for the sharpness on this level.
     pub(crate) now: VertexRule<K>,
-    /// The rule for the sharpness on the next level, and the weight of the rule `now`.
+    /// The rule for the sharpness on the next level, and the weight of the rule `now`. `None` if only the rule `now` is
+    /// used.
     pub(crate) next: Option<(VertexRule<K>, f64)>,
 }
 

@@ -102,8 +102,8 @@ impl Size {
         }
     }
 
-    /// Estimates how much the given levels, starting from this size, add to the [`Meter`](progress::Meter): one
-    /// for each new vertex, and one for each old edge and new face. Levels of Sqrt3 and Doo-Sabin add one for
+    /// Estimates how much the given levels, starting from this size, add to the [`Meter`](progress::Meter): one for
+    /// each new vertex, one for each old edge, and one for each new face. Levels of Sqrt3 and Doo-Sabin add one for
     /// each new vertex and each new edge.
     pub(crate) fn work(self, scheme: Scheme, levels: Range<u32>) -> u64 {
         let (mut size, mut sum) = (self, 0);
@@ -201,7 +201,7 @@ impl<N: Count> Size<N> {
     ///
     /// # Errors
     ///
-    /// Returns [`TooLarge`] with the highest level that fits.
+    /// Returns [`TooLarge`] with the highest of these levels that fits, if any.
     pub fn check(self, scheme: Scheme, levels: Range<u32>, budget: u64) -> Result<(), TooLarge> {
         let mut size = self;
         let mut fits = None;
@@ -237,11 +237,11 @@ impl<N: Count> Size<N> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("level {levels} would have {faces} faces and {}", self.excess())]
 pub struct TooLarge {
-    /// The requested level.
+    /// The last of the checked levels.
     pub levels: u32,
-    /// The number of faces at that level.
+    /// The number of faces at this level.
     pub faces: u64,
-    /// The number of half-edges at that level.
+    /// The number of half-edges at this level.
     pub half_edges: u64,
     /// The number of bytes of the mesh; `None` if it has more elements than there are ids.
     pub bytes: Option<u64>,

@@ -26,9 +26,9 @@ pub(crate) trait Topology: Sync {
     /// Returns the old face that new face `i` is a part of, if any.
     fn face(&self, i: usize) -> Option<usize>;
 
-    /// If edge `i` of the next level is a part of an old edge at one of its ends, returns the half-edge of the old
-    /// edge that starts at this end. The default is for schemes that split each edge in two and assign ids to
-    /// these parts before all other edges.
+    /// If edge `i` of the next level is the part at one end of an old edge, returns the half-edge of the old edge that
+    /// starts at this end. The default is for schemes that split each edge in two and assign ids to these parts before
+    /// all other edges.
     fn half(&self, i: usize) -> Option<HalfEdgeId> {
         self.edge(i).map(|_| HalfEdgeId::new(i))
     }

@@ -25,11 +25,11 @@ use crate::size::Size;
 ///
 /// A mesh with dead elements is compacted first, and the ids are those of the compacted mesh.
 ///
-/// Vertex attributes are smoothed with the weights of the positions, and corner values as defined by
-/// [`Rules::face_varying`] (other schemes than Loop and Catmull-Clark interpolate corner values linearly within each
-/// old face). Parts of an edge or a face copy the values of the old edge or face. Normals are dropped, because they
-/// would be wrong. Sharpness ([`mesh::CREASE`], [`mesh::VERTEX_SHARPNESS`]) shapes Loop and Catmull-Clark surfaces and
-/// decreases with each level; other schemes copy it unchanged.
+/// Vertex attributes are smoothed with the weights of the positions. Loop and Catmull-Clark smooth corner values as
+/// defined by [`Rules::face_varying`]; all other schemes interpolate corner values linearly within each old face. Parts
+/// of an edge or a face copy the values of the old edge or face. Normals are dropped, because they would be wrong.
+/// Sharpness ([`mesh::CREASE`], [`mesh::VERTEX_SHARPNESS`]) shapes Loop and Catmull-Clark surfaces and decreases with
+/// each level; other schemes copy it unchanged.
 ///
 /// Progress is reported from the worker threads.
 ///

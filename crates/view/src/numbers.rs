@@ -264,8 +264,8 @@ impl Quantity {
             Self::DihedralAngle => [0.0, if high > 90.0 { 180.0 } else { 90.0 }],
             Self::DistanceTo(_) => [0.0, high],
             // The range is symmetric about 0 and excludes the largest values, because curvatures are very large at a
-            // few sharp corners and rims, which often have the most vertices. A flat surface with sharp edges is 0 almost
-            // everywhere; then fewer values are excluded.
+            // few sharp corners and rims, which often have the most vertices. On a flat surface with sharp edges, the
+            // curvature is 0 almost everywhere; then fewer values are excluded.
             Self::MeanCurvature | Self::GaussianCurvature => {
                 let max = [8, 50, usize::MAX].map(|part| {
                     let n_outliers = values.len() / part;

@@ -182,7 +182,8 @@ impl Camera {
         self.target -= (x * pixels.x - y * pixels.y) * self.pixel_size(size.y);
     }
 
-    /// Multiplies the distance by `factor`. The point under the pixel `at`, at the distance of the target, stays there.
+    /// Multiplies the distance by `factor`. The point under the pixel `at`, at the distance of the target, stays at
+    /// this pixel.
     pub fn zoom(&mut self, factor: f64, at: DVec2, size: DVec2) {
         let [x, y, _] = self.axes();
         let d = (at - 0.5 * size) * self.pixel_size(size.y);
@@ -235,7 +236,8 @@ impl Camera {
         projection * away * rotation * DMat4::from_translation(-self.target)
     }
 
-    /// Returns the number of pixels per scene unit at distance 1 with perspective, and everywhere without.
+    /// Returns the number of pixels per scene unit: at distance 1 with perspective, at every distance without
+    /// perspective.
     pub fn scale(&self, height: f64) -> f64 {
         if self.is_perspective {
             0.5 * height / tangent()

@@ -13,7 +13,7 @@ use crate::theme::Colors;
 pub(crate) struct Mark {
     /// The bytes of the text.
     pub(crate) range: Range<usize>,
-    /// Whether the part is an error, or else a warning.
+    /// Whether the part has an error. If not, it has a warning.
     pub(crate) is_error: bool,
 }
 

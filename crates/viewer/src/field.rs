@@ -13,7 +13,7 @@ pub(crate) struct Field<'a> {
     pub(crate) of: &'a PanelField,
     /// The value while a slider is dragged, as RON.
     pub(crate) live: Option<&'a str>,
-    /// The selection that means the picked elements.
+    /// The selection that describes the picked elements.
     pub(crate) selection: Option<&'a SelectionText>,
     /// Distinguishes widgets of parameters with the same name.
     pub(crate) salt: &'a str,
@@ -358,7 +358,8 @@ fn by_wheel(ui: &Ui, slider: &Response, x: f64, [min, max]: [f64; 2]) -> Option<
     Some(Change::Drag(FieldValue::Number(x).to_ron()))
 }
 
-/// Returns the range of a slider. Fractions without a written range are rare: they get a number field.
+/// Returns the range of a slider, a little smaller than the limits if the limits themselves are not allowed. `None` if
+/// the number has no minimum or no maximum; it then gets a number field.
 fn range(limits: &Limits) -> Option<(f64, f64)> {
     let (mut min, mut max) = (limits.min?, limits.max?);
     let margin = (max - min) * 1e-3;

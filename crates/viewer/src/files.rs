@@ -45,7 +45,7 @@ impl Files {
         self.recoveries.first()
     }
 
-    /// Ends the offer of the unsaved text that is offered.
+    /// Removes and returns the unsaved text that is offered, so that it is not offered again.
     pub(crate) fn take_recovery(&mut self) -> Option<Recovery> {
         (!self.recoveries.is_empty()).then(|| self.recoveries.remove(0))
     }
@@ -71,7 +71,7 @@ impl Files {
         Some(Keys::read(&text).map_err(|error| format!("{}: {error}", path.display())))
     }
 
-    /// Writes a file of the state folder. The state is a convenience: an error is not worth a message.
+    /// Writes a file of the state folder. Errors are ignored, because the program works without the state.
     pub(crate) fn write(&self, name: &str, text: &str) {
         if let Some(folder) = &self.folder {
             let new = folder.join(format!("{name}.new"));

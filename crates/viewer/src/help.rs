@@ -23,7 +23,7 @@ const MOUSE: [(&str, &str); 10] = [
     ("Drag a control point", "move it (curves and patches)"),
 ];
 
-/// The task whose keys include those of the sides.
+/// The task to which the keys in `SIDES` are added.
 const LOOK: &str = "Look";
 /// Keys that the table of actions does not have.
 const SIDES: [(&str, &str); 2] = [

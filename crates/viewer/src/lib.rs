@@ -39,14 +39,14 @@ pub use app::{App, Start};
 
 /// How the program is used.
 const USAGE: &str = "\
-Edits a mesh in a window. Everything that is done becomes a step of a recipe.
+Edits a mesh in a window. Every edit becomes a step of a recipe.
 
 Usage: meshwright-viewer [FILE]
 
 FILE is a model or a recipe (.ron). Press H in the window for the list of all keys.";
 
-/// Runs the program with these operations and arguments. Returns 0 if the window was closed, 1 if it could not be opened, and 2 if the
-/// arguments are wrong.
+/// Runs the program with these operations and arguments. Returns 0 if the window was closed, 1 if the window could not
+/// be opened or the graphics adapter was lost, and 2 if the arguments are wrong.
 #[expect(
     clippy::print_stdout,
     clippy::print_stderr,

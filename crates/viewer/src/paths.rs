@@ -9,10 +9,10 @@ use mesh_io::Format;
 use crate::app::{Parts, Pending};
 use crate::{files, help};
 
-/// A dialog that ends sooner was not shown: on Linux, without a desktop portal.
+/// A dialog that ends sooner was not shown. This happens on Linux without a desktop portal.
 const SHORTEST_DIALOG: Duration = Duration::from_millis(200);
 
-/// What a file is asked for.
+/// Why the user is asked for the path of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Purpose {
     Open,
@@ -47,7 +47,7 @@ pub(crate) struct Prompt {
     path: String,
 }
 
-/// Asks for a file, and does with it what it is asked for.
+/// Asks for the path of a file, and then opens or saves the file, as `purpose` says.
 pub(crate) fn ask(parts: &mut Parts, purpose: Purpose, ctx: &Context) {
     let path = parts.editor.document().path();
     let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());

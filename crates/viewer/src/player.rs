@@ -13,7 +13,7 @@ use crate::paths::{self, Purpose};
 use crate::steps_pane::heading;
 use crate::theme::Colors;
 
-/// The most half-edges whose pointers are listed.
+/// The maximum number of half-edges whose pointers are listed.
 const MAX_POINTERS: usize = 24;
 
 /// The edits of a step that are played.
@@ -22,13 +22,13 @@ pub(crate) struct Player {
     object: String,
     /// The index of the step in the text.
     step: usize,
-    /// The text that the edits are from.
+    /// The version of the text that the edits belong to.
     version: u64,
     /// The scene before the step. The mesh of the object is replaced.
     scene: Arc<Scene>,
     /// The number of edits per second.
     speed: f64,
-    /// When the next edit is done, in seconds since the start of the program. `None` while the player waits.
+    /// When the next edit is done, in seconds since the start of the program. `None` while the player is paused.
     next: Option<f64>,
 }
 
@@ -67,7 +67,7 @@ impl Player {
         self.next = None;
     }
 
-    /// Moves to a number of edits that are done.
+    /// Moves forwards or backwards until this number of edits is done.
     pub(crate) fn go_to(&mut self, position: usize) {
         while self.play.position() < position && self.play.forward() {}
         while self.play.position() > position && self.play.back() {}

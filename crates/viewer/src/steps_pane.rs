@@ -10,7 +10,7 @@ use crate::app::Parts;
 use crate::theme::Colors;
 use crate::widgets::{dot, duration, size};
 
-/// Something to do with a step.
+/// An edit of a step that the user requests in the list.
 enum Edit {
     Cursor(usize),
     Delete(usize),

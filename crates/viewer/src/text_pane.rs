@@ -31,7 +31,7 @@ pub(crate) struct TextPane {
 }
 
 impl TextPane {
-    /// Shows a place of the text.
+    /// Scrolls to a place of the text.
     pub(crate) fn go_to(&mut self, offset: usize) {
         self.target = Some(offset);
     }
@@ -195,8 +195,9 @@ struct Words {
     texts: Vec<String>,
 }
 
-/// Returns the completions of the word before the cursor: names of operations for words with a capital letter, names of
-/// parameters inside of a step.
+/// Returns the completions of the word before the cursor. For a word with a capital letter, these are the names of the
+/// variants of the parameter or, if it has none, of operations. For other words, these are the names of the parameters
+/// of the step.
 fn completions(parts: &Parts, ui: &Ui, id: Id) -> Words {
     let none = Words {
         range: 0..0,

@@ -8,7 +8,7 @@ use eframe::egui::{
 /// The colors that depend on the theme.
 #[derive(Clone, Copy, Debug)]
 pub struct Colors {
-    /// Behind everything.
+    /// The background behind everything.
     pub base: Color32,
     /// Panels.
     pub panel: Color32,
@@ -22,7 +22,7 @@ pub struct Colors {
     pub weak: Color32,
     /// What is selected or has the focus.
     pub accent: Color32,
-    /// Behind what is selected.
+    /// The background of what is selected.
     pub accent_fill: Color32,
     /// Success.
     pub good: Color32,

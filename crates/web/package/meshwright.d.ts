@@ -10,11 +10,14 @@ export interface Problem {
     message: string;
     /** How to correct the text. */
     help: string | null;
-    /** The first and the last offset in the text of the recipe, as strings count. `null` if the problem is elsewhere. */
+    /**
+     * The start and the exclusive end in the text of the recipe, in UTF-16 code units. `null` if the problem is
+     * elsewhere.
+     */
     range: [number, number] | null;
 }
 
-/** A step that is done. Counts are those of all meshes together after the step. */
+/** A step that is done. The counts are totals of all meshes after the step. */
 export interface StepDone {
     event: "done";
     /** The number of the step, counted from 1. */
@@ -31,7 +34,7 @@ export interface StepDone {
     changes: { code: string; count: number; text: string; vertices?: number[]; edges?: number[]; faces?: number[] }[];
     notes: string[];
     milliseconds: number;
-    /** Whether the result is that of an earlier run of the session, so the step did not run. */
+    /** Whether the result is from an earlier run of the session, so that the step did not run. */
     cached: boolean;
 }
 
@@ -146,9 +149,10 @@ export class Session {
     /** Checks a recipe without running it. */
     check(recipe: string, options?: Options): Checked;
     /**
-     * Checks and runs a recipe. Steps at the start that are the same as in the run before, up to the first step that writes a
-     * file, do not run again. Blocks until the run ends, so a page runs it in a worker. Throws `RuntimeError` if
-     * memory is exhausted; the engine cannot be used afterwards, and a page starts a new worker.
+     * Checks and runs a recipe. Steps at the start that are the same as in the previous run, up to the first step that
+     * writes a file, do not run again, unless a file was written or removed after that run. Blocks until the run ends,
+     * so a page runs it in a worker. Throws `RuntimeError` if memory is exhausted. The engine cannot be used
+     * afterwards, so a page then starts a new worker.
      */
     run(recipe: string, options?: RunOptions): Result;
     /**
@@ -165,7 +169,7 @@ export class Session {
     placements(object: string): Float64Array;
     /** Returns the quantities of the meshes of the last run that `colors` can show. */
     quantities(): { title: string; quantity: Quantity }[];
-    /** Returns a quantity of the meshes of the last run as colors. Throws if no mesh has it. */
+    /** Returns a quantity of the meshes of the last run as colors. Throws if no mesh has the quantity. */
     colors(quantity: Quantity): Colors;
     /** Returns the JSON schema of recipes. */
     schema(): object;

@@ -17,7 +17,7 @@ cp crates/web/page/package.json crates/web/page/package-lock.json "$tools"
 npm ci --silent --no-audit --no-fund --ignore-scripts --prefix "$tools" ||
     skip "the page is not built: packages cannot be installed from npm"
 
-# The types of the package, with a sample that is only checked.
+# Checks the types of the package with a sample, which is not run.
 mkdir -p "$tools/node_modules/meshwright"
 cp "$package/package.json" "$package/meshwright.d.ts" "$package/meshwright.js" "$tools/node_modules/meshwright"
 cp crates/web/tests/types.ts "$tools/types.mts"

@@ -15,8 +15,8 @@ const esbuild = createRequire(join(tools, "package.json"))("esbuild");
 rmSync(out, { recursive: true, force: true });
 mkdirSync(join(out, "gallery"), { recursive: true });
 
-/// The nonce of the styles of CodeMirror. A folder of static files has the same nonce for all visitors. Only markup could use it,
-/// and the page makes none from texts.
+/// The nonce of the styles of CodeMirror. The page is a static file, so the nonce is the same for all visitors. Only
+/// injected markup could misuse the nonce, and the page never makes markup from texts.
 const nonce = createHash("sha256").update(readFileSync(join(engine, "core_bg.wasm"))).digest("base64");
 
 /// Bundles scripts. Workers contain the package; the page gives them the compiled engine.

@@ -8,8 +8,8 @@ const LIGHT = Uint16Array.from({ length: 256 }, (_, i) => {
     return Math.round(65535 * (s <= 0.04045 ? s / 12.92 : ((s + 0.055) / 1.055) ** 2.4));
 });
 
-/// Colors a group of a surface and its lines: `{ per: "vertex" | "corner" | "edge", colors }`. Without colors, the surface has
-/// its own color again.
+/// Colors a group of a surface and its lines. `found` has the colors: `{ per: "vertex" | "corner" | "edge", colors }`.
+/// Without `found`, the surface gets its own color again.
 export function paint(group, found) {
     const [surface, lines] = group.children;
     const plain = (group.userData.plain ??= { surface: surface.geometry, color: surface.material.color.clone(), lines: lines.geometry,
@@ -36,7 +36,7 @@ export function paint(group, found) {
         surface.material.color.setScalar(0.75);
     } else if (per) {
         if (per === "corner") {
-            // Corners of one vertex have different colors, but its normal.
+            // The corners of a vertex can have different colors, but they share the normal of the vertex.
             plain.surface.computeVertexNormals();
             surface.geometry = plain.surface.toNonIndexed();
         }

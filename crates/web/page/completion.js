@@ -105,8 +105,8 @@ export class Completions {
         }));
     }
 
-    /// Returns the names of variants, operations and values. `place` is `step` in a list of steps, `run` after that field, and
-    /// otherwise `value`.
+    /// Returns the names of variants, operations and values. `place` is `step` in a list of steps, `run` after the
+    /// field `run`, and otherwise `value`.
     #names(nodes, place, inSteps) {
         const all = nodes.flatMap((node) => this.#alternatives(node));
         const options = new Map();

@@ -5,8 +5,8 @@ export function byId(id) {
     return document.getElementById(id);
 }
 
-/// Creates an element: `element("button", { class: "plain", onclick }, "Text", child, ..)`. Functions become listeners,
-/// `null` and `false` leave an attribute out.
+/// Creates an element: `element("button", { class: "plain", onclick }, "Text", child, ..)`. Functions become listeners.
+/// Attributes that are `null` or `false` are left out.
 export function element(name, attributes = {}, ...children) {
     const created = document.createElement(name);
     for (const [key, value] of Object.entries(attributes)) {

@@ -1,5 +1,5 @@
-// Starts the download of the engine before the other scripts are there. Browsers share memory between threads only if the page is
-// isolated from other origins.
+// Starts the download of the engine before the other scripts are loaded. Browsers share memory between threads only if
+// the page is isolated from other origins.
 globalThis.download = (async () => {
     if (globalThis.crossOriginIsolated) {
         const response = await fetch("threads/core_bg.wasm");

@@ -1,6 +1,6 @@
 // The engine in its worker. The page keeps the files, so that a new worker can replace one that was canceled or has failed.
 
-/// More threads would need much memory, and save little time.
+/// The maximum number of threads. More threads would need much memory and save little time.
 const MAX_THREADS = 16;
 
 /// The engine was ended before it answered.
@@ -22,8 +22,8 @@ export class Engine {
     /// The content of each file by its path. Outputs are not among them.
     files = new Map();
 
-    /// Compiles the engine, and starts a worker. `download` has the response with the engine and the folder of its worker. Until
-    /// then, files can be written, and nothing else.
+    /// Compiles the engine, and starts a worker. `download` has the response with the engine and the folder of its
+    /// worker. Until the engine is loaded, only `write` and `remove` can be used.
     async load(download) {
         const { response, folder } = await download;
         this.#folder = folder;
@@ -31,7 +31,7 @@ export class Engine {
         await this.#start();
     }
 
-    /// How many threads a run uses.
+    /// The number of threads that a run uses.
     get threads() {
         return 1 + this.#threads.length;
     }

@@ -19,7 +19,7 @@ export function safePath(path) {
 
 /// Returns the files of a drop, also those in folders, as `[path, file]`.
 async function dropped(transfer) {
-    // Must be read before the event ends.
+    // The items must be read before the event ends.
     const items = [...transfer.items].filter((item) => item.kind === "file")
         .map((item) => [item.webkitGetAsEntry?.(), item.getAsFile()]);
     const found = [];

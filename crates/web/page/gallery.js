@@ -1,9 +1,9 @@
-// The shipped scenes, with pictures.
+// The scenes of the gallery, with their pictures.
 import { byId, element } from "./dom.js";
 
 let loading;
 
-/// Loads the scenes once. Returns `scenes` and `files`, whose contents are base64 by path.
+/// Loads the scenes once. Returns `scenes`, and `files`: the content of each file by its path, as base64.
 function shipped() {
     loading ??= fetched().catch((error) => {
         // The next call tries again, for example after the network is back.

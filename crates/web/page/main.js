@@ -21,15 +21,15 @@ let checkAgain = false;
 let runAgain = false;
 /// Whether the visitor has run the recipe. A shared recipe is only checked until then.
 let trusted = true;
-/// Whether the view keeps its camera: the last run was of the same recipe.
+/// Whether the last run was a run of the same recipe, so that the view keeps its camera.
 let sameRecipe = false;
 /// The axis that points upwards: "y", "z" or "auto".
 let up = "auto";
-/// Whether a text is being opened that is not to be kept for the next visit.
+/// Whether the text that is being opened must not be kept for the next visit.
 let foreign = false;
-/// The text and the values of the last run, whose problems and steps stay until one of both changes.
+/// The text and the values of the last run. Its problems and steps are shown until the text or a value changes.
 let lastRun;
-/// Settled once the files of a shared recipe are there.
+/// Settled once the files of a shared recipe are written.
 let arriving = Promise.resolve();
 let completions;
 
@@ -47,7 +47,7 @@ const reveal = (range, line) => {
 };
 const steps = new Steps(reveal);
 const parameters = new Parameters(() => (trusted ? runSoon() : checkSoon()), choosePreset);
-/// Adds a step and runs the recipe, if its first run was allowed.
+/// Adds a step, and runs the recipe if it is trusted.
 function addStep(step) {
     if (!editor.addStep(step)) {
         notify("The recipe has no list of steps.");
@@ -189,7 +189,7 @@ function report(error) {
     }
 }
 
-/// Replaces the recipe. Without trust, the recipe is only checked.
+/// Replaces the recipe. If `trust` is false, the recipe is only checked until the visitor runs it.
 function openRecipe(text, { title, trust, set = {}, axis = "auto" }) {
     sameRecipe = false;
     trusted = trust;
@@ -220,7 +220,7 @@ async function openShared() {
         if (found) {
             arriving = writeNamed(found.recipe);
             await openRecipe(found.recipe, { title: "Shared recipe", trust: false, set: found.set });
-            notify("This recipe comes from a link. Press Run to run it. Ctrl+Z brings back the text before.");
+            notify("This recipe comes from a link. Press Run to run it. Ctrl+Z brings back the previous text.");
         }
         return Boolean(found);
     } catch (error) {
@@ -258,7 +258,7 @@ function copy(text, button) {
     navigator.clipboard.writeText(text).then(() => {
         button.textContent = "Copied";
         setTimeout(() => (button.textContent = "Copy"), 1500);
-    }, () => notify("The browser does not allow to copy. Select the text and copy it yourself."));
+    }, () => notify("The browser does not allow copying. Select the text and copy it yourself."));
 }
 
 /// Keeps the text for the next visit, if the browser allows it. A recipe of a link replaces that text once it is edited.
@@ -272,7 +272,7 @@ function edited() {
     try {
         localStorage.setItem("recipe", editor.text);
     } catch {
-        // The recipe is then lost with the page, like any text in a form.
+        // If the browser does not allow it, the text is lost when the page is closed.
     }
 }
 
@@ -337,7 +337,7 @@ async function start() {
     runAgain = checkAgain = false;
     await (trusted ? run() : check());
     stage.completions = completions = new Completions(await engine.describe());
-    // Loaded last, and not needed for anything else.
+    // The gallery is loaded last, because nothing else needs it.
     prepareGallery(({ name, recipe, up: axis, files: needed }) => {
         write(needed);
         openRecipe(recipe, { title: name, trust: true, axis });

@@ -1,4 +1,4 @@
-// Which element of a mesh is nearest to a click.
+// Finds the element of a mesh that is nearest to a click.
 
 /// Returns the element of a kind ("vertex", "edge" or "face") at a triangle of a mesh that is nearest to a point of the page:
 /// `{ kind, number, vertices }`. `place` returns where a vertex is on the page.
@@ -55,7 +55,7 @@ function faceCorners(mesh, face, triangle) {
     return faceTriangles(mesh, face, triangle).flatMap((i) => [...mesh.triangles.subarray(3 * i, 3 * i + 3)]);
 }
 
-/// Returns the edges between consecutive corners of the triangles that are edges of the mesh. The diagonals of a polygon are not.
+/// Returns the sides of the triangles that are edges of the mesh. The diagonals of a polygon are left out.
 function faceEdges(mesh, corners) {
     const pairs = new Set();
     for (let i = 0; i < corners.length; i += 3) {

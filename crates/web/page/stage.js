@@ -110,7 +110,8 @@ export class Stage {
         }
     }
 
-    /// Keeps what is shown after the engine has lost the scene. Other colors and other pictures need the scene.
+    /// Disables the choice of other colors and of other pictures after the engine has lost the scene. What is shown
+    /// stays.
     detach() {
         this.#enable(false);
     }

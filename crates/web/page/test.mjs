@@ -43,7 +43,7 @@ async function close(page) {
 const ready = (page) => page.waitForSelector("body[data-ready]");
 const text = (page, selector) => page.locator(selector).innerText();
 
-/// Replaces the recipe as a visitor would who pastes a text.
+/// Replaces the recipe, as if a visitor pasted a text.
 async function write(page, recipe) {
     await page.locator(".cm-content").click();
     await page.keyboard.press("Control+A");
@@ -687,7 +687,7 @@ for (const [name, test] of Object.entries(tests)) {
     await check(name, test);
 }
 
-/// Measures a step, the second time it runs. The name of the object differs, because an equal step would not run again.
+/// Measures the second run of a step. The name of the object differs, because an equal step would not run again.
 async function longest(page) {
     await ready(page);
     const recipe = (name) => `(recipe: 1, steps: [Cube(name: "${name}"), Triangulate(), LoopSubdivide(levels: 9)])`;

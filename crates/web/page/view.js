@@ -5,13 +5,13 @@ import { paint } from "./colors.js";
 import { nearest } from "./pick.js";
 import { Marks } from "./marks.js";
 
-/// Colors of the objects, which differ in lightness too.
+/// Colors of the objects, which differ in hue and in lightness.
 const COLORS = [0x8fa8c8, 0xd9b26f, 0x8fc0a0, 0xc98f8f, 0xb3a0cf, 0xb8b8a8];
 
-/// How many instances of a mesh are drawn. Each takes some time for each picture.
+/// The maximum number of instances of a mesh that are drawn. Each instance makes drawing slower.
 export const MAX_INSTANCES = 1000;
 
-/// A vertical field of view as in the pictures of recipes, in degrees.
+/// The vertical field of view in degrees, the same as in the pictures of recipes.
 const ANGLE = 25;
 
 export class View {
@@ -23,7 +23,7 @@ export class View {
     #content = new THREE.Group();
     /// The meshes of the previous run.
     #earlier = new THREE.Group();
-    /// How much of the width shows the meshes of the previous run, from 0 to 1.
+    /// The fraction of the width that shows the meshes of the previous run, from 0 to 1.
     #split = 0;
     #marks = new Marks();
     #center = new THREE.Vector3();
@@ -61,7 +61,8 @@ export class View {
         const before = this.#radius;
         const sawAll = this.#seesAll();
         const box = new THREE.Box3();
-        // Relative to the first center, since numbers of 32 bits are precise only near the origin.
+        // Positions are relative to the center of the first mesh, since numbers of 32 bits are precise only near the
+        // origin.
         const center = meshes.length ? new THREE.Vector3(...meshes[0].center).applyMatrix4(placement(meshes[0], 0)) : new THREE.Vector3();
         this.#retire(keep, this.#center.clone().sub(center));
         this.#center = center;
@@ -191,7 +192,7 @@ export class View {
         this.fit(this.#camera.position.clone().sub(this.#controls.target));
     }
 
-    /// Keeps all meshes in the view if they were there before a change.
+    /// Moves the camera so that all meshes are in the view, if they were before a change but are not now.
     #keepAll(sawAll) {
         if (sawAll && !this.#seesAll()) {
             this.#refit();
@@ -218,7 +219,7 @@ export class View {
         const point = new THREE.Vector3();
         let distance = this.#radius;
         for (const { matrixWorld, userData: { mesh: { positions } } } of this.#content.children) {
-            // Some of many vertices are enough.
+            // If there are many vertices, it is enough to use some of them.
             const stride = 3 * Math.ceil((positions.length * this.#content.children.length) / 3e5);
             for (let k = 0; k < positions.length; k += stride) {
                 point.fromArray(positions, k).applyMatrix4(matrixWorld).sub(center);
@@ -229,7 +230,8 @@ export class View {
         return distance;
     }
 
-    /// Makes the meshes those of the previous run, and moves them. Drops them if `keep` is false.
+    /// Makes the current meshes the meshes of the previous run, and moves them by `move`. If `keep` is false, drops
+    /// them.
     #retire(keep, move) {
         for (const child of this.#earlier.children.flatMap((object) => object.children)) {
             child.geometry.dispose();
@@ -302,7 +304,7 @@ export class View {
         let down;
         this.#canvas.addEventListener("pointerdown", (event) => (down = event));
         this.#canvas.addEventListener("pointerup", (event) => {
-            // A click turns nothing.
+            // If the pointer has moved farther, the visitor has turned the view and has not clicked.
             if (down && Math.hypot(event.clientX - down.clientX, event.clientY - down.clientY) < 5 && event.button === 0) {
                 this.#pick(event);
             }

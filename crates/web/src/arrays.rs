@@ -40,7 +40,7 @@ impl Arrays {
     }
 }
 
-/// Passes each triangle on: its face and its corners. A polygon has several triangles.
+/// Calls `each` with the face and the corners of each triangle. A polygon has several triangles.
 pub(crate) fn each_triangle(mesh: &Mesh, mut each: impl FnMut(FaceId, [HalfEdgeId; 3])) {
     let mut cutter = Cutter::default();
     let mut corners = Vec::new();
@@ -48,7 +48,7 @@ pub(crate) fn each_triangle(mesh: &Mesh, mut each: impl FnMut(FaceId, [HalfEdgeI
         corners.clear();
         corners.extend(mesh.face_half_edges(f));
         let cut = cutter.cut(mesh, f);
-        // A triangle is not cut.
+        // A face that is a triangle is not cut.
         let whole = [[0, 1, 2]];
         let triangles = match cut.triangles() {
             [] if corners.len() == 3 => &whole[..],
@@ -69,7 +69,7 @@ fn center(mesh: &Mesh) -> DVec3 {
     let positions = || mesh.vertices().map(|v| mesh.position(v));
     let low = positions().reduce(DVec3::min).unwrap_or(DVec3::ZERO);
     let high = positions().reduce(DVec3::max).unwrap_or(DVec3::ZERO);
-    // Halved first, so that the sum is finite.
+    // Each term is halved first, so that the sum does not overflow.
     0.5 * low + 0.5 * high
 }
 

@@ -20,7 +20,7 @@ extern "C" {
 }
 
 thread_local! {
-    /// The listener of the run. It belongs to JavaScript, so other threads could not call it.
+    /// The listener of the run. It is a JavaScript object of one thread, so other threads cannot call it.
     static LISTENER: RefCell<Option<Listener>> = const { RefCell::new(None) };
 }
 
@@ -209,7 +209,7 @@ impl Colored {
         serde_json::json!({ "legend": self.0.legend, "meshes": meshes }).to_string()
     }
 
-    /// The colors of a mesh by its index. They can be taken once.
+    /// The colors of the mesh with this index. They can be taken once.
     pub fn colors(&mut self, mesh: usize) -> Vec<u8> {
         let mesh = self.0.meshes.get_mut(mesh);
         mesh.map_or_else(Vec::new, |m| std::mem::take(&mut m.colors))

@@ -12,8 +12,8 @@ use serde_json::{Value as Json, json};
 pub(crate) struct PlacedProblem {
     #[serde(flatten)]
     problem: Problem,
-    /// The range in UTF-16 code units, as JavaScript counts. `null` if the problem is not about the text of the recipe
-    /// itself.
+    /// The start and the exclusive end in UTF-16 code units, which JavaScript counts. `null` if the problem is not in
+    /// the text of the recipe itself.
     range: Option<[usize; 2]>,
 }
 
@@ -35,7 +35,7 @@ pub(crate) fn placed(diagnostics: &[Diagnostic], loaded: &Loaded) -> Vec<PlacedP
         .collect()
 }
 
-/// Describes the first expectations, whose results are known.
+/// Describes the first `checked` expectations, whose results are known.
 pub(crate) fn expectations(loaded: &Loaded, outcome: &Outcome, checked: usize) -> Vec<Json> {
     let recipe = &loaded.recipe;
     let checked = recipe.expectations.iter().enumerate().take(checked);

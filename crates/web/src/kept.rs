@@ -34,7 +34,8 @@ impl Kept {
     pub(crate) fn start(&mut self, loaded: &Loaded, keys: &StepKeys) -> (usize, Scene) {
         let known = self.steps.iter().zip(&keys.steps);
         let known = known.take_while(|((before, _), now)| before == *now);
-        // Every run writes all outputs, because their provenance has the values of all parameters.
+        // Steps that write files always run again, because the provenance in the files has the values of all
+        // parameters.
         let forecast = &loaded.forecast.steps;
         let writes = forecast.iter().position(|step| step.n_outputs > 0);
         let first = known.count().min(writes.unwrap_or(usize::MAX));

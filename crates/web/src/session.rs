@@ -25,7 +25,7 @@ use crate::{Arrays, Colors};
 
 static REGISTRY: LazyLock<Registry> = LazyLock::new(ops_all::registry);
 
-/// The default memory budget for meshes in bytes. The addresses of WebAssembly end at 4 GiB.
+/// The default memory budget for meshes in bytes. WebAssembly can address at most 4 GiB.
 const BUDGET: u64 = 1 << 30;
 
 /// The minimum time between two progress events.
@@ -90,10 +90,11 @@ impl Session {
     /// Checks a recipe without running it. `path` is the path of the recipe, which other paths are relative to. The
     /// paths in `values` are relative to the root.
     ///
-    /// Returns `problems`, each with `severity`, `file`, `line`, `column`, `message`, `help` and `range` (the first and
-    /// the last offset in UTF-16 code units); `parameters` with `name`, `type`, `value`, `doc`, the limits `min` and `max`, and
-    /// the allowed names `of`, each `null` if there is none; `presets`, the names of the presets; `steps` with `label`,
-    /// `operation` and `line` (`null` if the step is in a called recipe); `peak_bytes`, the largest memory of all meshes after any step, `null` if unknown.
+    /// Returns `problems`, each with `severity`, `file`, `line`, `column`, `message`, `help` and `range` (the start and
+    /// the exclusive end in UTF-16 code units); `parameters` with `name`, `type`, `value`, `doc`, the limits `min` and
+    /// `max`, and the allowed names `of`, each `null` if there is none; `presets`, the names of the presets; `steps`
+    /// with `label`, `operation` and `line` (`null` if the step is in a called recipe); `peak_bytes`, the largest
+    /// memory of all meshes after any step, `null` if unknown.
     pub fn check(&self, path: &str, text: &str, values: Values) -> Json {
         let loaded = self.load(path, text, values);
         let parameters = loaded.recipe.parameters().iter().map(parameter);
@@ -118,7 +119,9 @@ impl Session {
     /// canceled.
     ///
     /// The run starts at the first step that differs from the last run, or at the first step that writes a file. The
-    /// reports of earlier steps have `cached`.
+    /// run starts earlier if the scene before this step was not kept, or if an expectation must be checked again. The
+    /// first run after a file was written or removed starts at the first step. The reports of steps that do not run
+    /// again have `cached`.
     ///
     /// Returns `succeeded`, `cancelled`, `problems` as [`check`](Self::check), `steps` with the events `done`,
     /// `expectations` with `line`, `text` and `met` for each checked expectation, `digest` (`null` if the recipe has errors),
@@ -133,7 +136,7 @@ impl Session {
         values: Values,
         listen: &(dyn Fn(&Json) -> bool + Sync),
     ) -> Json {
-        // The memory of the last scene can be used again, apart from kept scenes.
+        // Frees the memory of the last scene, except for meshes that are part of kept scenes.
         self.scene = Scene::new();
         let loaded = self.load(path, text, values);
         let mut result = json!({
@@ -293,7 +296,7 @@ impl Session {
     }
 }
 
-/// Passes events of a run on as JSON, and keeps the scenes.
+/// Passes the events of a run to the listener as JSON, and keeps the scenes.
 struct Events<'a> {
     loaded: &'a Loaded,
     listen: &'a (dyn Fn(&Json) -> bool + Sync),

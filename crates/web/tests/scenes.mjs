@@ -1,6 +1,6 @@
-// Runs every recipe in scenes/ that tests/digests.txt lists, with its files as bytes: the digests must be the same. Then
-// reads the odd and hostile files of the fuzz tests, of which none may end the engine, and lists the files that npm would
-// publish: scenes.mjs PACKAGE
+// Runs every recipe in scenes/ that tests/digests.txt lists, with its files as bytes: the digests must be the same.
+// Then reads the odd and hostile files of the fuzz tests, none of which may crash the engine, and lists the files that
+// npm would publish: scenes.mjs PACKAGE
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { readFileSync, readdirSync } from "node:fs";
@@ -34,7 +34,7 @@ for (const [name, digest] of digests) {
 console.log(`${digests.length} digests are the same in WebAssembly`);
 session.free();
 
-// The short interface.
+// The function `run`, which needs no session.
 const result = await run(`(recipe: 1, steps: [Load(path: "a.obj", name: "a"), Save(path: "b.obj")])`,
     { "a.obj": "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n" });
 assert(result.succeeded, JSON.stringify(result.problems));
@@ -69,7 +69,7 @@ assert.deepEqual(cached({ preset: "fine" }), [true, false, false]);
 assert.deepEqual(slider.check(twisted, { preset: "fine" }).presets, ["fine"]);
 slider.free();
 
-// Checking is fast enough for each key.
+// A check is fast enough to run after each key press.
 const checker = await Session.create();
 const text = readFileSync(join(root, "scenes/cube_flip.ron"), "utf8");
 checker.check(text);
@@ -80,7 +80,7 @@ for (let i = 0; i < 20; i += 1) {
 const milliseconds = (performance.now() - begin) / 20;
 console.log(`a check takes ${milliseconds.toFixed(1)} ms`);
 
-// Files that broke readers before.
+// Odd files, some of which earlier versions of the readers could not handle.
 let n = 0;
 for (const path of filesBelow("tests/fuzz/corpus")) {
     const format = path.split("/")[3];

@@ -1,4 +1,5 @@
-// Compresses a file with brotli as FILE.br, prints both sizes, and fails if the latter is larger than the limit: size.mjs FILE
+// Compresses a file with brotli as FILE.br, prints both sizes, and fails if the compressed size exceeds the limit:
+// size.mjs FILE
 import { readFileSync, writeFileSync } from "node:fs";
 import { brotliCompressSync, constants } from "node:zlib";
 

@@ -8,10 +8,10 @@
 //!    a ------- b          a ------- b          '---'                  '---'
 //! ```
 //!
-//! A face with n corners becomes n - 2 triangles, which replace the face in the order of the faces. Vertices and edges
-//! keep their ids, and the n - 3 diagonals are added at the end. [`Triangulate`] documents which diagonals are chosen.
-//! The half-edges of the mesh are kept, and new half-edges are added. The mesh is not built again from triangles, so a
-//! closed mesh stays closed even where two diagonals join the same two vertices.
+//! A face with n corners becomes n - 2 triangles, which take the place of the face in the order of the faces. Vertices
+//! and edges keep their ids, and the n - 3 diagonals are added at the end. [`Triangulate`] documents which diagonals
+//! are chosen. The half-edges of the mesh are kept, and new half-edges are added. The mesh is not built again from
+//! triangles, so a closed mesh stays closed even where two diagonals join the same two vertices.
 
 mod assemble;
 mod duplicates;
@@ -50,8 +50,9 @@ impl MeshOperation for Triangulate {
     const NAME: &'static str = "Triangulate";
     const SUMMARY: &'static str = "Cut polygons into triangles";
     const EXAMPLE: &'static str = "Triangulate()";
-    // Version 2 cuts faces with more than 4096 corners into pieces first, which can change equally good diagonals.
-    const VERSION: u33 = 2;
+    // Since version 2, faces with more than 4096 corners are first cut into pieces. Version 3 cuts them into monotone
+    // pieces. Both changes can change the choice between equally good diagonals.
+    const VERSION: u32 = 3;
     const WORDS: &'static [&'static str] = &["triangles", "ears"];
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {

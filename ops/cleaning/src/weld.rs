@@ -25,11 +25,11 @@ use op::prelude::*;
 /// UV seams are kept.
 ///
 /// If neighboring corners of a face merge, the face loses a corner. A face is removed if it has fewer than three
-/// corners left or would contain a vertex twice. If joined faces have opposite orientations, the smaller group is
-/// reversed, provided that all orientations then agree. If faces are reversed, the report counts them, and the normals
-/// of vertices and corners are dropped. Where the result would still not be manifold, vertices and edges are copied.
-/// For example, a third face at an edge gets a copy of the edge. The report counts the copies. If no vertices merge,
-/// the mesh does not change.
+/// corners left or would contain a vertex twice. Joined faces may have opposite orientations. If reversing some faces
+/// of a connected part makes all orientations of the part agree, the smaller of the two groups of equal orientation is
+/// reversed. If faces are reversed, the report counts them, and the normals of vertices and corners are dropped. Where
+/// the result would still not be manifold, vertices and edges are copied. For example, a third face at an edge gets a
+/// copy of the edge. The report counts the copies. If no vertices merge, the mesh does not change.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Weld {

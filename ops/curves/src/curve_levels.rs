@@ -6,8 +6,8 @@
 //!      /      r0--m--r1       \        r: level 2
 //!     /      /         \       \       m: level 3, the point of the curve
 //!    q0 ----'           '------ q2
-//!   /                             \    the points of each level divide the legs of the
-//! p0                               p3  level before in the ratio t : 1 - t
+//!   /                             \    the points of each level divide the segments
+//! p0                               p3  of the level before in the ratio t : 1 - t
 //! ```
 //!
 //! Source: Farin, "Curves and Surfaces for CAGD", 5th edition, 2002, chapter 4.

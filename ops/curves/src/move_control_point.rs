@@ -3,7 +3,7 @@
 //! ```text
 //!                            p1'
 //!      p1 --- p2            /   \
-//!     /  .---. \    --->   / .-.  p2        all points but the ends move, most of all near p1
+//!     /  .---. \    --->   / .-.  p2        all points except the ends move, most of all near p1
 //!    / /      \ \         / /   \  \
 //!   p0          p3       p0        p3
 //! ```

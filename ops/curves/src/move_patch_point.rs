@@ -18,15 +18,15 @@ use scene::Geometry;
 
 /// Moves one control point of Bezier patches.
 ///
-/// Acts on all objects that consist of patches, or on the objects in `on`. Control points of the same object that are at the
-/// same position move together, so that patches with a common side stay joined. The point of a patch at the parameters
-/// (u, v) moves by the offset of the control point, multiplied by the values at u and v of the Bernstein polynomials of the
-/// control point. The report counts the objects.
+/// Acts on all objects that consist of patches, or on the objects in `on`. Control points of the same object that are
+/// at the same position move together, so that patches with a common side stay joined. The point of a patch at the
+/// parameters (u, v) moves by the offset of the control point, multiplied by the values at u and v of the Bernstein
+/// polynomials of the control point. The report counts the objects.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct MovePatchPoint {
-    /// The index of the control point, from 0: 16 times the index of the patch, plus 4 times the row, plus the column. Every
-    /// object on which the step acts must have a control point with this index.
+    /// The index of the control point, from 0: 16 times the index of the patch, plus 4 times the row, plus the column.
+    /// Every object on which the step acts must have a control point with this index.
     pub index: u32,
     /// The new position `(x, y, z)`, in scene units.
     pub to: [f64; 3],

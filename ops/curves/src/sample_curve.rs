@@ -1,4 +1,4 @@
-//! Samples a Bezier curve: a polyline joins its points at equal steps of the parameter.
+//! Samples a Bezier curve at equal steps of the parameter and joins the points with a polyline.
 //!
 //! ```text
 //!      p1 ------- p2              . --- .
@@ -37,8 +37,8 @@ impl Operation for SampleCurve {
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
         let segments = self.segments.get();
         change_curves(Self::NAME, scene, cx, |curve| {
-            // The time for a point grows with the square of the degree. Progress is reported about every
-            // million steps of the algorithm.
+            // The time for a point grows with the square of the degree. Progress is reported about once per million
+            // steps of the algorithm.
             let report_interval = 1 + (1 << 20) / (1 + curve.degree() * curve.degree());
             let mut line = Vec::with_capacity(segments as usize + 1);
             for p in curve.sample(segments) {

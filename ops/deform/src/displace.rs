@@ -49,7 +49,7 @@ pub enum DisplaceBy {
         #[serde(default)]
         seed: u64,
     },
-    /// A random number from -1 to 1 for each vertex, which depends on the id of the vertex.
+    /// A random number from -1 to 1 for each vertex. The number depends on the id of the vertex.
     Random {
         /// The seed. A different seed gives different numbers. The same seed gives the same numbers in every step.
         /// Defaults to 0.
@@ -63,8 +63,8 @@ pub enum DisplaceBy {
     },
     /// The brightness of an image (a height map), from 0 (black) to 1 (white), at the texture coordinates of the
     /// vertex. Brightness is the mean of red, green and blue as they are stored in the file. The step interpolates
-    /// between the pixels. Outside of 0 to 1, the image is repeated. A vertex on a seam moves by the mean over its
-    /// corners. Gray PNG files with 16 bits per pixel give smoother surfaces than files with 8 bits.
+    /// between the pixels. Outside of 0 to 1, the image is repeated. A vertex on a seam moves by the mean of the values
+    /// at its corners. Gray PNG files with 16 bits per pixel give smoother surfaces than files with 8 bits.
     Image {
         /// The PNG or JPEG file. A relative path is relative to the folder of the recipe.
         path: String,

@@ -45,7 +45,7 @@ pub struct Lattice {
 }
 
 impl Lattice {
-    /// Returns the message about the first move of a control point that does not exist.
+    /// Returns a message about the first entry of `moves` whose control point does not exist.
     fn bad_moves(&self) -> Option<String> {
         let [x, y, z] = self.size.map(Count::get);
         let outside = |point: &[u32; 3]| point.iter().zip([x, y, z]).any(|(&i, n)| i >= n);
@@ -95,7 +95,8 @@ impl MeshOperation for Lattice {
         let max = self.max.map_or(high, Vector::get);
         if min.cmpgt(max).any() {
             return Err(OpError::Parameter(format!(
-                "`min` must not exceed `max`, found {min} and {max}; an omitted corner defaults to the corner of the bounding box"
+                "`min` must not exceed `max`, found {min} and {max}; an omitted corner defaults to the corner of the \
+                 bounding box"
             )));
         }
         let map = self.lattice(min, max);

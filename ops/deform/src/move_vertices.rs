@@ -55,8 +55,8 @@ pub enum MoveBy {
         /// The angle in degrees, counter-clockwise when the axis points towards the viewer.
         angle: Angle,
     },
-    /// By scaling along x, y and z about the mean of the selected vertices. With the factor 0, all selected vertices get
-    /// the same coordinate.
+    /// By scaling along x, y and z about the mean of the selected vertices. A factor of 0 along an axis gives all
+    /// selected vertices the same coordinate along this axis.
     Scale(Vector),
 }
 
@@ -200,7 +200,8 @@ mod tests {
             let text = format!("(vertices: Nearest(to: (0, 0, 0)), by: {by}, falloff: 0.5)");
             applied_as_planned(&parse(&text), &half)
         };
-        // A movement that keeps the selected vertex moves the vertices near it by a part.
+        // The selected vertex is the center of the scaling and does not move. With the factor 3, a vertex at the
+        // distance d from it, which is less than 0.5, moves by at most 2 d.
         let after = with("Scale((3, 3, 3))");
         let moved = half.positions().iter().zip(after.positions());
         assert!(

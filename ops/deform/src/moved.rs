@@ -45,8 +45,8 @@ pub(crate) struct Stretch {
 }
 
 impl Stretch {
-    /// Creates the part between the coordinates `from` and `to` of the axis through `about`. If a coordinate is
-    /// missing, the end of the mesh is used.
+    /// Creates the part between the coordinates `from` and `to` of the axis through `about`. A missing coordinate
+    /// becomes the coordinate of the end of the mesh.
     pub(crate) const fn new(
         axis: Axis,
         about: Vector,
@@ -85,13 +85,15 @@ impl Stretch {
         let to = self.to.map_or(axis.dot(max), Distance::get);
         if from > to {
             return Err(OpError::Parameter(format!(
-                "`from` must not exceed `to`, found {from} and {to}; an omitted end defaults to the end of the bounding box"
+                "`from` must not exceed `to`, found {from} and {to}; an omitted end defaults to the end of the \
+                 bounding box"
             )));
         }
         let about: DVec3 = self.about.into();
         let towards = unit(towards);
         Ok(Frame {
-            // Heights along the axis are coordinates of points, on which `about` has no effect.
+            // `from` and `to` are coordinates of points along the axis, so the coordinate of `about` along the axis
+            // must not shift them.
             origin: about - axis * axis.dot(about),
             axes: [towards, axis.cross(towards), axis],
             from,

@@ -61,8 +61,8 @@ impl MeshOperation for CollapseEdges {
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let selected = self.edges.count(plan);
         let n = self.on_refusal.done(selected);
-        // On each side of an edge, a triangle is removed and two edges become one. On a side with a larger face or no
-        // face, no face is removed.
+        // A triangle beside the edge is removed, and its two other edges become one. A larger face beside the
+        // edge stays.
         let least = u64::from(plan.is_triangles());
         let faces = n.times(Range { min: least, max: 2 });
         plan.vertices = plan.vertices.minus(n);

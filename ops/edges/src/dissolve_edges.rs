@@ -42,7 +42,8 @@ impl MeshOperation for DissolveEdges {
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let chosen = self.edges.count(plan);
         let n = self.on_refusal.done(chosen);
-        // Removing n edges merges at most n + 1 faces, and each removed edge reduces the total number of sides by two.
+        // Removing n edges merges at most n + 1 faces into one, and each removed edge reduces the total number of
+        // sides by two.
         let sides = plan.degrees.max.saturating_sub(2);
         let merged = n.max.saturating_mul(sides).saturating_add(plan.degrees.max);
         plan.degrees.max = merged

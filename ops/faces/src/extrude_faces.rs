@@ -83,8 +83,8 @@ impl ExtrudeFaces {
             ExtrudeBy::Distance(d) => match region.normal(mesh) {
                 Some(n) => Ok(d.get() * n),
                 None => Err(OpError::Parameter(format!(
-                    "by: the region of face {} has no normal to move along, because the areas of its faces cancel out or are zero; \
-                     use `Offset`",
+                    "by: the region of face {} has no normal to move along, because the areas of its faces cancel \
+                     out or are zero; use `Offset`",
                     region.faces[0].index()
                 ))),
             },

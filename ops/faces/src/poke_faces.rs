@@ -19,7 +19,7 @@ use op::prelude::*;
 /// corners. The triangles have the values of their face, and the new edges have zero values (no crease, no tags). If
 /// `distance` is not 0, normals are dropped.
 ///
-/// A face cannot be split if it contains a vertex twice, if the position of the new vertex would not be finite, or if
+/// A face cannot be poked if it contains a vertex twice, if the position of the new vertex would not be finite, or if
 /// the mesh already has the largest supported number of elements.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
@@ -34,7 +34,7 @@ pub struct PokeFaces {
     #[serde(default, alias = "offset")]
     #[schemars(extend("aliases" = ["offset"]))]
     pub distance: Distance,
-    /// What to do when a face cannot be split.
+    /// What to do when a face cannot be poked.
     #[serde(default)]
     pub on_refusal: OnRefusal,
 }

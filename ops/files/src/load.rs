@@ -229,7 +229,7 @@ fn change(note: &Note) -> ReadingChange {
     }
 }
 
-/// The largest number of joints and of morph targets of a mesh that are planned.
+/// The plan of a mesh lists at most this number of joints, and at most this number of morph targets.
 const MAX_PLANNED: u64 = 1 << 12;
 
 /// Returns the plan of the mesh that is read from a file with these counts.

@@ -9,7 +9,8 @@ use op::{Loss, PlannedObject};
 
 use crate::Save;
 
-/// Adds the problems of the objects that the format cannot store, and the losses of the others, to the plan.
+/// Returns the problems of objects that the format cannot store. Adds the losses that are known before the run to the
+/// plan.
 pub(crate) fn plan(save: &Save, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
     let format = Format::from_path(Path::new(&save.path));
     let Some(format) = format.filter(|format| format.can_write()) else {
@@ -48,7 +49,7 @@ pub(crate) fn plan(save: &Save, plan: &mut Plan, cx: &PlanContext) -> Vec<Proble
     problems
 }
 
-/// Losses, by whether they are certain.
+/// The losses that certainly occur, and the losses that may occur.
 #[derive(Default)]
 struct Losses {
     certain: Vec<Loss>,
@@ -69,8 +70,8 @@ impl Losses {
     }
 }
 
-/// Adds the losses of a format without nodes. `all` is whether all objects are written; otherwise, only the nodes of
-/// some objects are.
+/// Adds the losses for a format without nodes. If `all` is true, all objects are written, and the losses are certain.
+/// Otherwise only some objects with their nodes are written, and the losses are possible.
 fn graph_losses(plan: &Plan, objects: &[&PlannedObject], all: bool, losses: &mut Losses) {
     let graph = plan.graph();
     let unplaced: u64 = objects.iter().map(|o| o.unplaced_nodes).sum();

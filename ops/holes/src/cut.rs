@@ -61,8 +61,7 @@ impl MeshOperation for Cut {
 }
 
 impl Cut {
-    /// Returns the edges that can be cut together. Other edges are an error or, with
-    /// `Skip`, counted in the report.
+    /// Returns the edges that can be cut together. Other edges are an error or, with `Skip`, counted in the report.
     fn allowed(
         &self,
         mesh: &Mesh,

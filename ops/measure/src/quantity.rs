@@ -207,8 +207,8 @@ fn restored(scaled: &Scaled, mut values: Vec<f64>, dimension: i32) -> Result<Vec
         if x.is_finite() && scaled.restored(restored, -dimension) != *x {
             let size = scaled.restored(1.0, 1);
             let message = format!(
-                "the coordinates are about {size:.0e}, and values of this quantity are outside of the range of numbers; \
-                 scale the mesh with Transform before the step"
+                "the coordinates are about {size:.0e}, and values of this quantity are outside of the range of \
+                 numbers; scale the mesh with Transform before the step"
             );
             return Err(OpError::refused(Refusal::BadNumber, message));
         }

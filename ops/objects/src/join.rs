@@ -26,9 +26,9 @@ use crate::join::skin::{KeptSkin, LostSkin};
 /// list. The parts are not connected, even where they touch. The result replaces the first mesh of the list in the
 /// scene; the other meshes are removed. If nodes place a part, the result contains a copy of the part for each node,
 /// with the transform of the node applied to its points. If there are skinned parts, and all skinned parts have the
-/// same skin and one node each, the result keeps this skin and one node. The parts without a skin then follow the first
-/// joint. Otherwise, no node places the result. The names and default weights of morph targets are kept if they are the
-/// same for all parts with morph targets.
+/// same skin and one node each, the result keeps this skin and one node, and the parts without a skin follow the first
+/// joint. In all other cases, no node places the result. The names and default weights of morph targets are kept if
+/// they are the same for all parts with morph targets.
 ///
 /// If a part lacks an attribute that another part has, the elements of this part get the value zero, or -1 (no
 /// material) for material indices. Normals are dropped and reported as lost unless all parts have them. If an attribute
@@ -182,8 +182,8 @@ impl Join {
         problems
     }
 
-    /// Replaces the nodes of the parts by the node of the part whose skin is kept. Without a skin, the result has no node.
-    /// `label` has the names and default weights of the morph targets, if the parts share them.
+    /// Replaces the nodes of the parts by the node of the part whose skin is kept. Without a skin, the result has no
+    /// node. `label` has the names and default weights of the morph targets, if the parts share them.
     fn join_nodes(&self, graph: &mut Graph, kept: Option<&str>, label: Option<MeshLabel>) {
         let first = &self.objects[0];
         if kept != Some(first) {
@@ -279,8 +279,8 @@ impl Join {
 }
 
 /// Returns all instances of the parts, under the names of the parts, or `None` if no node places a part. The points are
-/// in scene space or, if a skin is kept, in the space in which the skin binds points. If `keeps_morphs`, the morph targets
-/// are not applied to the points, because the result has their default weights.
+/// in scene space or, if a skin is kept, in the space in which the skin binds points. If `keeps_morphs` is true, the
+/// morph targets are not applied to the points, because the result keeps the default weights of the targets.
 fn placed(
     scene: &Scene,
     parts: &[&Object],

@@ -194,7 +194,7 @@ fn a_morphed_object_joined_with_its_copy_keeps_names_and_weights_of_targets() {
     for has_skin in [true, false] {
         let mut scene = scene();
         if !has_skin {
-            // Only the nodes with a skin place the body.
+            // All nodes that place the body have a skin, so all of them are removed.
             scene.graph_mut().remove_object("body");
         }
         let label = MeshLabel {
@@ -221,7 +221,7 @@ fn a_morphed_object_joined_with_its_copy_keeps_names_and_weights_of_targets() {
             (&label.extras, &label.weights)
         );
         assert_near(&points(&scene, "all"), &expected);
-        // Other weights are applied to the points.
+        // If the default weights differ, the names and weights of the morph targets are lost.
         let label = MeshLabel {
             weights: vec![0.25],
             ..label
@@ -387,7 +387,7 @@ fn the_plan_has_the_nodes_of_the_run() {
     check::<Delete>(r#"(objects: ["all"])"#, &mut scene);
 }
 
-/// A node that is turned below a scaled parent cannot store another scale.
+/// Scaling a rotated node by different factors along x and y gives a shear, which a node cannot store.
 #[test]
 fn the_plan_names_a_shear() {
     let turned = || {
@@ -422,7 +422,7 @@ fn the_plan_names_a_shear() {
         assert_eq!(planned, actual, "{text}");
         assert_eq!(planned.len(), usize::from(is_refused), "{text}");
     }
-    // An earlier step may have created more nodes, or other ones.
+    // If the plan is incomplete, its nodes may differ from the nodes of the run, so no problem is reported.
     let step: Transform = op::test::read(uneven).unwrap();
     let mut plan = op::Plan::of(&turned());
     plan.incomplete = true;

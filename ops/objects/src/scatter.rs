@@ -78,7 +78,7 @@ impl Operation for Scatter {
         }
         let object = plan.objects_mut().iter_mut().find(|o| o.name == *name);
         if let Some(object) = object {
-            // An object without a node has one instance, which disappears.
+            // An object without a node has one instance, which is not counted, because the step removes it.
             object.unplaced_nodes = object.unplaced_nodes.saturating_add(n);
         }
         Vec::new()
@@ -106,7 +106,8 @@ impl Operation for Scatter {
         let [place] = places[..] else {
             let (name, n) = (&self.surface, places.len());
             let message = format!(
-                "expected a surface with one instance, but \"{name}\" has {n} instances; `Join` makes one object of them"
+                "expected a surface with one instance, but \"{name}\" has {n} instances; `Join` makes one object of \
+                 them"
             );
             return Err(OpError::Object(message));
         };

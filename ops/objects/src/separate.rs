@@ -222,7 +222,7 @@ impl Separate {
     }
 }
 
-/// Adds nodes for all parts but the first, which has the nodes of the whole.
+/// Adds nodes for all parts except the first, which keeps the nodes of the separated object.
 fn show_parts(graph: &mut Graph, names: &[String]) {
     for name in &names[1..] {
         graph.add_part(&names[0], name);

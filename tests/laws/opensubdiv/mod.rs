@@ -12,8 +12,8 @@ use subdivision::{Rules, Scheme, subdivide};
 use case::{Lines, case, folder, mesh_of, parse, point, result, rules_of};
 
 /// The tolerance for uvs, for sharpness, and for positions relative to the size of the mesh. Normals have ten times
-/// this tolerance. It is necessary because the results have seven decimal places, and OpenSubdiv stores sharpness as
-/// `f32`.
+/// this tolerance. A tolerance is necessary because the results have seven decimal places, and OpenSubdiv stores
+/// sharpness as `f32`.
 const TOLERANCE: f64 = 1e-6;
 
 /// Finds the nearest position in `expected` for each vertex of `mesh`. Fails if the numbers of vertices and positions

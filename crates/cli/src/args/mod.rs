@@ -61,7 +61,7 @@ pub(crate) enum Command {
     ///
     /// The editor is a separate program, `meshwright-viewer`.
     Edit(EditArgs),
-    /// Serve the page for browsers on this computer
+    /// Serve Meshwright's web page to browsers on this computer
     ///
     /// The server sends the headers that a browser requires before a page can use threads. Other computers cannot
     /// connect. Ctrl-C ends the server.
@@ -109,7 +109,7 @@ pub(crate) struct EditArgs {
 
 #[derive(Debug, ClapArgs)]
 pub(crate) struct WebArgs {
-    /// The folder of the page
+    /// The folder that contains the page
     #[arg(default_value = "target/web/page")]
     pub(crate) folder: PathBuf,
     /// The port; 0 chooses a free one
@@ -252,12 +252,12 @@ fn bits(text: &str) -> Result<Quantization, String> {
     Ok(bits)
 }
 
-/// Arguments that are found to be invalid after parsing. The exit code is 2.
+/// An error for arguments that can be parsed but are invalid. The exit code is 2.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
 pub(crate) struct WrongUsage(pub(crate) String);
 
-/// Invalid arguments whose errors have been printed. The exit code is 2.
+/// An error for invalid arguments whose problems have already been printed. The exit code is 2.
 #[derive(Debug, thiserror::Error)]
 #[error("invalid arguments")]
 pub(crate) struct ReportedUsage;

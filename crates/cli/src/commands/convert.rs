@@ -25,8 +25,8 @@ pub(crate) fn run(args: &ConvertArgs) -> anyhow::Result<bool> {
     };
     let (scene, mut notes) = read_file_or_input(&args.input, &input, &options)?;
     if mesh_io::keeps_vertices(&output) {
-        // In this format, the written file has the same vertices and edges as the input file, so splits are not
-        // reported.
+        // Reading has split non-manifold edges and vertices, but files of this format are written with the original
+        // vertices, so the splits are not reported.
         notes.retain(|note| !matches!(note.code, "edges-split" | "vertices-split"));
     }
     let human = args.format == Format::Human;

@@ -11,7 +11,7 @@ use crate::output::{print, print_json};
 /// Fields that are not compared: times, cache use, and the path of the recipe.
 const IGNORED_FIELDS: [&str; 4] = ["milliseconds", "cached", "ran_because", "file"];
 
-/// The newest version of events that can be read.
+/// The newest version of the event format that can be read.
 const FORMAT: u64 = 1;
 
 /// A recorded run.

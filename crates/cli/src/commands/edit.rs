@@ -16,8 +16,8 @@ pub(crate) fn run(args: &EditArgs) -> anyhow::Result<bool> {
     if !editor.is_file() {
         bail!(
             "the editor is not installed: expected {}\n\
-             help: in the source of Meshwright, run `cargo install --path crates/viewer`, which installs it beside a \
-             program that `cargo install` has installed",
+             help: if `cargo install` has installed this program, run `cargo install --path crates/viewer` in the \
+             source of Meshwright to install the editor in the same folder",
             editor.display()
         );
     }

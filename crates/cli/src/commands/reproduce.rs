@@ -35,7 +35,8 @@ pub(crate) fn run(args: &ReproduceArgs, engine: &Engine) -> anyhow::Result<bool>
     Ok(all_equal)
 }
 
-/// Finds the recipe that wrote a file. Returns the text of the recipe, and the recorded parameters and inputs.
+/// Finds the recipe that wrote a file. If no recipe has the recorded digest, uses the recipe with the recorded file
+/// name. Returns the text of the recipe, and the recorded parameters and inputs.
 fn recipe_of(
     file: &Path,
     stamp: Option<&Stamp>,
@@ -50,7 +51,8 @@ fn recipe_of(
     let stamp = stamp.with_context(|| {
         format!("{shown} does not record which recipe wrote it: name the recipe with --recipe")
     })?;
-    // The recipe may have been renamed, and a different recipe may have its name, so it is identified by its digest.
+    // The recipe may have been renamed, and a different recipe may now have its name. Therefore the digest identifies
+    // the recipe.
     let mut candidates = recipes_here();
     let is_named = |path: &PathBuf| {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
@@ -131,8 +133,8 @@ impl Rerun {
             print_diagnostics(&loaded, &loaded.diagnostics);
             anyhow::bail!("{} cannot be run", loaded.path);
         }
-        // The expectations are not checked, because they may not hold for these parameter values and only the bytes
-        // matter.
+        // The expectations are not checked, because they may not hold for these parameter values. Only the bytes of the
+        // outputs are compared.
         loaded.recipe.expectations.clear();
         let run_again = engine::Run {
             keep_outputs: true,
@@ -157,7 +159,7 @@ impl Rerun {
         self.source == *source && self.run == *run
     }
 
-    /// Prints whether the run has written the same bytes as `file` contains.
+    /// Prints whether the run has written a file with the same bytes as `file`, and returns the answer.
     fn compare(&self, file: &Path, stamp: Option<&Stamp>) -> anyhow::Result<bool> {
         let (shown, recipe) = (file.display(), &self.loaded.path);
         let bytes = fs::read(file).with_context(|| format!("cannot read {shown}"))?;

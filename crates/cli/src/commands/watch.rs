@@ -1,10 +1,10 @@
 //! `meshwright watch`: runs a recipe again whenever the recipe, a recipe that it calls, or one of its inputs is saved.
 //!
 //! The program watches the folders of these files, since many editors save by replacing the file. Other files in the
-//! watched folders are ignored, and so are the files that the run writes. The cache compares contents, so steps whose
+//! watched folders, and the files that the run writes, are ignored. The cache compares contents. Therefore, steps whose
 //! inputs did not change are not run again, and saving an unchanged file prints no results. If a file is saved during a
-//! run, the run is canceled and the next one starts. Ctrl-C cancels the run, if one is running, and ends the program
-//! with exit code 0.
+//! run, the run is canceled and the next run starts. Ctrl-C cancels the current run, if any, and ends the program with
+//! exit code 0.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -226,7 +226,7 @@ impl FolderWatcher {
     }
 }
 
-/// Whether a file or folder with this name is written by a running program.
+/// Whether this is the name of a temporary file or folder of this program.
 fn is_temporary(name: &str) -> bool {
     name.starts_with(".meshwright-")
 }

@@ -85,7 +85,7 @@ fn a_file_goes_through_both_pipes_as_it_goes_through_files() {
             .with_code(0)
             .prints(&["vertices           4"]);
     }
-    // Compressed data too.
+    // The data can also be compressed.
     folder
         .shell(r#""$0" convert in.obj - --to obj.gz | "$0" convert - out.ply --from obj.gz"#)
         .with_code(0)

@@ -260,7 +260,7 @@ fn a_filter_selects_by_path() {
     folder
         .run("test --filter cuboid")
         .with_code(1)
-        .complains(&["error: no recipe with \"cuboid\" in its path, of 3 recipes found\n"]);
+        .complains(&["error: found 3 recipes, but none has \"cuboid\" in its path\n"]);
 }
 
 #[test]

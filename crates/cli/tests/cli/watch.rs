@@ -132,7 +132,7 @@ fn only_files_that_the_recipe_reads_start_a_run() {
 #[cfg(unix)]
 #[test]
 fn ctrl_c_ends_the_program_with_success() {
-    // Pressed between runs, and during a long run.
+    // Ctrl-C is pressed between runs, and during a long run.
     for (levels, text) in [(1, "watching one folder"), (11, "")] {
         let folder = Folder::with_recipe(RECIPE).with("a.obj", TRIANGLE);
         let levels = format!("levels={levels}");

@@ -60,7 +60,7 @@ pub enum CommandError {
         /// The problem.
         message: String,
     },
-    /// The scene at the cursor is not known, because the run goes on or has failed.
+    /// The scene at the cursor is not known, because the run has not ended or has failed.
     #[error("the scene at the cursor is not known: wait for the run, or correct the recipe")]
     NoScene,
     /// The object is neither a curve nor patches, or does not exist.
@@ -107,7 +107,7 @@ const KEEPS_IDS: &[&str] = &[
 ];
 
 impl Editor {
-    /// Returns the selection that means the picked elements, for a command.
+    /// Returns the selection that describes the picked elements, for a command.
     pub fn selection(&mut self) -> Option<SelectionText> {
         let proposal = self.proposal()?.clone();
         let picked = self.picked.as_ref()?;
@@ -119,7 +119,8 @@ impl Editor {
         })
     }
 
-    /// Returns the command of a key, with the selection of the picked elements. `None` for actions that are no operations.
+    /// Returns the command of a key, with the selection of the picked elements. `None` for an action that is not an
+    /// operation.
     pub fn command_of(&mut self, action: Action) -> Option<Command> {
         let kind = self.picked.as_ref().map(crate::Picked::kind);
         let command = match action {
@@ -143,7 +144,7 @@ impl Editor {
         })
     }
 
-    /// Returns a first distance for an extrusion: a fifth of the size of the picked object.
+    /// Returns the initial distance for an extrusion: a fifth of the size of the picked object.
     fn extrusion(&self) -> String {
         let object = self
             .picked()
@@ -201,7 +202,7 @@ impl Editor {
                             operation: name.clone(),
                             kind: kind.map_or("elements", ElementKind::word),
                         })?;
-                    // The selection comes first, as people write it.
+                    // The selection comes first, as in recipes that people write.
                     let others: Vec<(String, String)> = command.parameters.clone();
                     for (other, _) in &others {
                         panel.set(other, None);
@@ -252,8 +253,8 @@ impl Editor {
     ///
     /// # Errors
     ///
-    /// [`CommandError`]. The text is then unchanged. A command with a selection needs the scene at the cursor, because the
-    /// selection is about this scene.
+    /// [`CommandError`]. The text is then unchanged. A command with a selection needs the scene at the cursor, because
+    /// the selection refers to elements of this scene.
     pub fn apply(&mut self, command: &Command) -> Result<(), CommandError> {
         if command.selection.is_some() && self.preview.is_none() && !self.view().is_current {
             return Err(CommandError::NoScene);
@@ -297,7 +298,8 @@ impl Editor {
         self.edit(edits, "turn into a mesh", Some(cursor))
     }
 
-    /// Runs a command without writing it to the text, for a live preview. [`end_preview`](Self::end_preview) goes back.
+    /// Runs a command without writing it to the text, for a live preview. [`end_preview`](Self::end_preview) ends the
+    /// preview.
     ///
     /// # Errors
     ///

@@ -15,7 +15,7 @@ use crate::text::Outline;
 use super::{Editor, OpenError};
 
 impl Editor {
-    /// Opens a recipe, or a model in a new recipe that loads it. The document before is dropped.
+    /// Opens a recipe, or a model in a new recipe that loads it. The previous document is dropped.
     ///
     /// # Errors
     ///
@@ -52,7 +52,7 @@ impl Editor {
         Ok(Document::new(recipe, new_text(&load)))
     }
 
-    /// Starts a new recipe. The document before is dropped.
+    /// Starts a new recipe. The previous document is dropped.
     pub fn new_recipe(&mut self) {
         self.set_document(new_document());
     }
@@ -69,8 +69,8 @@ impl Editor {
         self.show(None);
     }
 
-    /// Opens an unsaved text that [`recoverable`](crate::recoverable) has found. The document before is dropped. The text
-    /// counts as unsaved, and its old journal is removed.
+    /// Opens an unsaved text that [`recoverable`](crate::recoverable) has found. The previous document is dropped. The
+    /// text counts as unsaved, and its old journal is removed.
     pub fn recover(&mut self, recovery: &Recovery) {
         self.set_document(recovery.document(&*self.store));
         self.keep_journal();
@@ -136,8 +136,8 @@ impl Editor {
         self.document.keep_mine();
     }
 
-    /// Ends a conflict with another program that changed the file: its text becomes the text of the document. An undo brings
-    /// back the own text.
+    /// Ends a conflict with another program that changed the file: its text becomes the text of the document. An undo
+    /// brings back the previous text.
     pub fn take_theirs(&mut self) {
         self.document.take_theirs();
         self.text_changed(None);

@@ -65,11 +65,11 @@ pub struct Editor {
     run: RunState,
     /// The number of the newest request.
     number: u64,
-    /// The version of the text that `run` is about; `None` for a preview.
+    /// The version of the text that `run` belongs to; `None` for a preview.
     run_version: Option<u64>,
     /// The version of the text of the newest request; `None` for a preview.
     requested: Option<u64>,
-    /// Whether `run` is about the newest request.
+    /// Whether `run` belongs to the newest request.
     is_checked: bool,
     /// Whether the newest request was canceled.
     is_canceled: bool,
@@ -84,9 +84,9 @@ pub struct Editor {
     picked: Option<Picked>,
     /// Whether the scene that is shown has all picked elements. A preview may lack some of them for a while.
     has_picked: bool,
-    /// The selections that mean the picked elements.
+    /// The selections that describe the picked elements.
     proposals: Proposals,
-    /// The selection that was typed, or that means one picked element, until another one is asked for.
+    /// The selection that was typed, or that describes one picked element, until another one is requested.
     first_proposal: Option<Proposal>,
     proposal: usize,
     indexes: Indexes,
@@ -123,8 +123,8 @@ pub struct Update {
 pub struct View {
     /// The scene.
     pub scene: Arc<Scene>,
-    /// Whether it is the scene after the step at the cursor. If not, it is the last scene that was known: the run goes on or
-    /// has failed.
+    /// Whether it is the scene after the step at the cursor. If not, it is the last scene that was known: the run has
+    /// not ended or has failed.
     pub is_current: bool,
 }
 
@@ -197,7 +197,8 @@ impl Editor {
         self.change(text, "type", true);
     }
 
-    /// Undoes the last change of the text. The scene before is known and needs no run. Returns whether there was a change.
+    /// Undoes the last change of the text. No step runs if the scenes of the earlier text are still known. Returns
+    /// whether there was a change.
     pub fn undo(&mut self) -> bool {
         let done = self.document.undo();
         if done {
@@ -206,7 +207,7 @@ impl Editor {
         done
     }
 
-    /// Does again what was undone last. Returns whether there was something.
+    /// Redoes the change that was undone last. Returns whether there was one.
     pub fn redo(&mut self) -> bool {
         let done = self.document.redo();
         if done {
@@ -235,12 +236,12 @@ impl Editor {
         self.run_version == Some(self.document.version())
     }
 
-    /// Whether a run goes on or waits.
+    /// Whether a run is in progress or waiting.
     pub fn is_running(&self) -> bool {
         !self.is_canceled && (!self.is_checked || self.run.is_running())
     }
 
-    /// Returns the progress of the run, if a run goes on.
+    /// Returns the progress of the run, if a run is in progress.
     pub fn progress(&self) -> Option<Progress> {
         if !self.is_running() {
             return None;
@@ -324,7 +325,7 @@ impl Editor {
         (update != Update::default()).then_some(update)
     }
 
-    /// Polls until the run has ended, at most for the given time. Returns whether it has ended.
+    /// Polls until the run has ended, or until the given time has passed. Returns whether it has ended.
     pub fn wait(&mut self, time: Duration) -> bool {
         let end = Instant::now() + time;
         loop {
@@ -345,7 +346,7 @@ impl Editor {
         self.cursor
     }
 
-    /// Moves the step cursor. At most the number of steps.
+    /// Moves the step cursor. A cursor greater than the number of steps is set to the number of steps.
     pub fn set_cursor(&mut self, cursor: usize) {
         self.cursor = cursor.min(self.outline.steps.len());
         self.document.set_cursor(self.cursor);
@@ -396,8 +397,8 @@ impl Editor {
         };
         if !Arc::ptr_eq(&self.shown, &shown) {
             self.shown = shown;
-            // In another scene, the same elements may need another selection, or do not exist. A preview keeps the picked
-            // elements and the selection that it is about.
+            // In another scene, the same elements may need another selection, or may not exist. A preview keeps the
+            // picked elements and their selection.
             if self.preview.is_none() {
                 self.keep_picked();
             } else {
@@ -447,7 +448,7 @@ impl Editor {
             .clone()
             .unwrap_or_else(|| self.document.text().clone());
         self.requested = self.preview.is_none().then(|| self.document.version());
-        // The state so far is about another text.
+        // The current state belongs to another text.
         self.run_version = None;
         self.runner.request(Request {
             number: self.number,
@@ -459,8 +460,8 @@ impl Editor {
         });
     }
 
-    /// Writes the unsaved text to the journal, and keeps it there when the editor is dropped, so that the next start offers the
-    /// text. For a program that must end although the text is not saved.
+    /// Writes the unsaved text to the journal, and keeps it there when the editor is dropped, so that the next start
+    /// offers the text. A program calls this function if it must end although the text is not saved.
     pub fn leave_journal(&mut self) {
         self.keep_journal();
         self.journal = None;

@@ -58,7 +58,7 @@ impl By {
         }
     }
 
-    /// Returns one movement that does what both do, if there is one.
+    /// Returns one movement with the effect of both, if there is one.
     fn then(self, next: Self) -> Option<Self> {
         Some(match (self, next) {
             (Self::Offset(a), Self::Offset(b)) => {
@@ -91,7 +91,7 @@ impl By {
     }
 
     fn to_ron(self) -> String {
-        // Sums of short numbers are short again.
+        // Rounded, so that a sum such as 0.1 + 0.2 is written as 0.3.
         let vector = |v: [f64; 3]| {
             let [x, y, z] = v.map(|x| number(rounded(x)));
             format!("(({x}, {y}, {z}))")
@@ -126,7 +126,8 @@ impl Editor {
         axes.map(|axis| (map * axis).try_normalize().unwrap_or(axis))
     }
 
-    /// Returns the map from the space of an object to the scene. If the object is there several times, that of the first.
+    /// Returns the map from the space of an object to the scene. If the scene has several instances of the object, the
+    /// map of the first instance.
     fn placed(&self, object: &str) -> DAffine3 {
         let instances = self.shown.instances();
         let mut all = instances.iter();
@@ -177,7 +178,7 @@ impl Editor {
         }
     }
 
-    /// Returns the step before the cursor and how it moves, if it moves the elements that the new step moves.
+    /// Returns the step before the cursor and its movement, if it moves the same elements as the new step.
     fn moves_same(&self, new: &[String]) -> Option<(usize, By)> {
         let [new] = new else { return None };
         let step = self.cursor().checked_sub(1)?;

@@ -1,4 +1,4 @@
-//! The picked elements of an editor, and the selections that mean them.
+//! The picked elements of an editor, and the selections that describe them.
 
 use std::thread::JoinHandle;
 
@@ -10,16 +10,16 @@ use crate::select::{Picked, Proposal, propose, propose_one};
 
 use super::Editor;
 
-/// The most edges of a mesh whose selections are searched without a thread of its own.
+/// For a mesh with more edges than this number, a separate thread searches for the selections.
 const MAX_AT_ONCE: usize = 50_000;
 
-/// The selections that mean the picked elements.
+/// The selections that describe the picked elements.
 #[derive(Default)]
 pub(super) enum Proposals {
-    /// Nobody has asked for them.
+    /// They have not been requested yet.
     #[default]
     Unknown,
-    /// A thread searches them.
+    /// A thread searches for them.
     Searching(JoinHandle<Vec<Proposal>>),
     /// They are known.
     Known(Vec<Proposal>),
@@ -39,7 +39,8 @@ impl Editor {
         self.proposals = Proposals::default();
     }
 
-    /// Returns the selections that mean the picked elements, the best first. The list is computed once for each pick.
+    /// Returns the selections that describe the picked elements, the best first. The list is computed once for each
+    /// pick.
     pub fn proposals(&mut self) -> &[Proposal] {
         self.search();
         self.proposals = match std::mem::take(&mut self.proposals) {
@@ -66,7 +67,7 @@ impl Editor {
         self.first_proposal.as_ref()
     }
 
-    /// Begins to search the selections that mean the picked elements, unless the search has begun before.
+    /// Starts the search for the selections that describe the picked elements, unless it was started before.
     fn search(&mut self) {
         let Some(picked) = &self.picked else {
             self.proposals = Proposals::Known(Vec::new());
@@ -86,8 +87,9 @@ impl Editor {
         };
     }
 
-    /// Whether the selections that mean several picked elements are still being searched. In a large mesh, this takes long.
-    /// Commands wait for the search; a window asks this before it shows a selection.
+    /// Whether the search for the selections that describe several picked elements is still in progress. In a large
+    /// mesh, the search takes long. Commands wait for the search; a window calls this function before it shows a
+    /// selection.
     pub fn is_searching(&mut self) -> bool {
         let is_one = self.picked.as_ref().is_some_and(|picked| picked.len() == 1);
         if !is_one && self.first_proposal.is_none() {
@@ -96,8 +98,8 @@ impl Editor {
         matches!(&self.proposals, Proposals::Searching(thread) if !thread.is_finished())
     }
 
-    /// Whether another selection may mean the picked elements. All selections are computed only when they are asked for,
-    /// because this takes long for a large mesh.
+    /// Whether another selection may describe the picked elements. All selections are computed only when they are
+    /// requested, because this takes long for a large mesh.
     pub fn may_have_other_proposal(&self) -> bool {
         match &self.proposals {
             Proposals::Known(proposals) => proposals.len() > 1,
@@ -105,7 +107,7 @@ impl Editor {
         }
     }
 
-    /// Chooses the next selection that means the picked elements, or the first after the last.
+    /// Chooses the next selection that describes the picked elements. After the last selection, chooses the first.
     pub fn next_proposal(&mut self) {
         let first = self.first_proposal.take();
         self.proposals();
@@ -119,13 +121,13 @@ impl Editor {
         self.proposal = (self.proposal + 1) % all.len().max(1);
     }
 
-    /// Picks the elements that a selection of a recipe means. Commands then use this text. The selection is of the given kind
-    /// or, if the text does not fit this kind, of another one. The object is that of the picked elements, or else the first
-    /// mesh.
+    /// Picks the elements that a selection of a recipe selects. Commands then use this text. The selection is of the
+    /// given kind or, if the text does not fit this kind, of another one. The object is that of the picked elements, or
+    /// else the first mesh.
     ///
     /// # Errors
     ///
-    /// A message if the text is not a selection, is refused, or means no elements.
+    /// A message if the text is not a selection, is refused, or selects no elements.
     pub fn pick_by_text(&mut self, text: &str, kind: ElementKind) -> Result<(), String> {
         let kind = self.picked.as_ref().map_or(kind, Picked::kind);
         let object = if let Some(picked) = &self.picked {

@@ -1,4 +1,4 @@
-//! Records a test: expectations from what is there.
+//! Records a test: adds expectations that the scene meets.
 
 use engine::{FileReader, Silent};
 use op::Files;
@@ -10,9 +10,9 @@ use super::{CommandError, Editor};
 use crate::text::{self, Outline};
 
 impl Editor {
-    /// Adds expectations about the scene at the cursor: its counts, and that it is manifold and closed if it is. If the
-    /// cursor is before the end, the step before it gets an id, and the expectations are checked after it. Returns the
-    /// expectations.
+    /// Adds expectations about the scene at the cursor: its counts, that it is manifold if it is, and that it is closed
+    /// if it is. If the cursor is before the end, the step before the cursor gets an id, and the expectations are
+    /// checked after this step. Returns the expectations.
     ///
     /// # Errors
     ///

@@ -78,8 +78,9 @@ impl Editor {
         self.edit(edits, "change a parameter", None)
     }
 
-    /// Runs the recipe with a value in place of a parameter of a step, for dragging a slider. The newest value wins.
-    /// [`set_parameter`](Self::set_parameter) writes a value; [`end_preview`](Self::end_preview) goes back.
+    /// Runs the recipe with another value of a parameter of a step, while a slider is dragged. A newer value cancels
+    /// the run with an older one. [`set_parameter`](Self::set_parameter) writes a value to the text;
+    /// [`end_preview`](Self::end_preview) ends the preview.
     ///
     /// # Errors
     ///
@@ -123,7 +124,7 @@ impl Editor {
         self.edit(edits, "change a parameter of the recipe", None)
     }
 
-    /// Runs the recipe with another default of a parameter, for dragging a slider.
+    /// Runs the recipe with another default of a parameter, while a slider is dragged.
     ///
     /// # Errors
     ///
@@ -160,7 +161,7 @@ impl Editor {
         self.edit(edits, "delete a step", Some(cursor))
     }
 
-    /// Inserts a copy of a step after it. An id becomes a new id.
+    /// Inserts a copy of a step after the step. If the step has an id, the copy gets a new id.
     ///
     /// # Errors
     ///

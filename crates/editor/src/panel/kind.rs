@@ -22,7 +22,7 @@ pub enum FieldKind {
     Text,
     /// Two or three numbers `(x, y, z)`, with this length.
     Vector(usize),
-    /// One of several variants, of which some have content.
+    /// One of several variants, some of which have content.
     Variants(Vec<Variant>),
     /// A struct with these fields.
     Struct(Vec<PanelField>),
@@ -155,7 +155,7 @@ impl FieldKind {
         }
     }
 
-    /// Returns a first value of this kind, for a parameter that was not set before.
+    /// Returns an initial value of this kind, for a parameter that was not set before.
     pub fn first(&self) -> FieldValue {
         match self {
             Self::Number(limits) => FieldValue::Number(limits.first()),
@@ -177,7 +177,7 @@ impl FieldKind {
         }
     }
 
-    /// Returns the kind of the value itself, without the option around it.
+    /// Returns the kind of the value itself, without `Optional` around it.
     pub fn inner(&self) -> &Self {
         match self {
             Self::Optional(inner) => inner.inner(),

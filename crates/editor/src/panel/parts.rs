@@ -74,7 +74,7 @@ impl Variant {
         }
     }
 
-    /// Returns a first value of this variant as RON: parts without a default get a value.
+    /// Returns an initial value of this variant as RON: parts without a default get a value.
     pub fn first(&self) -> String {
         let name = &self.name;
         match &self.content {
@@ -99,7 +99,7 @@ impl Content {
     }
 }
 
-/// Returns the first value of a struct with these fields.
+/// Returns the initial value of a struct with these fields.
 pub(super) fn first_fields(fields: &[PanelField]) -> String {
     let required = fields.iter().filter(|field| field.default.is_none());
     let written = required.map(|field| format!("{}: {}", field.name, field.kind.first().to_ron()));
@@ -184,8 +184,8 @@ fn parts_of(fields: &[PanelField], outer: &[String], value: &Value, whole: &str)
 }
 
 impl Part {
-    /// Returns the whole value with another value of this part as RON. `None` as the new value removes the part, so that it
-    /// gets its default. Returns `None` if the part cannot be written there.
+    /// Returns the whole value as RON, with `new` as the value of this part. If `new` is `None`, the part is removed,
+    /// so that it gets its default. Returns `None` if the part cannot be written there.
     pub fn in_whole(&self, whole: &str, new: Option<&str>) -> Option<String> {
         if self.path.is_empty() {
             return Some(format!("{}{}", self.field.name, new?));

@@ -82,7 +82,7 @@ pub fn keep_visible(scene: &Scene, indexes: &Indexes, view: &Projection, picked:
     picked.retain(|set| !set.is_empty());
 }
 
-/// Whether nothing is before an element of an instance.
+/// Whether nothing hides an element of an instance.
 fn sees(targets: &[Target], at: usize, target: &Target, element: Element) -> bool {
     let points = target.mesh.element_points(element);
     let middle = points.iter().sum::<DVec3>() / points.len() as f64;

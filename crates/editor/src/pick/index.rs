@@ -9,7 +9,8 @@ use crate::run::Wake;
 
 /// The spatial indexes of meshes. An index is built in the background, once for each mesh, when it is first needed.
 ///
-/// Meshes are told apart by identity. The index of a mesh that no longer exists is dropped.
+/// Two meshes count as the same only if they share one allocation. The index of a mesh that no longer exists is
+/// dropped.
 #[derive(Clone, Default)]
 pub struct Indexes {
     shared: Arc<Shared>,
@@ -63,7 +64,7 @@ impl Indexes {
         }
         let (shared, mesh) = (self.shared.clone(), mesh.clone());
         let build = move || {
-            // A mesh that cannot be indexed, for example for lack of memory, cannot be picked.
+            // If the construction of the index panics, the elements of the mesh cannot be picked.
             let index =
                 std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| SurfaceIndex::new(&mesh)));
             let index = index.ok().flatten().map(Arc::new);
@@ -88,7 +89,7 @@ impl Indexes {
             }
         };
         let thread = std::thread::Builder::new().name("meshwright index".to_owned());
-        // Without a thread, the mesh cannot be picked.
+        // If the thread cannot be started, the elements of the mesh cannot be picked.
         let _ = thread.spawn(build);
         None
     }

@@ -5,7 +5,7 @@
 //!                         \-> nothing: all faces whose picture is near the pixel
 //! ```
 //!
-//! Small things win: a vertex within the radius comes before an edge, and an edge before the face.
+//! The smallest element is picked: a vertex within the radius comes before an edge, and an edge before the face.
 
 use std::sync::Arc;
 
@@ -26,7 +26,7 @@ const MAX_FACES: usize = 64;
 /// What a pick looks for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum PickMode {
-    /// A vertex, an edge or a face: the smallest thing within the radius.
+    /// A vertex, an edge or a face: the smallest element within the radius.
     #[default]
     Any,
     /// A vertex.
@@ -159,7 +159,7 @@ impl<'s> Target<'s> {
     }
 }
 
-/// Returns the first point of all targets under a pixel, with the index of its target.
+/// Returns the point under a pixel that is nearest to the viewer, among all targets, with the index of its target.
 pub(super) fn first_hit(targets: &[Target], pixel: DVec2) -> Option<(usize, RayHit)> {
     let hits = targets.iter().enumerate().filter_map(|(i, target)| {
         let (origin, direction) = target.view.ray(pixel);
@@ -188,8 +188,8 @@ struct Search<'a, 's> {
 }
 
 impl Search<'_, '_> {
-    /// Adds the vertices and edges near the pixel, of a face and of the faces around it that face the viewer in the same
-    /// way.
+    /// Adds the vertices and edges near the pixel, of a face and of the faces around it that show the same side (front
+    /// or back) to the viewer.
     fn around(&mut self, at: usize, face: FaceId) {
         let target = &self.targets[at];
         let (_, direction) = target.view.ray(self.pixel);
@@ -235,7 +235,8 @@ impl Search<'_, '_> {
         }
     }
 
-    /// Adds the edge of a half-edge and its ends if they are near the pixel. Returns whether the edge is.
+    /// Adds the edge of a half-edge and its ends if they are near the pixel. Returns whether the edge is near the
+    /// pixel.
     fn add(&mut self, at: usize, h: HalfEdgeId) -> bool {
         let target = &self.targets[at];
         let Some((distance, point)) = target

@@ -60,8 +60,9 @@ impl Projection {
         point.truncate() / point.w
     }
 
-    /// Returns the distance in pixels from a pixel to the segment between two points, and the point of the segment that is
-    /// nearest. The part of the segment behind the viewer does not count; `None` if no part is in front.
+    /// Returns the distance in pixels from a pixel to the segment between two points, and the point of the segment that
+    /// is nearest. The part of the segment behind the viewer does not count; `None` if no part is in front of the
+    /// viewer.
     pub(crate) fn to_segment(self, pixel: DVec2, a: DVec3, b: DVec3) -> Option<(f64, DVec3)> {
         let (mut a, mut b) = (a, b);
         // Clips the segment to the near plane.

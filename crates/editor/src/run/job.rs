@@ -137,7 +137,7 @@ impl Job<'_> {
         }
     }
 
-    /// Returns the index of the step that the run starts with, where the results of the first `known` steps are known.
+    /// Returns the index of the step that the run starts with, if the results of the first `known` steps are known.
     fn first_step(&self, loaded: &Loaded, state: &RunState, known: usize) -> usize {
         if self.request.keep_outputs {
             return 0;
@@ -186,7 +186,7 @@ fn take_known(state: &mut RunState, keys: &StepKeys, snapshots: &mut Snapshots) 
     known
 }
 
-/// Adds the results of the expectations that a run has checked. `is_whole` says whether the run came to its end.
+/// Adds the results of the expectations that a run has checked. `is_whole` says whether the run completed all steps.
 fn take_verdicts(
     state: &mut RunState,
     recipe: &Recipe,

@@ -1,4 +1,4 @@
-//! Runs the recipe in a thread of its own. A new request cancels the run before it; steps whose results are known do not
+//! Runs the recipe in a separate thread. A new request cancels the previous run. Steps whose results are known do not
 //! run again.
 //!
 //! ```text
@@ -72,7 +72,7 @@ struct Waiting {
     watched: Vec<(PathBuf, String)>,
 }
 
-/// How often the files are looked at.
+/// The time between two checks of the files.
 const LOOK: Duration = Duration::from_millis(250);
 
 /// The progress of a run.
@@ -176,7 +176,7 @@ impl Drop for Runner {
         }
         self.shared.wake.notify_all();
         if let Some(thread) = self.thread.take() {
-            // The thread catches panics of operations, so it only ends here.
+            // The thread catches panics of operations, so it ends only here.
             let _ = thread.join();
         }
     }
@@ -226,7 +226,7 @@ fn next_request(shared: &Shared, store: &dyn Store) -> Option<(Request, Arc<Atom
             *seen = now;
         }
         if is_changed {
-            // The same change is reported once.
+            // Reports each change only once.
             let mut state = shared.lock();
             let old = state.watched.iter().map(|(path, _)| path);
             if old.eq(files.iter().map(|(path, _)| path)) {

@@ -1,4 +1,4 @@
-//! The scenes after steps, by the keys of the steps.
+//! A cache of the scenes after steps, indexed by the keys of the steps.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -32,7 +32,7 @@ pub(super) struct Snapshots {
 }
 
 impl Snapshots {
-    /// Begins a run: later uses are newer.
+    /// Begins a run: snapshots that are used from now on count as newer.
     pub(super) fn tick(&mut self) {
         self.clock += 1;
     }
@@ -55,7 +55,7 @@ impl Snapshots {
             .iter()
             .map(|(key, (_, used))| (*used, *key))
             .collect();
-        // The newest come first. The keys make the order total.
+        // The newest come first. The keys decide between equal ages, so that the order is always the same.
         by_age.sort_unstable_by(|a, b| b.cmp(a));
         let mut total = SceneMemory::default();
         for (used, key) in by_age {

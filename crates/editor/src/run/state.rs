@@ -27,7 +27,7 @@ pub struct RunState {
     pub parameters: Vec<Parameter>,
     /// The files that the recipe reads.
     pub inputs: Vec<PathBuf>,
-    /// The files besides the recipe whose changes matter, with their stamps when the recipe was read.
+    /// The files besides the recipe that the result depends on, with their stamps when the recipe was read.
     pub(crate) watched: Vec<(PathBuf, String)>,
     /// The files that the run wrote. Empty unless outputs were requested.
     pub written: Vec<PathBuf>,
@@ -37,14 +37,14 @@ pub struct RunState {
     pub time: Duration,
     /// The number of steps that ran. The results of the other steps were known.
     pub ran: usize,
-    /// Whether the run goes on.
+    /// Whether the run is in progress.
     pub status: Status,
 }
 
-/// Whether a run goes on or how it ended.
+/// Whether a run is in progress, or how it ended.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Status {
-    /// The run goes on.
+    /// The run is in progress.
     Running(Progress),
     /// The run has ended, or no run was requested. Failures and diagnostics are in the [`RunState`].
     #[default]
@@ -122,7 +122,7 @@ impl RunState {
         self.diagnostics.iter().any(Diagnostic::is_error)
     }
 
-    /// Whether the run goes on.
+    /// Whether the run is in progress.
     pub fn is_running(&self) -> bool {
         matches!(self.status, Status::Running(_))
     }
@@ -134,8 +134,8 @@ impl RunState {
         start..self.steps.partition_point(|step| step.item <= item)
     }
 
-    /// Returns the result of the last step of the first `n` items that is known, and whether it is the last step of these
-    /// items. `None` if no step has a result.
+    /// Returns the last known result among the steps of the first `n` items, and whether it is the result of the last
+    /// of these steps. `None` if no step has a result.
     pub(crate) fn result_after(&self, n: usize) -> (Option<&Snapshot>, bool) {
         let end = self.steps.partition_point(|step| step.item < n);
         let steps = &self.steps[..end];

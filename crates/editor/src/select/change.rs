@@ -19,8 +19,7 @@ impl Picked {
         Self::new(object, elements)
     }
 
-    /// Returns the elements that a selection of a recipe, such as `Sharp(above: 30)`, means on an object. So a selection can
-    /// be typed.
+    /// Returns the elements that a typed selection of a recipe, such as `Sharp(above: 30)`, selects on an object.
     ///
     /// # Errors
     ///
@@ -44,8 +43,8 @@ impl Picked {
         Ok(Self::new(object, elements))
     }
 
-    /// Returns the picked elements and the elements that share a vertex (for vertices: an edge) with them, as the selection
-    /// `Grow` does.
+    /// Returns the picked elements and the elements that share a vertex (for vertices: an edge) with them, like the
+    /// selection `Grow`.
     #[must_use]
     pub fn grown(&self, mesh: &Mesh) -> Self {
         let mut marks = vertices(mesh, &self.elements);
@@ -63,7 +62,7 @@ impl Picked {
     }
 
     /// Returns the picked elements without those that share a vertex (for vertices: an edge) with elements that are not
-    /// picked, as the selection `Shrink` does.
+    /// picked, like the selection `Shrink`.
     #[must_use]
     pub fn shrunk(&self, mesh: &Mesh) -> Self {
         let outside = Self {

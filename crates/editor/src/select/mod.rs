@@ -1,4 +1,4 @@
-//! Picked elements, and selections of recipes that mean them.
+//! Picked elements, and selections of recipes that describe them.
 
 mod change;
 mod picked;

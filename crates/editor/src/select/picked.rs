@@ -10,7 +10,7 @@ pub struct Picked {
     pub object: String,
     /// The elements.
     pub elements: Selected,
-    /// The half-edge that the arrow shows and the keys walk from, if there is one.
+    /// The half-edge that the view draws as an arrow and from which the keys walk, if there is one.
     pub half_edge: Option<HalfEdgeId>,
 }
 

@@ -1,7 +1,9 @@
-//! From picked elements to selections of recipes that mean them.
+//! From picked elements to selections of recipes that describe them.
 //!
-//! Candidates are proposed in the order of their meaning: tags, the boundary, materials, loops and paths, components,
-//! thresholds, numbers. Each is resolved on the mesh, and only those that give exactly the picked elements are kept.
+//! A selection describes the picked elements if it selects exactly these elements. Candidates are tried in this order,
+//! the most meaningful first: tags, the boundary, materials, loops and paths, components, thresholds, numbers. For a
+//! single element, its number comes first. Each candidate is resolved on the mesh and kept if it selects exactly the
+//! picked elements.
 
 use mesh::{Domain, EdgeId, FaceId, Id, MATERIAL, Mesh, Values, VertexId};
 use op::{ElementKind, Selected};
@@ -15,7 +17,7 @@ use crate::panel::number;
 /// The maximum number of elements that are written as a list of numbers.
 const MAX_LISTED: usize = 8;
 
-/// A selection that means exactly the picked elements.
+/// A selection that selects exactly the picked elements.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Proposal {
     /// The selection as RON.
@@ -24,8 +26,9 @@ pub struct Proposal {
     pub before: Option<String>,
 }
 
-/// Returns the selections that mean exactly the picked elements of an object, the best first. All except lists of numbers and
-/// `All` are written as `Expect(count: .., of: ..)`, so that a replay fails if the number of elements changes.
+/// Returns the selections that select exactly the picked elements of an object, the best first. All except lists of
+/// numbers and `All` are written as `Expect(count: .., of: ..)`, so that a replay fails if the number of elements
+/// changes.
 ///
 /// `stream` is the label of the step, which seeds random choices. Empty if nothing is picked or the object is not a mesh.
 pub fn propose(scene: &Scene, picked: &Picked, stream: &str) -> Vec<Proposal> {
@@ -57,8 +60,8 @@ pub fn propose(scene: &Scene, picked: &Picked, stream: &str) -> Vec<Proposal> {
     proposals
 }
 
-/// Returns the first of the selections that [`propose`] returns for one picked element, without a look at the other elements
-/// of the mesh, which takes long for a large mesh. `None` if several elements are picked.
+/// Returns the first of the selections that [`propose`] returns for one picked element. Does not visit the other
+/// elements of the mesh, which would take long for a large mesh. `None` if several elements are picked.
 pub(crate) fn propose_one(scene: &Scene, picked: &Picked) -> Option<Proposal> {
     let object = scene.object(&picked.object)?;
     let mesh = object.as_mesh()?;
@@ -69,7 +72,7 @@ pub(crate) fn propose_one(scene: &Scene, picked: &Picked) -> Option<Proposal> {
     means(&text, scene, object, picked, "").then_some(Proposal { text, before: None })
 }
 
-/// Whether a selection means exactly the picked elements.
+/// Whether a selection selects exactly the picked elements.
 fn means(text: &str, scene: &Scene, object: &Object, picked: &Picked, stream: &str) -> bool {
     let (Ok(elements), Some(mesh)) = (read_selection(text, Some(picked.kind())), object.as_mesh())
     else {
@@ -79,10 +82,11 @@ fn means(text: &str, scene: &Scene, object: &Object, picked: &Picked, stream: &s
     found.is_ok_and(|found| found == picked.elements)
 }
 
-/// A selection that may mean the elements.
+/// A selection that may select exactly the picked elements.
 struct Candidate {
     text: String,
-    /// Whether the selection fails by itself if its elements do not exist, or means all elements.
+    /// Whether the selection needs no `Expect`: it fails without one if its elements do not exist, or it selects all
+    /// elements.
     is_closed: bool,
 }
 
@@ -117,7 +121,7 @@ fn candidates(object: &Object, mesh: &Mesh, elements: &Selected) -> Vec<Candidat
         text,
         is_closed: true,
     });
-    // One element is meant by its number, unless a tag or its place names it.
+    // For a single element, its number comes first.
     if elements.len() == 1 {
         all.clear();
         all.extend(listed);
@@ -273,7 +277,7 @@ fn by_new_tag(mesh: &Mesh, picked: &Picked) -> Proposal {
         .expect("a mesh has finitely many tags");
     let name = string_literal(&name);
     let numbers = match &picked.elements {
-        // Many edges are named faster by their ends.
+        // For many edges, the list of their ends is shorter than the list of the edges.
         Selected::Edges(list) => {
             let ends = ends(mesh, list);
             if are_all_within(mesh, list, &ends) {
@@ -313,8 +317,8 @@ fn path_ends(mesh: &Mesh, list: &[EdgeId]) -> Option<(usize, usize)> {
     }
 }
 
-/// Returns a limit below all picked values and above all others, as short as the gap between them allows. `None` if no limit
-/// separates them, or the gap is only rounding.
+/// Returns a limit below all picked values and above all others, with as few digits as the gap between them allows.
+/// `None` if no limit separates them, or if the gap is as small as a rounding error.
 fn threshold(values: impl Iterator<Item = (f64, bool)>) -> Option<String> {
     let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
     for (value, is_picked) in values {
@@ -337,7 +341,7 @@ fn threshold(values: impl Iterator<Item = (f64, bool)>) -> Option<String> {
     (high - low > 1e-6 * scale).then(|| short_between(low, high))
 }
 
-/// Returns the number with the fewest digits that is well between two numbers.
+/// Returns the number with the fewest digits in the middle half of the interval between two numbers.
 fn short_between(low: f64, high: f64) -> String {
     let (a, b) = (low + (high - low) * 0.25, high - (high - low) * 0.25);
     let middle = f64::midpoint(low, high);

@@ -78,7 +78,7 @@ fn picked_elements_that_a_new_scene_does_not_have_are_dropped() {
     settled(&mut editor);
     assert_eq!(counts(&editor), [4, 6, 4]);
     assert_eq!(editor.picked(), None);
-    // A preview without the elements only hides them.
+    // A preview without the picked elements only hides them: they are still picked.
     let (mut editor, _) = opened(CUBE);
     let picked = Picked::one("cube", Element::Edge(last));
     editor.set_picked(Some(picked.clone()));

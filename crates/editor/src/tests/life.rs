@@ -38,7 +38,7 @@ fn a_file_changed_on_disk_is_followed() {
         (editor.text(), editor.document().is_dirty()),
         (theirs.as_str(), false)
     );
-    // An undo brings back the text before.
+    // An undo brings back the previous text.
     assert!(editor.undo());
     assert_eq!(editor.text(), LINE);
 }

@@ -90,7 +90,7 @@ fn a_proposal_means_exactly_the_picked_elements_and_fails_closed() {
     let [v, w] = mesh.edge_vertices(inner).map(mesh::VertexId::index);
     let loops = text(&format!("EdgeLoop(Between({v}, {w}))"), ElementKind::Edges);
     assert!(loops.contains("EdgeLoop("), "{loops}");
-    // Many elements without a meaning get a tag, which is written once.
+    // Many elements that only their numbers describe get a tag, which is written once.
     for (kind, operation) in [
         (ElementKind::Vertices, "TagVertices"),
         (ElementKind::Edges, "TagEdges"),

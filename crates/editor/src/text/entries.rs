@@ -132,7 +132,7 @@ fn insert_first(text: &str, container: Span, first: Option<Span>, entry: &str) -
             };
             return vec![(Span::new(open, close), new)];
         }
-        // Only comments are inside.
+        // The container has only comments.
         let offset = line_start(text, close).max(open);
         let new = if starts_line(text, close) && offset > open {
             format!("{inner}{entry},\n")

@@ -53,7 +53,7 @@ pub(crate) fn remove_step(text: &str, outline: &Outline, step: usize) -> Result<
     Ok(remove_entry(text, &entries, step))
 }
 
-/// Inserts a copy of a step after it. The copy gets a new id.
+/// Inserts a copy of a step after the step. If the step has an id, the copy gets a new id.
 pub(crate) fn duplicate_step(
     text: &str,
     outline: &Outline,

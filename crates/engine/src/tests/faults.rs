@@ -1,4 +1,4 @@
-//! Runs with a store in which one call fails: every call in turn.
+//! Runs a recipe again and again, each time with a store in which a different call fails.
 
 use std::io::{self, Write};
 use std::path::PathBuf;

@@ -225,7 +225,7 @@ impl<'a, 'd> Geometries<'a, 'd> {
         for &input in &of_vertices {
             add(input, vertex)?;
         }
-        // Each list of polygons reads the inputs of the vertices again, so the cost counts each time.
+        // Each list of polygons reads the inputs of the vertices again, so their cost is counted for each list.
         self.document.take(list, cost::NUMBER * of_vertices.len())?;
         Ok(Inputs {
             stride,

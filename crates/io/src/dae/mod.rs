@@ -23,9 +23,8 @@
 //! | `unit`, `up_axis` | ignored with a note: coordinates are neither scaled nor rotated |
 //! | lines, splines, skins, morphs, animations, cameras, lights, physics, `skew` | left out, with a note |
 //!
-//! Corners without a normal or a texture coordinate get zero, and corners without a color get white. If a file
-//! has no scene, each of its geometries becomes an object. Except images, other files that a file refers to are not
-//! read.
+//! Corners without a normal or a texture coordinate get zero, and corners without a color get white. If a file has no
+//! scene, each of its geometries becomes an object. Of the other files that a file refers to, only images are read.
 //!
 //! Document type declarations are refused, so that entities cannot expand. Instances can repeat content, but the memory
 //! that a file can use is limited to 64 times its size, or to 16 MiB if that is more.

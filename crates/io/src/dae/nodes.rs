@@ -85,8 +85,8 @@ pub(super) fn placed<'a>(
 /// Traverses the nodes of a scene with an explicit stack, because nodes can be nested very deeply.
 struct Walk<'a, 'd> {
     document: &'d Document<'a>,
-    /// The number of elements that can still be visited. The number is limited because a small file with nested
-    /// instances can stand for a huge number of elements.
+    /// The number of elements that can still be visited. The number is limited because nested instances in a small file
+    /// can cause a huge number of visits.
     steps: usize,
     /// The nodes from the root to the current node.
     ancestors: BTreeSet<u32>,

@@ -36,8 +36,8 @@ impl Vectors {
 }
 
 /// Reads the vectors of a source. If the accessor has all `names`, the components of the vectors are in the order of
-/// `names`; otherwise, they are in the order of the accessor. Also returns how many numbers were read, because several
-/// sources can share an array.
+/// `names`; otherwise, they are in the order of the accessor. Also returns the length of the array, which is read as
+/// a whole. This length can exceed the number of components of all vectors, because several sources can share an array.
 ///
 /// # Errors
 ///

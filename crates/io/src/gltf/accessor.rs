@@ -306,7 +306,8 @@ impl Reader<'_> {
             ));
         };
         let n = sparse.count.0;
-        // Sparse values take no memory, but they take time each time that the accessor is used.
+        // Sparse values take no additional memory, but replacing values takes time whenever the accessor is used.
+        // Therefore, the size of the sparse values is taken from the budget.
         self.budget.spend(n.saturating_mul(size as u64), &here)?;
         let (indices, values) = (&sparse.indices, &sparse.values);
         let (at, view) = (format!("{here}/indices"), indices.buffer_view.value());

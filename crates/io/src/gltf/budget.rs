@@ -1,4 +1,4 @@
-//! The memory budget of a file. The content of a file can be repeated, but only within the budget.
+//! The memory budget of a file. Several parts of a file can refer to the same content, but only within the budget.
 
 use std::cell::Cell;
 
@@ -10,8 +10,9 @@ const BUDGET_FACTOR: u64 = 64;
 const MIN_BUDGET: u64 = 1 << 24;
 
 /// Each byte of a buffer with compressed views increases the budget as much as this number of bytes of uncompressed
-/// data. A triangle with its share of the vertices takes two bytes in a compressed view, and at least twenty bytes in
-/// an uncompressed view. The resulting meshes have the same size.
+/// data. Compressed data needs a larger budget, because it gives a larger mesh than the same number of uncompressed
+/// bytes: a triangle with its share of the vertices takes two bytes in a compressed view, and at least twenty bytes in
+/// an uncompressed view.
 const COMPRESSED: u64 = 4;
 
 /// The memory that can still be used, in bytes.

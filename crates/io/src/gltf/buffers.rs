@@ -95,8 +95,9 @@ pub(super) fn container(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Fault> {
 }
 
 /// Loads the bytes of all buffers. `binary` is the binary chunk of a GLB file. The chunk is not copied. When a file
-/// next to the document is read for the first time, the budget grows with its size. When the file is read again, its
-/// size is subtracted from the budget. Buffers that are marked in `fallbacks` are not read and stay empty.
+/// next to the document is read for the first time, the budget grows with the number of bytes read. If another buffer
+/// refers to the same file, the length of this buffer is taken from the budget. Buffers that are marked in `fallbacks`
+/// are not read and stay empty.
 ///
 /// # Errors
 ///

@@ -48,7 +48,8 @@ impl Array {
     }
 }
 
-/// Compresses the pieces of `arrays`, and returns all pieces at their new positions. There is one piece for each view.
+/// Compresses the pieces whose views are in `arrays`, and returns all pieces at their new positions. There is one piece
+/// for each view.
 pub(super) fn compress<'a>(
     views: &mut [Value],
     buffers: &mut Vec<Value>,

@@ -12,8 +12,8 @@ use super::rig_json::Deformers;
 use super::views::Reader;
 use crate::fault::Fault;
 
-/// The sum of the weights of a vertex counts as 1 if its error is at most this tolerance times the number of weights.
-/// The Khronos validator uses the same tolerance.
+/// The sum of the weights of a vertex counts as 1 if it differs from 1 by at most this tolerance times the number of
+/// weights. The Khronos validator uses the same tolerance.
 pub(super) const WEIGHT_TOLERANCE: f64 = 2e-7;
 
 /// Counts the values that are repaired or left out while attributes are read. The key is a description for the note.

@@ -80,7 +80,7 @@ impl Document {
         check_version(json)?;
         check_extensions(json, notes)?;
         let views: Vec<View> = pieces(json, "bufferViews", budget)?;
-        // The additional data that the reader stores for each view also counts.
+        // The additional data that the reader stores for each view is also taken from the budget.
         let more = views.len() * size_of::<(Option<Compressed>, OnceCell<Vec<u8>>)>();
         budget.spend(more as u64, "/bufferViews")?;
         let compressed = meshopt::compressed(list(json, "bufferViews")?)?;
@@ -231,7 +231,7 @@ fn kept(json: &Value) -> BTreeMap<String, String> {
         .collect()
 }
 
-/// Returns the default weights of meshes with 64 bits, as in the text.
+/// Returns the default weights of the morph targets of each mesh. The weights are not rounded to 32 bits.
 fn mesh_weights(json: &Value, budget: &Budget) -> Result<Vec<Vec<f64>>, Fault> {
     #[derive(Default, serde::Deserialize)]
     #[serde(default)]

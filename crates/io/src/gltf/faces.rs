@@ -18,7 +18,7 @@ pub(super) struct Faces {
     pub(super) corners: Option<Vec<u32>>,
 }
 
-/// Groups triangles by material. The key -1 has the triangles without a material.
+/// Groups triangles by material. The triangles without a material have the key -1.
 pub(super) fn faces_by_material(
     object: &Object,
     mesh: &Mesh,

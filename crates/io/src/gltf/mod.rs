@@ -15,7 +15,7 @@
 //! | --- | --- |
 //! | a mesh of a node | an object with the name of the node, mesh or file (the first that exists); names are made unique |
 //! | a mesh of several nodes | one object with the name of the mesh, first node or file (the first that exists) |
-//! | a node | a node of the graph, with its placement, name, extras, camera and light; if each node is a root that only places a mesh with its own name, the graph has no nodes |
+//! | a node | a node of the graph, with its placement, name, extras, camera and light; if the nodes equal those that the writer creates for objects without nodes (a root with the name of each object), the graph has no nodes |
 //! | the scene that `scene` refers to, or the first scene | its nodes are read; without scenes, all nodes of the file |
 //! | triangles, strips and fans, with or without indices | triangles |
 //! | points, lines | left out, with a note |
@@ -37,15 +37,15 @@
 //! | `asset.copyright`, name of the scene, `extras` of asset, scene, document and meshes | kept in the graph unchanged |
 //! | other `extras` | left out, with a note |
 //! | other scenes, and all parts that the scene does not use | left out, with a note |
-//! | names of accessors, buffer views and buffers | not kept: the parts are written anew |
+//! | names of accessors, buffer views and buffers | not kept: the writer creates new ones |
 //!
 //! With [`Placements::Bake`](crate::Placements::Bake), each node with a mesh becomes an object, the transforms are
 //! applied to positions, normals and tangents, and there is no graph. Skinned meshes get the pose of their joints. If a
 //! transform is a reflection, the faces are reversed.
 //!
-//! Accessors can be interleaved or sparse. They can contain integers, also normalized ones. If an accessor has no view,
-//! all its values are zero, except sparse ones. Buffers are files inside the folder of the document, data URIs, or the
-//! second chunk of a GLB file.
+//! Accessors can be interleaved or sparse. They can contain integers, including normalized integers. If an accessor has
+//! no view, all its values are zero, except sparse ones. Buffers are files inside the folder of the document, data
+//! URIs, or the second chunk of a GLB file.
 //!
 //! | extension | support |
 //! | --- | --- |
@@ -59,11 +59,12 @@
 //! | other required extensions | the file is refused |
 //! | other optional extensions | left out, with a note |
 //!
-//! The writer uses the same table in the other direction. glTF has a separate vertex for each side of a seam.
+//! The writer uses the first table in the other direction. glTF has a separate vertex for each side of a seam.
 //! Therefore, the writer splits vertices whose corners differ, and the reader merges them again. There is one primitive
 //! for each material. Writing a scene and reading it again preserves the scene, with these exceptions:
 //!
-//! - numbers are rounded to 32 bits; the scene is refused if a position exceeds their range, and other values become 0,
+//! - numbers are rounded to 32 bits; if a position or the placement of a node exceeds the range of 32-bit numbers, the
+//!   scene is refused; texture coordinates, custom attributes and deltas of morph targets beyond this range become 0,
 //! - polygons are triangulated,
 //! - faces are ordered by material,
 //! - vertices at exactly the same position are merged, unless their weights or deltas differ,
@@ -73,7 +74,8 @@
 //!   tangents without normals, integers, tags, sets of texture coordinates after a gap in their numbering, and
 //!   attributes of edges and faces (except `material`) are lost.
 //!
-//! If [`WriteOptions`](crate::WriteOptions) asks for it, arrays are quantized (`quantize`) and compressed (`compress`).
+//! If the [`WriteOptions`](crate::WriteOptions) request it, the module `quantize` quantizes arrays, and the module
+//! `compress` compresses them.
 //!
 //! Every loss is reported as a [`Loss`](crate::Loss), and content that the reader leaves out or changes is reported as
 //! a [`Note`](crate::Note).

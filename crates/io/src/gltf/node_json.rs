@@ -9,7 +9,7 @@ use serde_json::Value;
 use super::document::LIGHTS;
 use crate::fault::Fault;
 
-/// A node. Numbers keep their 64 bits.
+/// A node. Its numbers are not rounded to 32 bits.
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
 pub(super) struct NodeJson {

@@ -223,8 +223,8 @@ fn shared(
     Ok(placed)
 }
 
-/// Returns the graph of the scene. The graph has no nodes if the writer would add exactly the nodes of the scene without
-/// it. Also returns, for each node of the file, its index in the graph.
+/// Returns the graph of the scene, and for each node of the file, its index in the graph. If the writer would create
+/// the same nodes for a graph without nodes, the graph has no nodes.
 fn graph(
     document: &Document,
     nodes: &[SceneNode],

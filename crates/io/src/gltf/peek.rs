@@ -173,7 +173,7 @@ fn peek_mesh(
     })
 }
 
-/// What becomes of an attribute of a primitive.
+/// How an attribute of a primitive is handled.
 enum Found {
     /// [`PeekMesh`] describes the attribute.
     Described,

@@ -21,16 +21,16 @@ use crate::fault::Fault;
 use crate::note::Notes;
 use mesh::parallel;
 
-/// Charged to the memory budget, in bytes, for each attribute that a primitive lacks. This bounds the time spent on
-/// files with many primitives and attributes.
+/// The number of bytes that is taken from the memory budget for each attribute that a primitive lacks, in addition to
+/// the bytes of its values. This limits the time for files with many primitives and attributes.
 const MISSING_ATTRIBUTE_CHARGE: u64 = 16;
 
 /// All primitives of a mesh. A vertex on a seam is stored once for each side of the seam, as in glTF.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Triangles {
     pub(super) positions: Vec<DVec3>,
-    /// Corner attributes with one value for each vertex, and the vertex attributes that deform the mesh. In texture
-    /// coordinates, v points up.
+    /// The attributes of corners and the vertex attributes that deform the mesh. Here, attributes of corners also have
+    /// one value for each vertex. In texture coordinates, v points up.
     pub(super) attributes: Attributes,
     /// Three corners for each triangle.
     pub(super) corners: Vec<u32>,
@@ -145,7 +145,8 @@ impl Triangles {
         ((VERTEX + deformers) * n + (CORNER + values) * self.corners.len()) as u64
     }
 
-    /// Appends the vertices of a primitive. `changed_normals` are the morph targets of the mesh that change normals. Returns the index of the first vertex, and the number of vertices.
+    /// Appends the vertices of a primitive. `changed_normals` are the morph targets of the mesh that change normals.
+    /// Returns the index of the first vertex, and the number of vertices.
     fn push_vertices(
         &mut self,
         reader: &Reader,
@@ -256,8 +257,8 @@ impl Triangles {
         Ok((first, count))
     }
 
-    /// Returns the number of attributes that only other primitives have. Their values are zero at the `n` new vertices,
-    /// which have the attributes `own`.
+    /// Returns the number of attributes of earlier primitives that this primitive lacks. This primitive has `n`
+    /// vertices with the attributes `own`. The missing values are zero, and their memory is taken from the budget.
     ///
     /// # Errors
     ///

@@ -52,7 +52,7 @@ pub(super) struct Quantizer<'a> {
 /// The grid of the positions of an object.
 struct Grid {
     origin: [f32; 3],
-    /// The length of 65535 steps.
+    /// The scale of the grid node, which is the length of 65535 steps.
     scale: f32,
     /// The largest error in the space of the object.
     error: f64,
@@ -407,9 +407,9 @@ fn octahedral(v: DVec3, bits: Bits) -> [i16; 3] {
     [x, y, 1.0].map(|x| (x * f64::from(one)).round() as i16)
 }
 
-/// Returns an upper bound for the factor by which a map stretches lengths. The bound is exact for a rotation combined
-/// with a scale for each axis. It is based on the largest sum of absolute values in a row, which is an upper bound for
-/// the largest eigenvalue of a matrix.
+/// Returns an upper bound for the factor by which a map stretches lengths. This factor is the square root of the
+/// largest eigenvalue of M^T M, where M is the matrix of the map. The eigenvalues of a matrix are at most its largest
+/// sum of absolute values in a column. The bound is exact if M scales along each axis and then rotates.
 fn stretch(map: &DAffine3) -> f64 {
     let m = map.matrix3;
     let square = m.transpose() * m;

@@ -55,7 +55,7 @@ pub(super) struct Deformers {
     /// The number of morph targets.
     pub(super) targets: usize,
     /// The number of joints that vertices can refer to. If several skins deform the mesh, the smallest number of joints
-    /// of these skins. `None` if no node has a skin.
+    /// of these skins. `None` if no node with the mesh has a skin.
     pub(super) joints: Option<usize>,
 }
 

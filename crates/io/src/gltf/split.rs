@@ -78,7 +78,7 @@ impl Split {
     }
 }
 
-/// Adds losses for the values that are written differently from the values of the mesh.
+/// Adds a loss for the values of a stream that are changed because glTF does not allow them.
 pub(super) fn note_changed(stream: &Stream, mesh: &Mesh, split: &Split, losses: &mut Losses) {
     let changed = parallel::count(split.n, |i| {
         let (v, h) = split.corner(mesh, i);

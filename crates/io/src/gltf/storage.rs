@@ -1,4 +1,4 @@
-//! Which attributes of a mesh a glTF file stores.
+//! Determines which attributes of a mesh a glTF file stores.
 
 use mesh::{Domain, Values, joint_of, morph_name, morph_normal_of, morph_of};
 

@@ -18,7 +18,7 @@ pub(super) struct Stream<'a> {
     pub(super) semantic: Semantic,
     pub(super) kind: Type,
     meaning: Meaning<'a>,
-    /// The morph target whose deltas these are; `None` for an attribute of the primitive.
+    /// The morph target that has this attribute; `None` for an attribute of the primitive.
     pub(super) target: Option<usize>,
     pub(super) domain: Domain,
     pub(super) column: &'a Column,
@@ -197,7 +197,7 @@ impl Stream<'_> {
     }
 }
 
-/// The value of a column at a corner. The other components are 0.
+/// The value of a column at a corner. Components that the value does not have are 0.
 fn value(domain: Domain, column: &Column, v: VertexId, h: HalfEdgeId) -> [f64; 4] {
     let i = match domain {
         Domain::Vertex => v.index(),

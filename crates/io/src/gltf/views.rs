@@ -80,8 +80,8 @@ impl Reader<'_> {
         })
     }
 
-    /// Returns `count` pieces of `size` bytes of a view. The first piece is at `offset`, and the pieces have the
-    /// stride of the view.
+    /// Returns `count` rows of `size` bytes of a view. The first row begins at byte `offset` of the view, and the rows
+    /// have the stride of the view.
     pub(super) fn rows(
         &self,
         index: usize,
@@ -99,7 +99,7 @@ impl Reader<'_> {
                 format!("expected at least the size {size} of an element, found {stride}");
             return Err(Fault::json(format!("{at}/byteStride"), message));
         }
-        // The last element does not need a full stride.
+        // The view can end directly after the last row, even if the stride exceeds the size of a row.
         let before = count.saturating_sub(1).checked_mul(stride as u64);
         let needed = before.and_then(|n| n.checked_add(size as u64)?.checked_add(offset));
         let needed = if count == 0 { Some(0) } else { needed };
@@ -122,7 +122,8 @@ impl Reader<'_> {
     }
 }
 
-/// Rows of bytes. All rows have the same size, and the stride is constant. The last row does not need a full stride.
+/// Rows of bytes. All rows have the same size. The stride is the distance between the beginnings of consecutive rows.
+/// The bytes can end directly after the last row, even if the stride exceeds the size.
 #[derive(Clone, Copy)]
 pub(super) struct Rows<'a> {
     pub(super) bytes: &'a [u8],

@@ -17,7 +17,7 @@ use crate::writing::dense;
 use crate::{Format, PackingReport, WriteOptions, Written, gzip};
 
 /// Converts `scene` to the bytes of files, and lists the content that the files do not store. The result has the files
-/// in the order in which they must be renamed.
+/// in the order in which they must be saved.
 ///
 /// # Errors
 ///

@@ -31,8 +31,8 @@ pub(super) struct ObjFile {
     /// The offsets of polylines. Line i visits the vertices `line_corners[line_offsets[i]..line_offsets[i + 1]]`.
     pub(super) line_offsets: Vec<u32>,
     pub(super) line_corners: Vec<u32>,
-    /// The groups, object, material and smoothing group of the faces. A run ends at the first face of the next run. If
-    /// the list is not empty, the first run begins with face 0.
+    /// The groups, object, material and smoothing group of the faces. A run ends before the first face of the next run.
+    /// If the list is not empty, the first run begins with face 0.
     pub(super) runs: Vec<Run>,
     /// The sets of groups that runs refer to, as indices into `group_names`. Set 0 is empty.
     pub(super) group_sets: Vec<Vec<u32>>,

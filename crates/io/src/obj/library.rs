@@ -20,7 +20,8 @@ pub(super) fn write_library(materials: &[Material], comment: Option<&str>) -> Ve
         push_values(&mut out, "d", &[alpha]);
         push_values(&mut out, "Pm", &[material.metallic]);
         push_values(&mut out, "Pr", &[material.roughness]);
-        // Readers take a missing `Ke` as 1 if there is a texture `map_Ke`.
+        // If a material has a texture `map_Ke` but no `Ke`, readers use 1 for `Ke`. Therefore, `Ke` is written here
+        // even if it is 0.
         if material.emissive != [0.0; 3] || material.emissive_texture.is_some() {
             let light = material.emissive.map(|x| x * material.emissive_strength);
             push_values(&mut out, "Ke", &light);

@@ -117,7 +117,7 @@ fn library_names(words: &str, most: usize, assets: &mut Assets) -> (Vec<String>,
     (names, rest.split_whitespace().count())
 }
 
-/// The maximum number of blanks in a line at which a file name is assumed to end.
+/// The maximum number of blanks, counted from the end of the line, that are tried as the end of a file name.
 const MAX_BLANKS: usize = 16;
 
 /// Reads the materials of one library. Lines that cannot be read are left out, with a note.

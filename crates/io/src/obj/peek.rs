@@ -19,7 +19,7 @@ use crate::text::{Cursor, TextPosition, name};
 use mesh::parallel;
 
 /// Returns the counts and the materials of an OBJ file, and notes on statements, images and material libraries that are
-/// left out. Numbers and indices are not checked, so an invalid file can also have counts.
+/// left out. Numbers and indices are not checked, so an invalid file can also be counted without an error.
 ///
 /// # Errors
 ///
@@ -51,7 +51,7 @@ pub(crate) fn peek(
     let tag = |name: &String| format!("{OBJECT_TAG}{name}");
     let objects = all.objects.list.iter().map(tag);
     let groups = all.groups.list.iter().map(|name| match name.as_str() {
-        // A group is renamed if its name is taken by another attribute.
+        // If another attribute has the name of a group, the group is renamed.
         "material" | "smoothing" => format!("{name} group"),
         _ => name.clone(),
     });
@@ -160,7 +160,7 @@ impl Counts {
                     let n = usize::try_from(n).unwrap_or(usize::MAX);
                     counts.leave_out(place.line, n, LeftOut::Points);
                 }
-                // Comments of this kind contain colors.
+                // `#MRGB` comments contain vertex colors.
                 b"" => mesh.colors = mesh.colors || cursor.rest_of_line().starts_with(b"#MRGB"),
                 b"o" => {
                     let name = cursor.rest_of_line();

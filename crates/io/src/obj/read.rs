@@ -187,7 +187,7 @@ fn set_tags(polygons: &mut Polygons, file: &ObjFile, notes: &mut Notes) {
     let what = "groups and objects left out: too many for a mesh of this size";
     notes.left_out("too-many-names", n - n_columns, None, what);
     let mut columns: Vec<Vec<bool>> = vec![vec![false; n_faces]; n_columns];
-    // Tags of objects come before tags of groups. If there is no room for all tags, those of objects are kept.
+    // Tags of objects come before tags of groups, so if some tags must be left out, tags of groups are left out first.
     for (i, run) in file.runs.iter().enumerate() {
         let groups = file.group_sets[run.groups].iter();
         let of_groups = groups.map(|&g| objects + g as usize);
@@ -215,7 +215,7 @@ fn set_tags(polygons: &mut Polygons, file: &ObjFile, notes: &mut Notes) {
                 values: Values::Tag(known),
                 ..
             }) => {
-                // If a group has the same name as the tag of an object, the two are joined.
+                // If a group has the same name as the tag of an object, both become one tag.
                 for (mark, known) in marks.iter_mut().zip(known) {
                     *mark |= known;
                 }

@@ -18,8 +18,7 @@ use crate::save::{Block, Content, save};
 use crate::writing::{dense, push_comment};
 use crate::{Format, WriteOptions, WriteReport, fail_if_lost, gzip};
 
-/// Writes `scene` to an OBJ file. Before the OBJ file, `images` are written, and the material library if there are
-/// materials.
+/// Writes `images`, then the material library if there are materials, and then `scene` to an OBJ file.
 ///
 /// # Errors
 ///

@@ -330,8 +330,8 @@ fn note_left_out(small: usize, first: Option<usize>, cursor: &mut Cursor, notes:
 
 // ---- Counts ------------------------------------------------------------------------------------
 
-/// Returns the counts of an OFF file and the attributes that faces can have, and adds notes on faces and lines that are left out. Numbers and vertex indices
-/// are not checked.
+/// Returns the counts of an OFF file and the attributes that faces can have, and adds notes on faces and lines that are
+/// left out. Numbers and vertex indices are not checked.
 ///
 /// # Errors
 ///
@@ -366,7 +366,8 @@ pub(crate) fn peek(
         if (3..=MAX_COMPARED as u64).contains(&degree) {
             let words = (0..degree).map_while(|_| cursor.argument());
             let vertices: Vec<&[u8]> = words.map(|(_, word)| word).collect();
-            // Vertex 0 differs from all vertices that are written without leading zeros.
+            // `are_different` refuses words that begin with a zero. Therefore, the index `0` is checked separately: it
+            // may occur at most once, and differs from all words that `are_different` accepts.
             let others: Vec<&[u8]> = (vertices.iter().copied())
                 .filter(|word| *word != b"0")
                 .collect();

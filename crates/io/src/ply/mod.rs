@@ -12,14 +12,15 @@
 //! | `face`: `texcoord` (u and v for each corner, as in files of `MeshLab`) | corner attribute `uv` |
 //! | `face`: `red green blue alpha`, `nx ny nz` | face attributes `color` and `normal` |
 //! | `tristrips`: `vertex_indices` with -1 between strips | triangles, if there are no faces |
-//! | any other scalar of `vertex` or `face` | an attribute with the same name, of integers if they fit in 32 bits |
+//! | other scalars of `vertex` or `face` | an attribute with the same name, of integers if they fit in 32 bits |
 //! | `comment meshwright ..` | describes the attribute that some properties store; see `attribute_comments` |
 //! | other lists, other elements (`edge`, `range_grid` and so on) | left out, with a note |
 //! | `comment TextureFile ..` | left out, with a note |
 //! | other comments, `obj_info` | not kept |
 //!
-//! When the mesh is edited, the attribute of any other scalar is interpolated if it is a floating-point property of
-//! `vertex`, and copied otherwise. Non-finite positions are an error. Other non-finite values become 0, with a note.
+//! When the mesh is edited, an attribute from one of the other scalars is interpolated if the scalar is a
+//! floating-point property of `vertex`, and copied otherwise. Non-finite positions are an error. Other non-finite
+//! values become 0, with a note.
 //!
 //! The writer uses the same table in the other direction and writes little-endian binary. All finite values are
 //! restored exactly when the file is read. Positions and custom floating-point attributes are written with 64 bits.

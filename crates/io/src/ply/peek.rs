@@ -89,7 +89,7 @@ pub(crate) fn peek(bytes: &[u8], notes: &mut Notes) -> Result<(PeekMesh, Names),
 type Names = Vec<(Domain, String)>;
 
 /// Returns the attributes that the properties of an element give, except those that [`PeekMesh`] describes. `used` is
-/// the list of the vertices of faces.
+/// the index of the property that lists the vertices of faces.
 fn names_of(domain: Domain, element: &Element, used: usize, header: &Header) -> Names {
     let mut names = Vec::new();
     let mut is_used = vec![false; element.properties.len()];
@@ -129,7 +129,8 @@ fn names_of(domain: Domain, element: &Element, used: usize, header: &Header) -> 
     names
 }
 
-/// Adds notes on the lists of an element that are left out. `used` is the list of the vertices of faces.
+/// Adds notes on the lists of an element that are left out. `used` is the index of the property that lists the vertices
+/// of faces.
 fn note_lists((element, used): (&Element, usize), header: &Header, notes: &mut Notes) {
     let described = attribute_comments(header);
     let is_used = |place: usize, property: &Property| {

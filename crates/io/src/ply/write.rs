@@ -24,10 +24,10 @@ use crate::writing::{finite, is_byte, push_comment, to_byte, uvs_of_vertices};
 use crate::{Format, WriteOptions, WriteReport, fail_if_lost};
 use mesh::parallel;
 
-/// The number of rows in a block of the file, which is then a few hundred kilobytes.
+/// The number of rows in a block of the file. A block of this many rows has a few hundred kilobytes.
 const BLOCK: usize = 8192;
 
-/// Writes `scene` to a little-endian binary file, after `images`.
+/// Writes `images`, and then `scene` to a little-endian binary file.
 ///
 /// # Errors
 ///

@@ -87,7 +87,7 @@ pub(super) fn n_solids(bytes: &[u8]) -> u64 {
     count_words(bytes, b"endsolid")
 }
 
-/// Counts a word that begins with `e`.
+/// Counts the occurrences of a word that begins with `e`.
 fn count_words(bytes: &[u8], word: &[u8]) -> u64 {
     let mut n = 0;
     let mut rest = bytes;
@@ -108,7 +108,7 @@ fn expect(cursor: &mut Cursor, expected: &[u8]) -> Result<(), Fault> {
     Err(place.expected(quoted(expected), word))
 }
 
-/// Keywords can be in lower or upper case.
+/// Whether a word is the given keyword, in lower or upper case.
 fn is(word: &[u8], keyword: &[u8]) -> bool {
     word.eq_ignore_ascii_case(keyword)
 }

@@ -10,7 +10,7 @@ use scene::Scene;
 #[global_allocator]
 static MEMORY: PeakAlloc = PeakAlloc;
 
-/// Reading can use memory of the size of the file times this factor, plus [`SMALL`] bytes.
+/// Reading can use at most this number of bytes of memory for each byte of the file, plus [`SMALL`] bytes.
 const TIMES: usize = 64;
 
 /// The additional number of bytes that reading can use for tables, threads and messages.
@@ -21,19 +21,19 @@ const SMALL: usize = 1 << 20;
 /// round.
 const ROUNDS: usize = 4;
 
-/// The memory that repeated instances can use even in a small file.
+/// The additional number of bytes that reading can use for repeated instances, even in a small file.
 const INSTANCES: usize = 1 << 25;
 
 /// Reads `bytes` as a file with this extension, in bounded memory. Then writes and reads the result several times,
-/// until the written bytes stay the same. From the third time on, they may differ only if the time before lost
-/// something. An `.mtl` file is read as the library of an `.obj` file, and the content of a `.dae` file is written as
-/// OBJ.
+/// until the written bytes stay the same. From the third time on, the bytes may differ from those of the previous time
+/// only if writing reported losses the previous time. An `.mtl` file is read as the library of an `.obj` file, and the
+/// content of a `.dae` file is written as OBJ.
 ///
 /// # Panics
 ///
 /// If one of these properties does not hold.
 pub(crate) fn check(extension: &str, bytes: &[u8]) {
-    let folder = tempfile::tempdir_in(memory_folder()).expect("there is a folder for files");
+    let folder = tempfile::tempdir_in(memory_folder()).expect("a temporary folder can be created");
     let (name, content) = match extension {
         "mtl" => {
             std::fs::write(folder.path().join("a.mtl"), bytes).expect("the folder can be written");
@@ -52,7 +52,7 @@ pub(crate) fn check(extension: &str, bytes: &[u8]) {
     };
     assert!(
         taken <= TIMES * bytes.len() + SMALL + repeated,
-        "reading {} bytes takes {taken}",
+        "reading {} bytes takes {taken} bytes of memory",
         bytes.len()
     );
     let Ok(loaded) = read else {
@@ -69,13 +69,13 @@ pub(crate) fn check(extension: &str, bytes: &[u8]) {
     let mut lost_before = true;
     for _ in 0..ROUNDS {
         let Round { loaded, bytes, .. } = last;
-        let next = round_trip(&path, loaded).expect("it was written before");
+        let next = round_trip(&path, loaded).expect("the content can be written again");
         if next.bytes == bytes {
             return;
         }
         assert!(
             lost_before,
-            "written, read and written again it differs, but nothing was lost"
+            "the bytes differ after another round, but no loss was reported"
         );
         lost_before = next.has_losses;
         last = next;
@@ -96,12 +96,12 @@ fn round_trip(path: &Path, loaded: Loaded) -> Option<Round> {
         scene.insert(object).expect("names differ");
     }
     let report = mesh_io::write(&store::Disk, path, &scene, &WriteOptions::default()).ok()?;
-    let bytes = std::fs::read(path).expect("it was written");
+    let bytes = std::fs::read(path).expect("the written file exists");
     let again = mesh_io::read(&store::Disk, path, &ReadOptions::default());
     Some(Round {
         bytes,
         has_losses: !report.losses.is_empty(),
-        loaded: again.expect("what was written can be read"),
+        loaded: again.expect("the written file can be read"),
     })
 }
 

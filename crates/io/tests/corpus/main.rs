@@ -41,15 +41,15 @@ fn check(extension: &str, path: &Path) -> Result<(), Failed> {
     files::check(extension, &bytes);
     let taken = start.elapsed();
     if taken > LONG {
-        return Err(format!("it takes {taken:?}").into());
+        return Err(format!("the check takes {taken:?}").into());
     }
     Ok(())
 }
 
 fn sorted(folder: &Path) -> Vec<PathBuf> {
-    let entries = fs::read_dir(folder).expect("the folder is there");
+    let entries = fs::read_dir(folder).expect("the folder exists");
     let mut paths: Vec<PathBuf> = entries
-        .map(|entry| entry.expect("it can be listed").path())
+        .map(|entry| entry.expect("the folder can be listed").path())
         .collect();
     paths.sort();
     paths

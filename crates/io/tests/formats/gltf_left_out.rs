@@ -112,7 +112,7 @@ fn names_of_textures_and_extras_of_materials_are_kept() {
         let back = crate::read(&path).unwrap();
         assert_eq!(back.objects, scene.objects(), "{extension}");
     }
-    // OBJ has no place for them.
+    // OBJ files can store neither extras of materials nor names of textures.
     let path = folder.path("a.obj");
     let losses = mesh_io::write(&Disk, &path, &scene, &WriteOptions::default());
     let losses: Vec<_> = losses
@@ -129,7 +129,7 @@ fn names_of_textures_and_extras_of_materials_are_kept() {
 /// The result of reading and writing a part of a file.
 #[derive(Clone)]
 enum Outcome {
-    /// The values at these places are the same.
+    /// The values at these JSON pointers are unchanged.
     Kept(&'static [&'static str]),
     /// A note with this code reports that the part is left out.
     Lost(&'static str),

@@ -26,7 +26,7 @@ fn repeated_references_to_the_same_data_are_limited() {
     json["meshes"][0]["primitives"] = vec![primitive; 5_000].into();
     let error = read_json(&json).unwrap_err();
     assert!(error.to_string().contains("so often"), "{error}");
-    // The file has the same number of nodes, which all reference the same mesh.
+    // The same limit applies to many nodes that reference the same mesh.
     let mut json = square(&[0, 1, 2].repeat(20_000), 4);
     json["nodes"] = vec![json!({ "mesh": 0 }); 5_000].into();
     json["scenes"][0]["nodes"] = (0..5_000).collect();

@@ -11,8 +11,8 @@ use crate::Folder;
 use crate::gltf_read::{read_baked, read_json};
 use crate::gltf_rig::Accessors;
 
-/// Two triangles that share an edge. Each has its own vertices, with these normals and with these changes of the
-/// normals by a morph target.
+/// Returns a document with two triangles that share an edge. Each triangle has its own vertices, with these normals. A
+/// morph target adds `changes` to the normals.
 fn folded(normals: [[f32; 3]; 6], changes: Option<[[f32; 3]; 6]>) -> Value {
     let mut a = Accessors::default();
     let corners = [
@@ -65,7 +65,7 @@ fn written(scene: &Scene) -> Scene {
 
 #[test]
 fn changes_of_normals_become_normals_and_are_written_with_the_same_bits() {
-    // Numbers that need all bits of a 32-bit number.
+    // The numbers need all bits of a 32-bit number.
     let normals = [[0.6, 0.0, 0.8]; 6];
     let changes = [[-0.1, 0.123_456_79, 1e-3]; 6];
     let scene = scene(&folded(normals, Some(changes)));
@@ -246,7 +246,7 @@ fn a_pose_blends_the_normals_of_targets() {
                         found.distance(expected) < 1e-6,
                         "{f} {i}: {found} {expected}"
                     );
-                    // The target still differs from the mesh by the same vector.
+                    // The normal of the target still differs from the normal of the mesh by the same vector.
                     let target = mesh
                         .attributes()
                         .iter()

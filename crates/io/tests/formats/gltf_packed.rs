@@ -65,8 +65,8 @@ fn torus() -> Mesh {
     mesh
 }
 
-/// Returns a scene with three objects: nodes below a node with a scale place two of them, one of these twice, and no
-/// node places the third.
+/// Returns a scene with three objects. Nodes below a node with a scale place the first two objects, and another root
+/// places the first object again. No node places the third object.
 fn placed() -> Scene {
     let mut scene = scene([
         Object::mesh("torus", torus()),
@@ -223,8 +223,8 @@ fn quantized_positions_are_within_the_reported_error() {
             "{losses:?}"
         );
         let error = packing.position_error.unwrap();
-        // The error is at most half a step along each axis of the largest object. The object is stretched at most 4
-        // times.
+        // The error is at most half a step along each axis of the largest object. The object is stretched by a factor
+        // of at most 4.
         let step = 5.4 / f64::from((1 << position) - 1);
         assert!(error < 0.5 * step * 3.0_f64.sqrt() * 4.01, "{error}");
         let objects = read_back(&folder, "a.glb", Placements::Bake).objects;

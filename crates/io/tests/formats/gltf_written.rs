@@ -317,7 +317,7 @@ fn peeking_reads_only_the_document() {
         assert_eq!(counts[1], ("box", 8, 12, false));
         assert_eq!((counts[0].2, counts[0].3), (20, true));
     }
-    // The end of the binary part of the file can also be missing.
+    // Peeking also works if the end of the binary part of the file is missing.
     let whole = std::fs::read(folder.path("a.glb")).unwrap();
     let cut = folder.with("cut.glb", &whole[..whole.len() - 100]);
     assert!(mesh_io::peek(&store::Disk, &cut, &ReadOptions::default()).is_ok());

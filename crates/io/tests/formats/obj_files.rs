@@ -249,7 +249,7 @@ fn a_face_of_opposite_orientation_is_reversed_with_a_note() {
     assert_eq!((mesh.n_faces(), mesh.n_vertices()), (3, 6));
     assert!(mesh.faces().all(|f| mesh.face_normal(f).z == 1.0));
     let [note] = &loaded.notes[..] else {
-        panic!("one note, not {:?}", loaded.notes);
+        panic!("expected one note, found {:?}", loaded.notes);
     };
     assert_eq!(
         note.to_string(),

@@ -88,7 +88,7 @@ fn another_reader_finds_the_same_facets_in_stl_files() {
     ] {
         let found = mesh_loader::stl::from_slice(&written(&mesh, "stl")).unwrap();
         let [found] = &found.meshes[..] else {
-            panic!("one mesh, not {}", found.meshes.len())
+            panic!("expected one mesh, found {}", found.meshes.len())
         };
         let theirs = found
             .faces
@@ -166,7 +166,7 @@ proptest! {
         }
         let options = tobj::LoadOptions::default();
         let (models, _) = tobj::load_obj_buf(&mut text.as_bytes(), &options, |_| Ok(Default::default())).unwrap();
-        let [model] = &models[..] else { panic!("one model, not {}", models.len()) };
+        let [model] = &models[..] else { panic!("expected one model, found {}", models.len()) };
         let theirs = &model.mesh;
 
         let folder = Folder::new();

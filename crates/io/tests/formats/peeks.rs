@@ -42,7 +42,7 @@ fn peek_notes(files: &[(&str, &[u8])], expected: &[&str]) {
     }
 }
 
-/// Checks that a mesh has counts and attributes that its file announces.
+/// Checks that the counts and attributes of a mesh agree with the result of peeking at its file.
 #[track_caller]
 fn check_counts(peek: &PeekObject, read: &Object, policies: Policies) {
     let (PeekGeometry::Mesh(counts), Some(mesh)) = (&peek.geometry, read.as_mesh()) else {
@@ -84,13 +84,13 @@ fn check_counts(peek: &PeekObject, read: &Object, policies: Policies) {
             .any(|(d, name)| *d == domain && *name == column.name);
         assert!(
             is_described || is_listed,
-            "{domain} {} is not announced",
+            "{domain} {} is not in the result of peeking",
             column.name
         );
     }
 }
 
-/// Reads and peeks at a file with these policies, and returns the announced counts.
+/// Reads and peeks at a file with these policies, and returns the counts that peeking predicts.
 #[track_caller]
 fn ranges(path: &str, bytes: &[u8], policies: Policies) -> PeekRanges {
     let store = Memory::default();
@@ -193,7 +193,7 @@ fn lists_of_ply_that_are_left_out() {
     peek_notes(&[("a.ply", text.as_bytes())], &["weights", "other"]);
 }
 
-/// Returns the graph as far as the JSON of a file has it.
+/// Returns the graph without the arrays of numbers, which are not in the JSON of a file.
 pub(crate) fn without_numbers(graph: &Graph) -> Graph {
     let mut graph = graph.clone();
     graph.arrays.clear();

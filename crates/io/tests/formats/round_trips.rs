@@ -17,7 +17,8 @@ use crate::{Folder, read, scene};
 use flat::{Difference, Key, differences, has_only_default_values, key};
 use models::{Feature, features};
 
-/// The formats of the table, in its order. `glb` stands for `.gltf`, which stores the same content.
+/// The formats of the table, in the order of its columns. The column of `.gltf` is tested with `.glb`, which stores the
+/// same content.
 const FORMATS: [&str; 7] = ["obj", "glb", "ply", "stl", "off", "bez", "bzc"];
 
 /// The table in the documentation of the crate.

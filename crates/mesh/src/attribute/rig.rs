@@ -1,14 +1,13 @@
 //! The names of the vertex attributes that deform a mesh: weights of joints, and deltas of morph targets.
 //!
-//! The attribute `joint:j` has the weight of joint j of the skin at each vertex, and `morph:t` has the vector
-//! by which morph target t moves each vertex. Both attributes follow the rule
-//! [`Rule::Interpolate`](crate::Rule::Interpolate), so an edit that averages positions averages weights and deltas in
-//! the same way. For this purpose, each joint has a separate attribute, because a list of joints at each vertex could
-//! not be interpolated.
+//! The attribute `joint:j` has the weight of joint j of the skin at each vertex, and `morph:t` has the vector by which
+//! morph target t moves each vertex. Both attributes follow the rule [`Rule::Interpolate`](crate::Rule::Interpolate),
+//! so an edit that averages positions averages weights and deltas in the same way. Each joint has a separate attribute,
+//! because lists of joints at the vertices could not be interpolated.
 //!
-//! The attribute `morph_normal:t` has the normals of the vertices or corners when morph target t has the weight 1. These
-//! are normals, not the differences from the normals of the mesh: like all normals, they follow the rule
-//! [`Rule::Normal`](crate::Rule::Normal).
+//! The attribute `morph_normal:t` has the normals of the vertices or corners when morph target t has the weight 1. The
+//! values are the normals themselves, not their differences from the normals of the mesh. Like all normals, they follow
+//! the rule [`Rule::Normal`](crate::Rule::Normal).
 
 use super::{Attributes, Values};
 use crate::{DVec3, Domain};
@@ -27,7 +26,7 @@ pub fn morph_name(target: usize) -> String {
     format!("{MORPH}{target}")
 }
 
-/// Returns the name of the attribute with the normals of the mesh that a morph target gives with the weight 1.
+/// Returns the name of the attribute with the normals that the mesh has when a morph target has the weight 1.
 pub fn morph_normal_name(target: usize) -> String {
     format!("{MORPH_NORMAL}{target}")
 }
@@ -43,8 +42,8 @@ pub fn morph_of(name: &str) -> Option<usize> {
     number(name.strip_prefix(MORPH)?)
 }
 
-/// Returns the morph target whose normals the attribute with this name stores; `None` if the name is not that of such
-/// normals.
+/// Returns the morph target whose normals the attribute with this name stores; `None` if an attribute with this name
+/// does not store normals of a morph target.
 pub fn morph_normal_of(name: &str) -> Option<usize> {
     number(name.strip_prefix(MORPH_NORMAL)?)
 }

@@ -5,10 +5,11 @@ use glam::{DVec2, DVec3, DVec4};
 
 use crate::parallel;
 
-/// Calls a function with each source of a value and its weight.
+/// For a new value, given by its index, calls a function with the index and the weight of each old value that
+/// contributes to the new value.
 type Weights<'a> = dyn Fn(usize, &mut dyn FnMut(usize, f64)) + Sync + 'a;
 
-/// In a list of sources: the new value is zero.
+/// In a list of sources, marks a new value that has no source. The new value is zero.
 const NO_SOURCE: usize = usize::MAX;
 
 /// The values of a column, one for each element of its domain.
@@ -114,8 +115,9 @@ impl Values {
         })
     }
 
-    /// Gathers values of any type. This function is not generic, because it would be compiled again for each closure and
-    /// each type. `sources` is called with a number i and a list for the sources of value i and the values after it.
+    /// Gathers values of any type. This function is not generic, because it would be compiled again for each closure
+    /// and each type. `sources` is called with an index i and a list. It fills the list with the sources of value i and
+    /// of the values after value i.
     fn gather_blocks(&self, n: usize, sources: &(dyn Fn(usize, &mut [usize]) + Sync)) -> Self {
         const SOURCES: usize = 128;
         fn run<T: Value>(

@@ -1,10 +1,9 @@
 //! Building a mesh from polygons, without a hash map. The result is the same for any number of threads.
 //!
-//! A corner c of a polygon represents the directed side from its vertex a to the next vertex b. The twin of c
-//! is the corner of a side from b to a. The corners are bucketed by vertex. Around each vertex, outgoing sides
-//! are then paired with incoming sides. The pairs also show whether the faces form one fan. Edges are numbered
-//! in the order in which the polygons first use them. The first half of an edge lies on the polygon that first
-//! used it.
+//! A corner c of a polygon represents the directed side from its vertex a to the next vertex b. The twin of c is the
+//! corner of a side from b to a. The corners are bucketed by vertex. Around each vertex, outgoing sides are then paired
+//! with incoming sides. The pairs also show whether the faces around the vertex form one fan. Edges are numbered in the
+//! order in which the polygons first use them. The first half of an edge lies on the polygon that first used it.
 //!
 //! ```text
 //!    polygons --> buckets --> star, pair ----------------> assemble --> mesh
@@ -72,7 +71,7 @@ pub enum BuildError {
     TooLarge(usize, &'static str),
     /// The offsets do not divide the corners into polygons.
     #[error(
-        "the offsets of the faces must be in ascending order, from 0 to the number of corners, {0}"
+        "the offsets of the faces must be in ascending order, from 0 to the number of corners ({0})"
     )]
     BadOffsets(usize),
     /// The polygon with this index has fewer than three corners, or contains a vertex twice. Returned only if
@@ -199,7 +198,7 @@ pub fn build(
     corners: &[u32],
     non_manifold: NonManifold,
 ) -> Result<BuildOutput, BuildError> {
-    // The largest arrays that exist at the same time, beside the input.
+    // The size of the largest arrays that exist at the same time, in addition to the input.
     crate::require_memory(32 * corners.len() + 16 * positions.len());
     let degenerate = check(&positions, offsets, corners)?;
     if degenerate.is_empty() {

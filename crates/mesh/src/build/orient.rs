@@ -8,10 +8,10 @@
 //!    +-------+-------+           +-------+-------+
 //! ```
 //!
-//! Neighbors are polygons that share an edge with exactly two sides. In each part that is connected through
-//! these edges, the smaller of two groups is reversed: the polygons that have the same orientation as the first
-//! polygon of the part, or those that have the opposite orientation. If both groups have the same size, the second
-//! one is reversed.
+//! Neighbors are polygons that share an edge with exactly two sides. In each part that is connected through these
+//! edges, the polygons form two groups: those that have the same orientation as the first polygon of the part, and
+//! those that have the opposite orientation. The smaller group is reversed. If both groups have the same size, the
+//! second one is reversed.
 
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 

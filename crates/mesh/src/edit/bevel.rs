@@ -14,10 +14,10 @@ impl Mesh {
     ///         |                    |
     /// ```
     ///
-    /// `v` dies. The n edges of `v` keep their ids and end at the cuts. The new elements are, in clockwise
-    /// order from the first edge of [`vertex_half_edges`](Self::vertex_half_edges): n vertices, the n edges
-    /// from each new vertex to the next, and the face, whose first corner is the first new vertex. V, E and F
-    /// grow by n - 1, n and 1. Each face at v gains one corner for each of its corners at v.
+    /// `v` dies. The n edges of `v` keep their ids and end at the cuts. The new elements are n vertices, the n edges
+    /// from each new vertex to the next, and the face, whose first corner is the first new vertex. The new vertices and
+    /// edges are in clockwise order, starting at the first edge of [`vertex_half_edges`](Self::vertex_half_edges). V, E
+    /// and F grow by n - 1, n and 1. Each face at v gains one corner for each of its corners at v.
     ///
     /// At a cut, vertex attributes are interpolated between v and the other end of the edge. Corner attributes are
     /// interpolated within their face, separately on each side of a seam. Attributes that are
@@ -77,11 +77,11 @@ impl Mesh {
     ///     /               \            /               \
     /// ```
     ///
-    /// `e` and its ends a, b die. The n other edges at a and b keep their ids and end at the cuts. The new
-    /// elements are, in clockwise order around e, from the edge after e at a (the origin of its first half)
-    /// to the last edge at b: n vertices, the n edges from each new vertex to the next, and the face, whose
-    /// first corner is the first new vertex. V, E and F grow by n - 2, n - 1 and 1. The faces beside e keep
-    /// their number of corners. Any other face gains one corner for each of its corners at a or b.
+    /// `e` and its ends a, b die. The n other edges at a and b keep their ids and end at the cuts. The new elements are
+    /// n vertices, the n edges from each new vertex to the next, and the face, whose first corner is the first new
+    /// vertex. The new vertices and edges are in clockwise order around e, from the edge after e at a (the origin of
+    /// the first half of e) to the last edge at b. V, E and F grow by n - 2, n - 1 and 1. The faces beside e keep their
+    /// number of corners. Any other face gains one corner for each of its corners at a or b.
     ///
     /// Attributes are set as in [`bevel_vertex`](Self::bevel_vertex). The new face has the values of the face
     /// to the left of the first half of e.

@@ -30,11 +30,11 @@ impl Mesh {
     /// that creases are preserved, and a tag is set if either edge had it. For attributes of other types, the
     /// remaining edge keeps its value.
     ///
-    /// A collapse is refused if it would change the topology of the surface or make two elements coincide. The
-    /// test is the link condition of Dey, Edelsbrunner, Guha and Nekhayev ("Topology preserving edge
-    /// contraction", 1999), extended to polygons. The condition is applied to the surface with each hole closed
-    /// by a cone. The ends may share a neighbor only if the neighbor is a corner of a triangle beside `e`, and
-    /// may share a face only if the face is beside `e`.
+    /// A collapse is refused if it would change the topology of the surface or make two elements coincide. The test is
+    /// the link condition of Dey, Edelsbrunner, Guha and Nekhayev ("Topology preserving edge contraction", 1999),
+    /// extended to polygons. The condition is applied to the surface in which each hole is closed by triangles that
+    /// join the edges of the hole to an additional vertex (a cone). The ends may share a neighbor only if the neighbor
+    /// is a corner of a triangle beside `e`, and may share a face only if the face is beside `e`.
     ///
     /// Returns v.
     ///

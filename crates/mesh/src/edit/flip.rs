@@ -23,11 +23,11 @@ impl Mesh {
     ///        d                   d                 d-----+             d----+     (e from d to c)
     /// ```
     ///
-    /// Between two triangles, the edge becomes the other diagonal, and four flips of an edge restore the mesh, apart
-    /// from the half-edges that vertices and faces store. All ids stay the same. Before the flip, `e` runs from a to b;
-    /// afterwards from d to c, where c follows b on face f, and d follows a on face g. The first half of `e` stays on
-    /// f. Attributes of vertices, edges and faces stay with their ids. The new corners at c and d get the values of the
-    /// corner at the same vertex in the other face.
+    /// Between two triangles, the edge becomes the other diagonal of the quadrilateral that the two triangles form.
+    /// Four flips of such an edge restore the mesh, apart from the half-edges that vertices and faces store. All ids
+    /// stay the same. Before the flip, `e` runs from a to b; afterwards from d to c, where c follows b on face f, and d
+    /// follows a on face g. The first half of `e` stays on f. Attributes of vertices, edges and faces stay with their
+    /// ids. The new corners at c and d get the values of the corner at the same vertex in the other face.
     ///
     /// # Errors
     ///

@@ -98,14 +98,16 @@ pub enum EditError {
     #[error("{0} is a seam of corner attributes")]
     Seam(EdgeId),
     /// The position along the edge is not between 0 and 1. Only a collapse allows 0 and 1 themselves.
-    #[error("the position along the edge must be between 0 and 1, not {0}")]
+    #[error(
+        "the position along the edge must be between 0 and 1, not {0} (only a collapse accepts 0 and 1)"
+    )]
     OutsideEdge(f64),
     /// A coordinate, length or fraction is not finite, or is out of range.
     #[error("{0} is not finite, or is out of the range of this edit")]
     BadNumber(f64),
     /// The edit would leave several fans of faces at the vertex. Also returned if a hole to be filled contains the
     /// vertex twice, or if both ends of a diagonal are at the vertex.
-    #[error("the faces around {0} would form two separate fans")]
+    #[error("the faces around {0} would form several separate fans")]
     Pinch(VertexId),
     /// The corner does not belong to the required face or vertex.
     #[error("{0} is not a corner of the face or vertex that is to be split")]
@@ -202,8 +204,8 @@ impl Mesh {
         require(self.face(h).is_none(), EditError::NotBoundary(h))
     }
 
-    /// Checks that there are ids for this many additional half-edges. An edit adds fewer vertices than half-edges,
-    /// and fewer faces than half-edges.
+    /// Checks that there are ids for this many additional half-edges. The edits that call this function add at most as
+    /// many vertices, and at most as many faces, as half-edges.
     fn check_room(&self, half_edges: usize) -> Result<(), EditError> {
         let n = self.connectivity.next.len().max(self.positions.len()) + half_edges;
         require(n < u32::MAX as usize, EditError::Full)

@@ -1,4 +1,4 @@
-"""Between NumPy and the compiled part."""
+"""Conversions between NumPy arrays and the compiled part."""
 
 from __future__ import annotations
 

@@ -19,7 +19,8 @@ from ._progress import Progress, callback, numbers
 from ._recipe import Recipe
 from ._scene import fsspec, is_address, write_bytes
 
-#: Parts for each thread of a cluster: the sizes of files vary, so a thread that is done early takes another part.
+#: The number of parts for each thread of a cluster. Files vary in size, so a thread that is done early takes another
+#: part.
 PARTS_PER_THREAD = 8
 #: The memory of a process besides its meshes, in bytes.
 PROCESS_BYTES = 128 << 20
@@ -51,15 +52,15 @@ class Row:
     outputs: list[dict[str, Any]]
     #: How long the run took.
     seconds: float
-    #: The number of the parameter set, from 1. Its outputs are in the folder of this name.
+    #: The number of the parameter set, from 1. Its outputs are in a folder with this number as its name.
     set: int | None = None
-    #: The values of the parameter set, as texts.
+    #: The values of the parameter set, as strings.
     values: dict[str, str] = field(default_factory=dict)
 
 
 class Report(Sequence[Row]):
-    """The report of a batch: a row for each input file and parameter set, in the order of the paths and sets. The same
-    as the report of ``meshwright batch``."""
+    """The report of a batch: a row for each input file and parameter set, in the order of the paths and sets. It is the
+    same report as that of ``meshwright batch``."""
 
     def __init__(self, header: dict[str, Any], rows: list[Row]) -> None:
         #: The recipe, its digest, the parameters and the numbers of rows, as in the JSON report of the program.
@@ -112,8 +113,9 @@ def batch(
     [('1', 80), ('2', 320)]
 
     A batch that was interrupted, or whose workers were killed, continues when it is called again: a file is not processed
-    again if the recipe, the parameters and every file that the run reads are unchanged. This is decided by their content.
-    The engine and the number of parts can differ. A file that fails is a row of the report, and does not stop the batch.
+    again if the recipe, the parameters and every file that the run reads are unchanged. Files are compared by their
+    content. The engine and the number of parts can differ. A file that fails is a row of the report, and does not stop
+    the batch.
 
     :param recipe: The recipe, or the path of its file. For inputs, it needs a parameter of type Path, which receives the
         input.
@@ -127,8 +129,8 @@ def batch(
     :param out: The folder for outputs, and for the state of the batch.
     :param values: Values of the other parameters of the recipe.
     :param preset: The name of a preset of the recipe.
-    :param param: The parameter that receives the input; needed if the recipe has several of type Path.
-    :param folders: Whether the outputs of each input go to a folder of their own.
+    :param param: The parameter that receives the input; required if the recipe has several parameters of type Path.
+    :param folders: Whether the outputs of each input go to a separate folder.
     :param retry_failed: Whether files that failed before are processed again.
     :param parts: The number of tasks on a cluster. Defaults to 8 for each thread of the workers.
     :param report: A file for the report: .json, .jsonl or .csv.
@@ -193,8 +195,8 @@ def batch(
 
 
 def downloaded(pattern: str, folder: Path) -> dict[str, str]:
-    """Copies the files of an address to a folder. Returns the address of each copy. A file that exists is replaced, which
-    does not repeat its run: results belong to contents."""
+    """Copies the files of an address to a folder. Returns the address of each copy. A copy whose content differs is
+    replaced. Whether a file must run again depends on its content only."""
     system, path = fsspec().core.url_to_fs(pattern)
     found = sorted(system.glob(path)) if any(c in path for c in "*?[") else [path]
     copies = {}
@@ -210,7 +212,7 @@ def downloaded(pattern: str, folder: Path) -> dict[str, str]:
 
 
 def recipe_file(recipe: Recipe | str | os.PathLike[str], folder: Path) -> str:
-    """The path of the file of a recipe. A recipe that was built is written to the folder of outputs."""
+    """The path of the file of a recipe. A recipe that was built in Python is written to the folder of outputs."""
     if not isinstance(recipe, Recipe):
         return os.fspath(recipe)
     path = Path(recipe.path)
@@ -268,7 +270,8 @@ def run_parts(engine: Any, arguments: list[str], temporary: str, parts: int | No
         ran = run_on_ray(needed("ray"), divided, show)
     elif engine == "dask":
         distributed = needed("distributed")
-        # The tasks are processes, so one worker with a thread for each processor is enough. It has the memory of the machine.
+        # The tasks are processes, so one worker with a thread for each processor is enough. The memory of the worker is
+        # the memory of the machine.
         memory = {"MEMORY": distributed.system.MEMORY_LIMIT}
         threads = needed("dask.system").CPU_COUNT
         with distributed.LocalCluster(
@@ -332,7 +335,7 @@ def run_on_dask(client: Any, divided: Callable[[int], list[Task]], show: Progres
             run_part,
             task.arguments,
             os.getcwd(),
-            # Dask takes each part for new work, so that a second call looks at the files again.
+            # Dask treats each part as new work, so that a second call reads the files again.
             pure=False,
             retries=3,
             resources=None if room is None else {"MEMORY": min(task.bytes, room)},
@@ -367,14 +370,14 @@ def needed(name: str) -> Any:
 
 
 def run_part(arguments: list[str], folder: str) -> str:
-    """Runs a part of a batch in a process of its own, and returns the path of its report."""
+    """Runs a part of a batch in a separate process, and returns the path of its report."""
     run_program(["batch", *arguments], folder)
     return arguments[-1]
 
 
 def run_program(arguments: list[str], folder: str, each_line: Callable[[str], object] = lambda line: None) -> None:
-    """Runs the program in a process that ends with this one. The last argument is a new file that it writes. Calls
-    `each_line` with the lines that it prints."""
+    """Runs the program in a process that ends with this one. The last argument is a new file that the program writes.
+    Calls `each_line` with the lines that it prints."""
     with tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace") as errors:
         process = subprocess.Popen(
             [sys.executable, "-m", "meshwright._task", *arguments],
@@ -401,6 +404,6 @@ def run_program(arguments: list[str], folder: str, each_line: Callable[[str], ob
         text = errors.read().strip()
     if code == 130:
         raise KeyboardInterrupt
-    # The code is 1 also if some files fail. They are rows of the report.
+    # The code is also 1 if some files fail. Such files are rows of the report.
     if code > 1 or code < 0 or not os.path.exists(os.path.join(folder, arguments[-1])):
         raise Error(text or f"the batch ended with code {code}")

@@ -1,7 +1,7 @@
 """Conversions from and to other packages, which are imported when a conversion is called.
 
 Attributes of vertices and faces keep their names. Texture coordinates and normals go where the other package has them.
-What another package cannot hold is named in a warning.
+A warning names the data that the other package cannot hold.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ def module(name: str) -> Any:
     try:
         return importlib.import_module(name)
     except ModuleNotFoundError as error:
-        # A package that is installed but lacks another package or library says so itself.
+        # If the package is installed but needs another package that is missing, its own error says so.
         if error.name not in (name, None):
             raise
         raise ImportError(f"this conversion needs {name}: pip install {name}") from error
@@ -47,8 +47,8 @@ def kept(values: Any) -> NDArray[Any] | None:
 
 
 def one_for_each_vertex(values: NDArray[Any], mesh: Mesh) -> tuple[NDArray[Any], NDArray[Any], NDArray[np.int64]]:
-    """Values of the corners of triangles as values of vertices. Returns the values, the triangles, and the vertex that each
-    copy is one of: a vertex whose corners have several values is copied for each further value."""
+    """Converts values of the corners of triangles to values of vertices. A vertex whose corners have several values is
+    copied for each further value. Returns the values, the triangles, and for each copy the vertex that was copied."""
     corners = mesh.corners.astype(np.int64)
     of_vertex = np.zeros((mesh.n_vertices, values.shape[1]))
     of_vertex[corners] = values
@@ -79,7 +79,7 @@ class MeshConversions:
     ) -> Any:
         """The mesh of another package, with its columns of values, and one texture coordinate for each vertex.
 
-        If a repair drops a face or splits a vertex, the remaining elements have their values."""
+        If a repair drops a face or splits a vertex, the remaining elements keep their values."""
         this: Any = cls
         mesh, point_of_vertex, polygon_of_face = this._built(points, faces, face_starts, name)
         n_faces = len(faces) if face_starts is None else len(face_starts) - 1
@@ -145,8 +145,8 @@ class MeshConversions:
 
     @classmethod
     def from_trimesh(cls, other: Any, *, name: str = "mesh") -> Self:
-        """Makes a mesh of a `trimesh.Trimesh`, with its attributes of vertices and faces, its texture coordinates, and the
-        colors of its vertices or faces as the attribute "color"."""
+        """Makes a mesh from a `trimesh.Trimesh`, with its attributes of vertices and faces, its texture coordinates,
+        and the colors of its vertices or faces as the attribute "color"."""
         of = {"vertex": dict(other.vertex_attributes), "face": dict(other.face_attributes)}
         visual = other.visual
         if visual.kind in of:
@@ -188,8 +188,8 @@ class MeshConversions:
 
     @classmethod
     def from_meshio(cls, other: Any, *, name: str = "mesh") -> Self:
-        """Makes a mesh of the triangles, quads and polygons of a `meshio.Mesh`, with its data of points and cells. Other
-        cells are left out, with a warning."""
+        """Makes a mesh from the triangles, quads and polygons of a `meshio.Mesh`, with its data of points and cells.
+        Other cells are left out, with a warning."""
         blocks = [(i, b) for i, b in enumerate(other.cells) if b.type in ("triangle", "quad", "polygon")]
         left = sorted({b.type for b in other.cells} - {b.type for _, b in blocks})
         if left:
@@ -233,7 +233,7 @@ class MeshConversions:
 
     @classmethod
     def from_pyvista(cls, other: Any, *, name: str = "mesh") -> Self:
-        """Makes a mesh of the faces of a `pyvista.PolyData`, with its data of points and cells."""
+        """Makes a mesh from the faces of a `pyvista.PolyData`, with its data of points and cells."""
         surface = other if hasattr(other, "faces") else other.extract_surface()
         polygons = surface.GetPolys()
         array = module("pyvista").convert_array
@@ -267,7 +267,7 @@ class MeshConversions:
 
     @classmethod
     def from_open3d(cls, other: Any, *, name: str = "mesh") -> Self:
-        """Makes a mesh of an Open3D triangle mesh, with its attributes of vertices and triangles."""
+        """Makes a mesh from an Open3D triangle mesh, with its attributes of vertices and triangles."""
         if hasattr(other, "vertices"):
             other = module("open3d").t.geometry.TriangleMesh.from_legacy(other)
         own = {"normals": "normal", "colors": "color"}

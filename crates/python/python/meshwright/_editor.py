@@ -13,9 +13,9 @@ if TYPE_CHECKING:
 
 
 class Editor:
-    """Edits of single elements, on a copy of a mesh. Each edit checks first: a refused edit raises
-    :class:`meshwright.EditError` and changes nothing. Numbers of elements stay valid until the end of the `with` block,
-    where the gaps that removed elements leave are closed."""
+    """Edits of single elements, on a copy of a mesh. Each edit is checked first: a refused edit raises
+    :class:`meshwright.EditError` and changes nothing. Numbers of elements stay valid until the end of the `with` block.
+    Then elements are renumbered to close the gaps that removed elements left."""
 
     def __init__(self, mesh: Mesh) -> None:
         self._original = mesh
@@ -59,14 +59,14 @@ class Editor:
     def split(self, edge: int, at: float = 0.5) -> int:
         """Inserts a vertex on an edge and joins it to the opposite corners of triangles. Returns the vertex.
 
-        :param at: Where along the edge, between 0 and 1, both exclusive.
+        :param at: The position along the edge, strictly between 0 (the first of its :meth:`edge_vertices`) and 1.
         """
         return self._core.split(edge, at)
 
     def collapse(self, edge: int, at: float = 0.5) -> int:
         """Merges both ends of an edge into one vertex. Returns the vertex that remains.
 
-        :param at: Where along the edge, from 0 to 1.
+        :param at: The position along the edge, from 0 (the first of its :meth:`edge_vertices`) to 1.
         """
         return self._core.collapse(edge, at)
 
@@ -89,7 +89,7 @@ class Editor:
     def inset(self, face: int, fraction: float) -> list[int]:
         """Shrinks a face, with a ring of faces around it. Returns the new faces.
 
-        :param fraction: How far each corner moves toward the center, between 0 and 1, both exclusive.
+        :param fraction: How far each corner moves toward the center, strictly between 0 and 1.
         """
         return self._core.inset(face, fraction)
 
@@ -99,7 +99,7 @@ class Editor:
         return self._core.extrude(list(faces), (x, y, z))
 
     def delete(self, faces: Sequence[int]) -> None:
-        """Deletes faces, all or none. Holes are left."""
+        """Deletes all of these faces, or none if the edit is refused. Leaves holes."""
         self._core.delete(list(faces))
 
     def fill_hole(self, half_edge: int) -> int:

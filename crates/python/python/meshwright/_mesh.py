@@ -39,7 +39,7 @@ class HalfEdges(NamedTuple):
     origin: NDArray[np.uint32]
     #: For each half-edge, its face; 4294967295 on the boundary.
     face: NDArray[np.uint32]
-    #: For each vertex, a half-edge that leaves it; the boundary one if there is one.
+    #: For each vertex, a half-edge that leaves it: a boundary half-edge if there is one.
     of_vertex: NDArray[np.uint32]
     #: For each face, one of its half-edges.
     of_face: NDArray[np.uint32]
@@ -48,8 +48,8 @@ class HalfEdges(NamedTuple):
 class Attributes(Mapping[str, NDArray[Any]]):
     """The attributes of a mesh by name, as read-only arrays: one row for each vertex, corner, edge or face.
 
-    If several domains have the name, ``attributes["uv"]`` is that of the first of vertices, corners, edges and faces;
-    ``attributes["corner", "uv"]`` names the domain.
+    If several domains have an attribute of this name, ``attributes["uv"]`` is the first, in the order vertices,
+    corners, edges, faces. ``attributes["corner", "uv"]`` names the domain.
     """
 
     def __init__(self, mesh: Mesh) -> None:
@@ -135,8 +135,8 @@ class Mesh(MeshConversions, MeshOperations):
         :param vertices: The points, of shape (n, 3).
         :param faces: The vertices of each face, counter-clockwise: an array of shape (k, d), a list of lists of any
             lengths, or, with `face_starts`, the corners of all faces one after another.
-        :param face_starts: Where the corners of each face start in `faces`, and the number of all corners as the last
-            entry.
+        :param face_starts: The index of the first corner of each face in `faces`, and the number of all corners as the
+            last entry.
         :param name: The name of the object.
         :param repair: Whether faces that are not a manifold are repaired: inconsistent faces are reversed, edges with
             more than two faces are split, and faces with fewer than three corners are dropped. `notes` lists the
@@ -153,7 +153,7 @@ class Mesh(MeshConversions, MeshOperations):
         name: str,
         repair: bool = True,
     ) -> tuple[Self, NDArray[np.uint32], NDArray[np.uint32]]:
-        """A mesh of points and polygons, the point of each vertex and the polygon of each face."""
+        """A mesh of points and polygons, the point of each vertex, and the polygon of each face."""
         positions = points(vertices)
         starts, corners = polygons(faces, face_starts)
         core, repairs, point_of_vertex, polygon_of_face = _core.from_arrays(positions, starts, corners, repair)
@@ -180,7 +180,8 @@ class Mesh(MeshConversions, MeshOperations):
 
     @property
     def face_starts(self) -> NDArray[np.uint64]:
-        """Where the corners of each face start in :attr:`corners`, and the number of corners as the last entry."""
+        """The index in :attr:`corners` of the first corner of each face, and the number of corners as the last
+        entry."""
         return self._polygons[1]
 
     @property
@@ -222,7 +223,7 @@ class Mesh(MeshConversions, MeshOperations):
         return self.attributes[domain, name] if domain else self.attributes[name]
 
     def tag(self, domain: Domain, name: str) -> NDArray[np.bool_]:
-        """A tag, which is a named selection: whether it has each element."""
+        """A tag, which is a named selection. For each element, whether the tag selects it."""
         values = self.attributes[domain, name]
         if values.dtype != np.bool_:
             raise TypeError(f'"{name}" is an attribute of type {values.dtype}, expected a tag')
@@ -266,7 +267,8 @@ class Mesh(MeshConversions, MeshOperations):
         :param name: The name.
         :param values: One row for each element: numbers, rows of 2 to 4 numbers, whole numbers from -2^31 to 2^31 - 1,
             or flags, which make a tag.
-        :param domain: vertex, corner, edge or face. If omitted, the only domain with as many elements.
+        :param domain: vertex, corner, edge or face. If omitted, the only domain that has as many elements as there are
+            values.
         :param rule: What edits do with the values. Defaults to "interpolate" for numbers and "copy" for others.
         """
         array = numeric(values, f"the values of {name!r}")
@@ -339,7 +341,7 @@ class Mesh(MeshConversions, MeshOperations):
     @property
     def is_closed(self) -> bool:
         """Whether every edge has two faces, so that the mesh is watertight. Every mesh is a manifold: each edge has one
-        or two faces, which agree about its direction."""
+        or two faces, and two faces of an edge are oriented consistently."""
         return self._core.is_closed()
 
     @property
@@ -386,7 +388,7 @@ class Mesh(MeshConversions, MeshOperations):
 
     @cached_property
     def digest(self) -> str:
-        """The digest of a scene with this object alone."""
+        """The digest of a scene that has only this object."""
         return self._scene.digest()
 
     # ---- Changes
@@ -407,7 +409,7 @@ class Mesh(MeshConversions, MeshOperations):
         return Editor(self)
 
     def scene(self) -> Scene:
-        """Returns the scene with this object alone."""
+        """Returns the scene that has only this object."""
         from ._scene import Scene
 
         return Scene(self._scene)
@@ -423,7 +425,7 @@ class Mesh(MeshConversions, MeshOperations):
         """Returns an interactive view for notebooks: drag to turn, scroll to zoom. It needs no network.
 
         :param color_by: An attribute of vertices or faces that gives the colors.
-        :param wireframe: Whether edges are drawn at first. Defaults to meshes of at most 20,000 faces.
+        :param wireframe: Whether edges are drawn at first. If omitted, only for meshes of at most 20,000 faces.
         :param height: The height in pixels.
         """
         from ._view import View
@@ -460,7 +462,7 @@ class Mesh(MeshConversions, MeshOperations):
         return type(self)(result, names[0], done.notes)
 
     def _named(self, value: Any, others: dict[int, tuple[str, Mesh]]) -> Any:
-        """Replaces meshes among parameters by names of objects."""
+        """Replaces meshes in the values of parameters by names of objects."""
         if isinstance(value, Mesh):
             name = value.name if value.name != self._name else f"{value.name} (other)"
             taken = {n for key, (n, _) in others.items() if key != id(value)}

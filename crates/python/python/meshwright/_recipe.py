@@ -37,7 +37,7 @@ class Step:
 
 
 class Outcome(Mapping[str, Mesh]):
-    """The outcome of a run: a mapping from the names of objects to meshes, as the scene at the end."""
+    """The outcome of a run. Like a scene, it is a mapping from the names of objects to meshes."""
 
     def __init__(self, scene: Scene, about: dict[str, Any]) -> None:
         #: The scene at the end.

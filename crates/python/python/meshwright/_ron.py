@@ -1,5 +1,5 @@
 """Writes Python values as the text of recipes (RON). The schema of a parameter says how its value is written: a Python
-string is a word such as ``Area`` where the schema lists words, and a text in quotes elsewhere."""
+string is written as a word such as ``Area`` if the schema lists words, and as a text in quotes otherwise."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class Choice:
 
 
 class Ron(str):
-    """A text of a recipe that is used as it is."""
+    """A text in RON that is copied into the recipe unchanged."""
 
     def __repr__(self) -> str:
         return f"Ron({super().__repr__()})"
@@ -105,7 +105,7 @@ def name_of(option: Schema) -> str | None:
 
 
 def words(schema: Schema) -> set[str]:
-    """The words that stand for themselves in this place."""
+    """The words that are written without quotes in this place."""
     found: set[str] = set()
     for option in options(schema):
         if isinstance(option.get("const"), str):

@@ -51,8 +51,8 @@ class Scene(SceneOperations, Mapping[str, Mesh]):
         return len(self._core.names())
 
     def mesh(self, name: str | None = None) -> Mesh:
-        """Returns the only mesh of the scene, or the mesh with this name. Raises `ValueError` if there are several
-        meshes or none, with their names."""
+        """Returns the only mesh of the scene, or the mesh with this name. If there are several meshes or none, raises a
+        `ValueError` that lists their names."""
         if name is not None:
             return self[name]
         meshes = [n for n in self if self.kind(n) == "mesh"]
@@ -79,8 +79,8 @@ class Scene(SceneOperations, Mapping[str, Mesh]):
         return type(self)(self._core.only(list(names)), self._notes)
 
     def placed(self) -> Self:
-        """Returns the scene with every object where its nodes show it, and without nodes. An object that several nodes
-        show becomes several objects."""
+        """Returns the scene without nodes, with every object moved to the place where its nodes show it. An object that
+        several nodes show becomes several objects."""
         return type(self)(self._core.placed(), self._notes)
 
     @property
@@ -91,7 +91,8 @@ class Scene(SceneOperations, Mapping[str, Mesh]):
 
     @cached_property
     def digest(self) -> str:
-        """The digest of the scene: equal for equal scenes, on every machine, and equal to that of the program."""
+        """The digest of the scene. It is equal for equal scenes on every machine, and the program prints the same
+        digest."""
         return self._core.digest()
 
     # ---- Operations
@@ -110,7 +111,7 @@ class Scene(SceneOperations, Mapping[str, Mesh]):
         """Runs an operation by its name in recipes: ``scene.apply("Weld", distance=1e-6)``.
 
         :param operation: The name of the operation.
-        :param on: The objects that the operation acts on. If omitted, all that it supports.
+        :param on: The objects that the operation acts on. If omitted, all objects that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True` for
             a bar of tqdm. An exception cancels the operation.
@@ -203,7 +204,7 @@ WRITES = {"Save", "Picture", "CurveFigure", "HalfEdgeFigure", "UvPicture"}
 
 
 def whole_step(operation: str, fields: Mapping[str, Any], on: str | Sequence[str] | None, id: str | None) -> str:
-    """A step with its envelope."""
+    """A step of a recipe, with its id and the names of its objects if they are given."""
     step = _ron.step(operation, fields)
     if on is None and id is None:
         return step
@@ -254,14 +255,14 @@ def fsspec() -> Any:
 
 def write_bytes(address: str, data: bytes) -> None:
     """Writes a file at an address."""
-    # Stores of objects have no folders.
+    # Object stores such as S3 have no folders, so folders are created only at local addresses.
     options = {"auto_mkdir": True} if address.startswith("file:") else {}
     with fsspec().open(address, "wb", **options) as file:
         file.write(data)
 
 
 def read(path: str | os.PathLike[str], **options: Any) -> Scene:
-    """Reads a file as a scene. `scene.mesh()` is its only mesh, `scene.notes` what was repaired or left out.
+    """Reads a file as a scene. `scene.mesh()` is its only mesh. `scene.notes` lists what was repaired or left out.
 
     :param path: The file: .obj, .gltf, .glb, .ply, .stl, .off, .dae, .mws, .bez or .bzc. `s3://` and other addresses
         need fsspec, and the file must not refer to other files.

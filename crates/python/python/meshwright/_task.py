@@ -10,7 +10,7 @@ from . import _core
 
 
 def end_with_parent() -> None:
-    """Ends this process when the pipe to its parent closes, which also a killed parent does."""
+    """Ends this process when the pipe to its parent closes. The pipe also closes if the parent is killed."""
     sys.stdin.buffer.read()
     os._exit(1)
 

@@ -36,7 +36,7 @@ def encoded(array: NDArray[Any], dtype: str) -> str:
 
 
 def colors_of(values: NDArray[Any]) -> tuple[NDArray[np.uint8], str]:
-    """A color for each value, and the range of the values in words. Rows count with their lengths."""
+    """A color for each value, and the range of the values in words. The value of a row of numbers is its length."""
     numbers = values.astype(float) if values.ndim == 1 else np.linalg.norm(values, axis=1)
     if not len(numbers):
         return np.zeros((0, 3), np.uint8), "no values"
@@ -54,7 +54,7 @@ class View:
     def __init__(self, mesh: Mesh, color_by: str | None, wireframe: bool | None, height: int) -> None:
         self._height = height
         pieces = mesh.triangulate() if (np.diff(mesh.face_starts) != 3).any() else mesh
-        # Floats of 32 bits are precise near the origin.
+        # The mesh is moved to the origin, because 32-bit floats are precise only there.
         center = mesh.vertices.mean(axis=0) if mesh.n_vertices else np.zeros(3)
         points, triangles = mesh.vertices - center, pieces.triangles
         caption, colors = repr(mesh), None
@@ -66,7 +66,7 @@ class View:
             colors, span = colors_of(source.attributes[domain, color_by])
             caption += f", {color_by}: {span}"
             if domain == "face":
-                # Each triangle gets corners of its own, after the vertices, which the edges use.
+                # Each triangle gets its own corners. They follow the vertices, which the edges use.
                 points = np.concatenate([points, points[triangles.reshape(-1)]])
                 colors = np.concatenate([np.zeros((mesh.n_vertices, 3), np.uint8), np.repeat(colors, 3, axis=0)])
                 triangles = (mesh.n_vertices + np.arange(3 * len(triangles), dtype=np.uint32)).reshape(-1, 3)

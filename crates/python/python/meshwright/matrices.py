@@ -47,7 +47,7 @@ def laplacian(mesh: Mesh) -> Any:
 
 
 def mass(mesh: Mesh) -> Any:
-    """Returns the lumped mass matrix: a diagonal matrix of the areas that belong to the vertices."""
+    """Returns the lumped mass matrix: a diagonal matrix whose entries are the areas that belong to the vertices."""
     areas = view(_core.laplacian(mesh._core)[3])
     return _sparse().diags_array(areas.copy(), format="csr")
 

@@ -28,7 +28,8 @@ pub enum ColumnDifference {
     Types([&'static str; 2]),
     /// The edit rules of the attributes differ.
     Rules,
-    /// The connectivity of the meshes differs, so that values cannot be compared.
+    /// The connectivity of the meshes is not [`Connectivity::Same`](super::Connectivity::Same), so the values cannot be
+    /// compared.
     Unknown,
     /// Values differ.
     Values {
@@ -43,7 +44,7 @@ pub enum ColumnDifference {
 
 impl AttributeDifference {
     /// Whether both meshes have the attribute with the same type and the same edit rule, and no value differs by more
-    /// than `tolerance`. `false` if the values cannot be compared.
+    /// than `tolerance`. Returns `false` if the values cannot be compared.
     pub fn is_within(&self, tolerance: f64) -> bool {
         match &self.difference {
             ColumnDifference::None => true,

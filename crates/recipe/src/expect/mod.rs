@@ -212,7 +212,8 @@ pub enum Expectation {
         max: Option<f64>,
     },
     /// The thickness of the solid at each selected vertex, in scene units, as `Measure(of: Thickness, ..)` measures it.
-    /// Infinite where the surface has no opposite side, as on an open sheet. Fails if the selection is empty.
+    /// The thickness is infinite where the surface has no opposite side, as on an open sheet. Fails if the selection is
+    /// empty.
     Thickness {
         /// Which vertices.
         #[serde(default)]
@@ -253,7 +254,7 @@ pub enum Expectation {
         #[schemars(range(min = 0.0))]
         tolerance: f64,
     },
-    /// The position of one point of a polyline, in object space, because nodes place only meshes.
+    /// The position of one point of a polyline. The position is in object space, because nodes place only meshes.
     Point {
         /// The index of the polyline in its object, counted from 0.
         #[serde(default)]

@@ -43,8 +43,8 @@ impl<'a> PlacedSubject<'a> {
             let message = format!("expected 1 instance of \"{other}\", found {n}");
             return Err(message.into());
         }
-        // Every object has at least one instance, so a name without instances is not the name of an object. It stays in
-        // the list, so that the check reports it.
+        // Every object has at least one instance, so a name without instances is not the name of an object. Such a name
+        // stays in the list, so that the check reports the name.
         let on = subject.on.map(|on| {
             let names = on.iter().flat_map(|name| {
                 let of_object = instances.iter().filter(|i| i.object.name == *name);

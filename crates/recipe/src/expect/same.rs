@@ -7,9 +7,9 @@ use mesh::{DVec3, Mesh, VertexId};
 
 use super::subject::counted;
 
-/// The vertices of a mesh, for searches by position. The list is a k-d tree: the vertex in the middle of the list
-/// splits the other vertices by the coordinate in which they extend most. Both halves of the list are split in the same
-/// way.
+/// The vertices of a mesh, for searches by position. The list `tree` is a k-d tree: the vertex in the middle of the
+/// list splits the other vertices by the coordinate in which they extend most. Both halves of the list are split in the
+/// same way.
 pub(super) struct PositionIndex<'m> {
     mesh: &'m Mesh,
     tree: Vec<(VertexId, u8)>,
@@ -50,9 +50,10 @@ impl<'m> PositionIndex<'m> {
         found
     }
 
-    /// Calls `at` with the index of each vertex in a part of the tree that can be within a certain distance of `p`.
-    /// The distance is `limit` at first, and then the last value that `at` returned. Skips a part of the tree if
-    /// `enter` returns `false` for its middle and the distance. Returns the final distance.
+    /// Searches a part of the tree for vertices within a distance of `p`. The distance is `limit` at first. Calls `at`
+    /// with the index of each vertex that can be within the distance. The result of `at` is the distance for the rest
+    /// of the search. Calls `enter` with the index of the middle vertex of each part of the tree and the distance, and
+    /// skips the part if the result is `false`. Returns the final distance.
     fn visit(
         &self,
         part: Range<usize>,
@@ -82,8 +83,9 @@ impl<'m> PositionIndex<'m> {
         limit
     }
 
-    /// Returns, for each vertex v of `other` (by index), the vertex of this mesh that is within the tolerance of the
-    /// image of v. `None` if the vertices do not match one to one.
+    /// Matches each vertex v of `other`, in the order of ids, with the nearest vertex of this mesh that is within the
+    /// tolerance of the image of v and is not matched yet. Returns the matching vertex for each index of v. Returns
+    /// `None` if the numbers of vertices differ, or if there is no match for a vertex.
     pub(super) fn matching(
         &self,
         other: &Mesh,

@@ -18,7 +18,7 @@ pub enum Group {
     AxisMirrors,
 }
 
-/// A motion: the images of the three axes, and whether it is a rotation.
+/// A motion: the images of the three axes, and whether the motion is a rotation.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Motion {
     axes: [DVec3; 3],

@@ -17,8 +17,8 @@ pub trait StepCache: fmt::Debug + Sync {
 }
 
 /// A run with a cache: looks up steps, stores the results of steps that ran, and loads scenes. For each step,
-/// [`run`](crate::run()) calls [`look_up`](Self::look_up). If the lookup fails, it runs the step and calls
-/// [`record_step`](Self::record_step).
+/// [`run`](crate::run()) calls [`look_up`](Self::look_up). If the lookup fails, [`run`](crate::run()) runs the step and
+/// calls [`record_step`](Self::record_step).
 pub trait CachedRun {
     /// Looks up the next step. If `stage` is given, the files that the step wrote are restored into this folder, which
     /// collects the outputs of the run until it succeeds.
@@ -72,8 +72,8 @@ pub trait CachedRun {
     /// Writes what has been recorded about the last step to the cache.
     fn flush(&mut self);
 
-    /// Ends the run. Returns the problem that prevents the cache from storing anything, if there is one, and one line
-    /// for each result that was not stored or could not be loaded.
+    /// Ends the run. The first returned value is the problem that prevents the cache from storing anything, if there is
+    /// one. The second value has one line for each result that was not stored or could not be loaded.
     fn finish(self: Box<Self>) -> (Option<String>, Vec<String>);
 }
 
@@ -178,7 +178,7 @@ pub enum RerunReason {
     /// The scene before the step cannot be identified, because the input files of an earlier step could not be
     /// determined and that step left removed elements in a mesh.
     #[error(
-        "the input files of an earlier step cannot be determined, and it left removed elements in a mesh"
+        "the input files of an earlier step cannot be determined, and that step left removed elements in a mesh"
     )]
     NoState,
 }

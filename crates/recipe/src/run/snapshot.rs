@@ -24,8 +24,8 @@ impl SceneSnapshot {
         }
     }
 
-    /// Whether the scene is known to be unchanged. Changing a mesh with weak references moves it to a new
-    /// allocation, so equal pointers mean an unchanged mesh.
+    /// Whether the scene is known to be unchanged. If a mesh with weak references is changed, the mesh moves to a new
+    /// allocation. So equal pointers mean that the mesh is unchanged.
     pub(super) fn is_unchanged(&self, scene: &Scene) -> bool {
         let same =
             |(object, (name, materials, mesh)): (&scene::Object, &(_, _, Option<Weak<_>>))| {

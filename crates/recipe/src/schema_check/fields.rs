@@ -131,7 +131,7 @@ impl Checker {
 }
 
 impl Schema<'_> {
-    /// Whether a number, a text, or the name of a variant is of the type of this schema.
+    /// Whether a number, a string or a variant has the type of this schema. Returns `false` for any other value.
     pub(super) fn accepts(&self, value: &Value) -> bool {
         let choice = self.choice();
         match (&value.kind, &choice) {
@@ -146,8 +146,9 @@ impl Schema<'_> {
     }
 }
 
-/// Returns the help text for a value that should be a struct, but seems to be the value of one of its fields: of the
-/// first that accepts the value.
+/// Returns the help text for a value that should be a struct but seems to be the value of a field of the struct. The
+/// text names the first field that accepts the value or, if no field accepts it, the first field. Required fields come
+/// first.
 fn with_field_name(value: &Value, schema: &Schema) -> Option<String> {
     let inner = value.single().unwrap_or(value);
     let accepts = |field: &&str| {

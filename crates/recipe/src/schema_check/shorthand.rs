@@ -96,9 +96,9 @@ impl Checker {
                 Some(help),
             );
         }
-        // The variant that fits best is the one whose content type declares the most names that occur in the value. If
-        // several variants are equal in this, the one with the fewest errors fits best. If they also have equally many
-        // errors, the first of them fits best.
+        // The variant that fits best is the variant whose content type declares the most names that occur in the value.
+        // If several variants declare equally many of these names, the variant with the fewest errors fits best. If
+        // these variants also have equally many errors, the first of them fits best.
         let fit = |((_, _, trial), names): &((&str, Schema, Self), Vec<String>)| {
             (n_known(value, names), Reverse(trial.diagnostics.len()))
         };

@@ -184,7 +184,7 @@ fn invalid_ranges_are_refused_with_a_reason() {
     );
     assert_eq!(
         found("from: 0, to: 1, steps: 1"),
-        "a range with 1 step must have equal ends, found 0 and 1"
+        "`from` and `to` must be equal if `steps` is 1, found 0 and 1"
     );
     assert!(found("from: -1e300, to: 1e300").contains("expected at most 10000"));
     let without_steps = wrong("over: {\"x\": Range(from: 0, to: 1)}").remove(0).1;

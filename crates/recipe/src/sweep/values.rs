@@ -102,7 +102,8 @@ fn range(
         return Err(problem(message));
     }
     if steps == 1 && from != to {
-        let message = format!("a range with 1 step must have equal ends, found {from} and {to}");
+        let message =
+            format!("`from` and `to` must be equal if `steps` is 1, found {from} and {to}");
         return Err(problem(message));
     }
     let last = f64::from(steps.max(2) - 1);

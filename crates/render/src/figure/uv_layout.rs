@@ -43,8 +43,8 @@ const FAR: f64 = 1e6;
 const N_COLORS: usize = 16;
 
 /// Draws the charts of texture coordinates, `width` pixels wide. Coordinates outside the page are drawn too, so the
-/// figure can be higher than wide. If `edges` is false, only the borders of charts are drawn. Beside colors for the
-/// stretch there is a legend, if it takes at most a third of the width.
+/// figure can be higher than wide. If `edges` is false, only the borders of charts are drawn. A figure with colors for
+/// the stretch also has a legend, if the legend takes at most a third of the width.
 pub fn uv_layout(
     mesh: &Mesh,
     uvs: &[DVec2],

@@ -33,8 +33,8 @@ impl Graph {
         self.retain_channels(|c| c.property != AnimatedProperty::Weights || shows[c.node]);
     }
 
-    /// Renames an object. A node or mesh with the old name gets the new name. If no node of the object has the old
-    /// name, the mesh always gets the new name.
+    /// Renames an object. A node that references the object gets the new name if it has the old name. The mesh gets the
+    /// new name if it has the old name, or if no node got the new name.
     pub fn rename_object(&mut self, from: &str, to: &str) {
         let mut is_named = false;
         for node in &mut self.nodes {
@@ -107,9 +107,9 @@ impl Graph {
         }
     }
 
-    /// Appends the nodes of another graph. The objects of the two graphs must have different names. If the graphs
-    /// have different parts of the document with the same name, the part of this graph is kept. Returns the number
-    /// of parts that are not kept.
+    /// Appends the nodes of another graph. The objects of the two graphs must have different names. If the documents of
+    /// both graphs have a part with the same name but different content, the part of this graph is kept. Returns the
+    /// number of parts of `other` that are not kept.
     pub fn append(&mut self, other: Self) -> usize {
         let (n, cameras, lights) = (self.nodes.len(), self.cameras.len(), self.lights.len());
         let (skins, arrays) = (self.skins.len(), self.arrays.len());

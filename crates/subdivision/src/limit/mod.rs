@@ -1,13 +1,13 @@
 //! The limit surface at the vertices of a mesh: the positions to which the vertices converge under infinite
 //! subdivision, and the tangent planes at these positions.
 //!
-//! If the sharpness at a vertex does not change with levels, the limit position is a weighted mean of the one-ring, and
-//! the tangents are weighted sums of it. The weights (the limit masks) are the left eigenvectors of the matrix that
-//! maps the one-ring to the one-ring of the next level (Halstead, Kass and DeRose, "Efficient, Fair Interpolation using
-//! Catmull-Clark Surfaces", 1993; Hoppe et al., "Piecewise Smooth Surface Reconstruction", 1994; Biermann, Levin and
-//! Zorin, "Piecewise Smooth Subdivision Surfaces with Normal Control", 2000). If an element is semi-sharp, the one-ring
-//! is refined until the sharpness of that element reaches 0. A dart, the end of a single sharp edge, has no closed
-//! form: its one-ring is refined until it converges.
+//! If the sharpness at a vertex does not change with levels, the limit position is a weighted mean of the one-ring (the
+//! vertex and the vertices around it), and the tangents are weighted sums of the one-ring. The weights (the limit
+//! masks) are the left eigenvectors of the matrix that maps the one-ring to the one-ring of the next level (Halstead,
+//! Kass and DeRose, "Efficient, Fair Interpolation using Catmull-Clark Surfaces", 1993; Hoppe et al., "Piecewise Smooth
+//! Surface Reconstruction", 1994; Biermann, Levin and Zorin, "Piecewise Smooth Subdivision Surfaces with Normal
+//! Control", 2000). If an element is semi-sharp, the one-ring is refined until the sharpness of that element reaches 0.
+//! For a dart, the end of a single sharp edge, there is no closed formula: its one-ring is refined until it converges.
 
 mod masks;
 mod star;

@@ -6,7 +6,7 @@ use subdivision::{Boundary, Creasing};
 
 use crate::polygons::{Adjacency, Edge, Polygons, edge};
 
-/// Sharpness from this value on does not decrease.
+/// A sharpness of at least this value does not decrease.
 const INFINITE: f64 = 10.0;
 
 /// The rule of a vertex.

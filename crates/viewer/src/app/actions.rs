@@ -1,4 +1,4 @@
-//! Does what keys, menus and buttons ask for.
+//! Performs the actions of keys, menus and buttons.
 
 use editor::{Action, Command, Editor, FieldKind, Panel, Picked, Walk, walk};
 use eframe::egui;
@@ -15,7 +15,7 @@ use crate::paths::{self, Purpose};
 use crate::view_pane::Tool;
 
 impl Parts {
-    /// Does what a key or a menu asks for.
+    /// Performs the action of a key or a menu.
     pub(crate) fn act(&mut self, action: Action, ctx: &egui::Context) {
         match action {
             Action::Next => self.walk(Walk::Next),

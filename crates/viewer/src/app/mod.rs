@@ -49,7 +49,7 @@ pub struct Start {
     pub path: Option<PathBuf>,
     /// The folder for the list of recent files and the recovery of texts. If omitted, nothing is stored.
     pub state_folder: Option<PathBuf>,
-    /// Whether paths of files are asked for by dialogs of the system, and not by a line in the window.
+    /// Whether dialogs of the system ask for paths of files. If not, a line in the window asks for them.
     pub has_dialogs: bool,
 }
 
@@ -87,13 +87,13 @@ pub(crate) struct Parts {
     pub(crate) draft: Option<Draft>,
     /// The edits of a step that are played in the view.
     pub(crate) player: Option<Player>,
-    /// The value of a parameter while its slider is dragged: the step or none for the recipe, the name, and the value.
+    /// The parameter whose slider is dragged: its step (`None` for a parameter of the recipe), its name, and its value.
     pub(crate) dragged: Option<(Option<usize>, String, String)>,
     pub(crate) shows_help: bool,
     pub(crate) shows_information: bool,
     pub(crate) notice: Option<Notice>,
     pub(crate) files: files::Files,
-    /// Whether paths are asked for by dialogs of the system.
+    /// Whether dialogs of the system ask for paths.
     pub(crate) has_dialogs: bool,
     /// A path that is being written in the window.
     pub(crate) prompt: Option<Prompt>,
@@ -101,7 +101,7 @@ pub(crate) struct Parts {
     pub(crate) export: Option<Export>,
     /// What the user wants to do although the recipe has unsaved changes.
     pub(crate) pending: Option<Pending>,
-    /// When the run has begun, while it goes on.
+    /// The start of the run that is in progress.
     running_since: Option<Instant>,
     /// The places of errors that are shown in the view.
     places: Vec<ErrorLocation>,
@@ -113,7 +113,7 @@ impl App {
     /// Creates the window's contents. Opens the file of `start`, if there is one.
     pub fn new(ctx: &egui::Context, gpu: Option<&egui_wgpu::RenderState>, start: &Start) -> Self {
         theme::apply(ctx);
-        // Before this editor has a journal of its own.
+        // Looks for the journals of other sessions, before this editor has its own journal.
         let files = files::Files::new(start.state_folder.clone());
         let settings = Settings {
             journals: files::journals(start.state_folder.as_deref()),
@@ -352,7 +352,7 @@ impl Parts {
         controls::over_view(ui, rect, self);
     }
 
-    /// Returns what is said about the picked elements.
+    /// Returns the description of the picked elements.
     pub(crate) fn description(&self) -> &str {
         &self.description
     }

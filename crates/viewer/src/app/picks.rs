@@ -10,14 +10,14 @@ use scene::Scene;
 use super::Parts;
 use crate::view_pane::{Gizmo, Tool, ViewEvent};
 
-/// The first angle at which picking by angle stops, in degrees. It can be changed in the text of the selection.
+/// The initial angle at which picking by angle stops, in degrees. The user can change it in the text of the selection.
 const ANGLE: u32 = 30;
 
 impl Parts {
     pub(super) fn view_event(&mut self, event: ViewEvent, scene: &Scene) {
         let picks = matches!(event, ViewEvent::Click { .. } | ViewEvent::Area { .. });
         if picks && self.draft.is_some() && self.editor.is_preview() {
-            // The elements of the preview are not those that the new step acts on.
+            // The new step acts on elements of the scene before it, not on elements of its preview.
             self.editor.end_preview();
             self.inform("This is the scene before the new step: pick its elements.");
             return;
@@ -105,14 +105,15 @@ impl Parts {
         self.pick_checked(&format!("EdgeLoop(Between({v}, {w}))"));
     }
 
-    /// Picks the elements that a selection means, and uses this selection for the next step.
+    /// Picks the elements that a selection selects, and uses this selection for the next step.
     pub(crate) fn pick_text(&mut self, text: &str) {
         let kind = self.view.mode.kind();
         let result = self.editor.pick_by_text(text, kind);
         self.report(result);
     }
 
-    /// As [`pick_text`](Self::pick_text), but the next step fails if the selection means another number of elements.
+    /// Like [`pick_text`](Self::pick_text), but the next step fails if the selection selects another number of
+    /// elements.
     fn pick_checked(&mut self, text: &str) {
         self.pick_text(text);
         let n = self.editor.picked().map(Picked::len);
@@ -147,7 +148,7 @@ impl Parts {
         self.pick_checked(&format!("Expand(to_angle: {ANGLE}, of: {of})"));
     }
 
-    /// Replaces the picked elements by those that follow from them, unless there are none.
+    /// Replaces the picked elements by those that `change` returns, unless it returns none.
     pub(super) fn change_picked(&mut self, change: impl Fn(&Picked, &Mesh) -> Picked) {
         if let (Some(mesh), Some(picked)) = (self.picked_mesh(), self.editor.picked()) {
             let new = change(picked, &mesh);
@@ -165,7 +166,7 @@ impl Parts {
             let Selected::Edges(list) = &picked.elements else {
                 return all;
             };
-            // Most edges are in the loop of an edge before.
+            // Edges in the loop or ring of an earlier edge are skipped.
             let mut rest = list.clone();
             while let Some(e) = rest.first() {
                 let [v, w] = mesh.edge_vertices(*e).map(mesh::VertexId::index);

@@ -1,4 +1,4 @@
-//! The layout of the window, which the file `window.ron` in the state folder remembers.
+//! The layout of the window, which is stored in the file `window.ron` in the state folder.
 
 use std::path::Path;
 
@@ -12,7 +12,7 @@ use super::layout::Pane;
 /// The name of the file in the state folder.
 pub(super) const FILE: &str = "window.ron";
 
-/// The layout of the window. If the file has other contents, the layout is the default.
+/// The layout of the window. If the file is missing or cannot be parsed, all values are the defaults.
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq)]
 #[serde(default)]
 pub(crate) struct Remembered {
@@ -22,9 +22,9 @@ pub(crate) struct Remembered {
     pub(crate) is_maximized: bool,
     /// Whether the window is dark or light. If omitted, the window follows the system.
     is_dark: Option<bool>,
-    /// The shares of steps and text of their height.
+    /// The fractions of the height of the left side that the steps and the text occupy.
     left: Option<[f32; 2]>,
-    /// The shares of the left side, the view and the inspector of the width.
+    /// The fractions of the width of the window that the left side, the view and the inspector occupy.
     columns: Option<[f32; 3]>,
 }
 
@@ -79,7 +79,7 @@ impl Remembered {
         }
     }
 
-    /// Returns the layout of a window. What is not known is taken from `before`.
+    /// Returns the layout of a window. Values that are not known are taken from `before`.
     fn of(ctx: &egui::Context, tree: &Tree<Pane>, before: &Self) -> Self {
         let (size, is_maximized) = ctx.input(|input| {
             let viewport = input.viewport();

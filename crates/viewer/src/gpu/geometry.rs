@@ -11,8 +11,8 @@ use render::{Channel, Drawing, Part, Texture, to_srgb};
 /// The largest number of triangles that are drawn by one command.
 pub(super) const CHUNK: usize = 1 << 20;
 
-/// The largest number of points with shared buffers. With this number, no buffer exceeds 128 MiB, which every graphics
-/// card supports.
+/// The maximum number of points that share buffers. With this limit, no buffer exceeds 128 MiB. Every graphics card
+/// supports buffers of this size.
 const MAX_POINTS: usize = (128 << 20) / size_of::<[f32; 3]>();
 
 /// The bit of a corner in [`Chunk::triangles`] that says that the side from this corner to the next is an edge of the
@@ -66,8 +66,8 @@ pub(super) struct SurfaceLook {
 pub struct LineInstance {
     /// The ends, relative to the center of the object. Equal for a dot.
     pub ends: [[f32; 3]; 2],
-    /// The width in pixels, the opacity where the line is hidden, how many pixels the line is moved towards the camera
-    /// in addition to other lines, and an unused number.
+    /// The width in pixels, the opacity where the line is hidden, the distance in pixels by which the line is moved
+    /// towards the camera in addition to the 3 pixels of every line, and an unused number.
     pub look: [f32; 4],
     /// sRGB color and opacity.
     pub color: [u8; 4],

@@ -6,8 +6,8 @@ use super::Look;
 use super::geometry::LineInstance;
 use crate::camera::Camera;
 
-/// Returns the lines of a grid on the ground, which fade with the distance from the center. The distance of the lines is
-/// 1, 2 or 5 times a power of ten.
+/// Returns the lines of a grid on the ground, which fade with the distance from the center. The distance between
+/// neighboring lines is 1, 2 or 5 times a power of ten.
 pub(super) fn grid(
     bounds: [DVec3; 2],
     (center, radius): (DVec3, f64),

@@ -39,7 +39,7 @@ pub(super) struct Key {
 }
 
 impl Key {
-    /// Whether the buffers of both objects depend on their geometry in the same way, and on nothing else.
+    /// Whether both objects have the same color and style, and their buffers otherwise depend only on the geometry.
     pub(super) fn looks_like(&self, other: &Self) -> bool {
         self.color == other.color
             && self.style == other.style
@@ -262,8 +262,8 @@ pub(super) fn upload(
     Ok((uploaded, missing))
 }
 
-/// Returns a scene in which the object has this default color. The default color depends on the place in the list of
-/// objects, so that empty objects are put before the object.
+/// Returns a scene in which the object has this default color. The default color of an object depends on its place in
+/// the list of objects. Therefore, empty objects are put before the object.
 fn alone(object: &Object, color: Color) -> Scene {
     let mut scene = Scene::new();
     let index = PALETTE.iter().position(|&c| c == color).unwrap_or(0);

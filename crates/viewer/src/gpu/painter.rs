@@ -41,7 +41,7 @@ struct ObjectUniform {
     look: SurfaceLook,
 }
 
-/// The distance between the uniforms of two objects in bytes. A multiple of every alignment that devices ask for.
+/// The distance between the uniforms of two objects in bytes. A multiple of every alignment that devices require.
 const STRIDE: u64 = 256;
 
 /// Draws a scene into a texture.
@@ -219,7 +219,7 @@ impl Painter {
                 line.hidden,
                 line.color,
             );
-            // Later lines are nearer to the camera than earlier ones.
+            // The first line is half a pixel farther from the camera than the others.
             instance.look[2] = 0.5 + if i > 0 { 0.5 } else { 0.0 };
             instance
         };
@@ -379,7 +379,7 @@ impl Painter {
                 places.push((uploaded, offset));
                 offset += 256;
             }
-            // Surfaces are complete, so that lines are compared with all of them.
+            // Lines are drawn after all surfaces, so that the surfaces of every object can hide them.
             for (uploaded, offset) in places {
                 pass.set_bind_group(1, group, &[offset]);
                 if let Some((buffer, n)) = &uploaded.patches {

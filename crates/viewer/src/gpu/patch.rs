@@ -14,7 +14,7 @@ use scene::Geometry;
 use super::geometry::{CHUNK, EDGE, encode_normal, narrow};
 use super::objects::{Key, Uploaded};
 
-/// The most half-edges that may differ. With more, the whole object is converted.
+/// The maximum number of half-edges that may differ. If more differ, the whole object is converted.
 const MAX_CHANGES: usize = 50_000;
 
 /// The buffers of a surface whose triangle `i` is face `i` of its mesh.
@@ -119,14 +119,15 @@ fn has_attributes(mesh: &Mesh) -> bool {
         || mesh.get(mesh::MATERIAL).is_some()
 }
 
-/// Whether an edge of a face separates smooth parts, so that its vertices have several normals.
+/// Whether a face has a boundary edge or an edge that separates smooth parts, so that its vertices may have several
+/// normals.
 fn has_sharp_edge(mesh: &Mesh, f: FaceId, sharp: f64) -> bool {
     let limit = libm::cos(sharp.to_radians());
     let n = mesh.face_normal(f);
     mesh.face_half_edges(f).any(|h| {
         mesh.face(h.twin()).is_none_or(|g| {
             let m = mesh.face_normal(g);
-            // Near the limit, the whole object is converted.
+            // An angle near the limit counts as sharp: the whole object is then converted.
             n.dot(m) <= limit + 1e-4
         })
     })

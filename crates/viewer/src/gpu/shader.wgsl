@@ -143,7 +143,7 @@ fn wire(weights: vec3f, flags: u32) -> f32 {
     let spacing = 1.0 / max(gradient, vec3f(1e-6));
     let distance = weights * spacing;
     let half_width = min(vec3f(0.5 * globals.widths.x), 0.12 * spacing);
-    // A line that is thinner than a pixel is fainter instead.
+    // A line that is thinner than a pixel is drawn one pixel wide, but fainter.
     let strength = clamp(2.0 * half_width, vec3f(0.0), vec3f(1.0));
     let cover = clamp(max(half_width, vec3f(0.5)) + 0.5 - distance, vec3f(0.0), vec3f(1.0)) * strength;
     let is_edge = vec3f((vec3u(flags) >> vec3u(0u, 1u, 2u)) & vec3u(1u));
@@ -276,7 +276,7 @@ fn line(i: u32, a: vec3f, b: vec3f, look: vec4f, color: vec4f) -> Line {
     let t = select(-reach, len + reach, is_end);
     let pixel = p_pixel + direction * t + vec2f(-direction.y, direction.x) * side * reach;
     let z = select(p_clip.z / p_clip.w, q_clip.z / q_clip.w, is_end);
-    // Without a fourth coordinate, all values are linear in the picture.
+    // With w = 1, all values are interpolated linearly in the picture.
     out.position = vec4f(pixel / scale, z, 1.0);
     out.along = vec4f(t, side * reach, len, half_width);
     return out;

@@ -46,7 +46,7 @@ impl Textures {
         new
     }
 
-    /// Frees the textures for which this returns false.
+    /// Frees the textures for which `is_used` returns false.
     pub(super) fn retain(&mut self, is_used: impl Fn(&Arc<Texture>) -> bool) {
         self.uploaded.retain(|(texture, _)| is_used(texture));
         self.decoded.retain(is_used);

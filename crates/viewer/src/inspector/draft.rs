@@ -109,7 +109,7 @@ pub(super) fn ui(ui: &mut Ui, parts: &mut Parts) {
     draft.fields(ui, selection.as_ref());
     let command = draft.command(selection);
     let problem = if parts.editor.is_searching() {
-        Some("Searching a short selection of the picked elements..".to_owned())
+        Some("Searching for a short selection of the picked elements..".to_owned())
     } else {
         preview(parts, &mut draft, &command)
     };
@@ -129,8 +129,8 @@ pub(super) fn ui(ui: &mut Ui, parts: &mut Parts) {
     }
 }
 
-/// Shows the scene after the new step, if something has changed since the last preview. Cancels the run before. Returns the
-/// problem of a step that cannot run.
+/// Shows the scene after the new step, if something has changed since the last preview. Cancels the previous run.
+/// Returns the problem of a step that cannot run.
 fn preview(parts: &mut Parts, draft: &mut Draft, command: &Command) -> Option<String> {
     let editor = &mut parts.editor;
     let steps = match editor.steps_of(command) {

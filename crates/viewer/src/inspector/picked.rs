@@ -62,7 +62,7 @@ pub(super) fn picked(ui: &mut Ui, parts: &mut Parts) {
     });
 }
 
-/// How elements are picked, or how patches become a mesh with elements.
+/// Explains how elements are picked, or how patches become a mesh with elements.
 fn nothing_picked(ui: &mut Ui, parts: &mut Parts) {
     let scene = parts.editor.view().scene;
     let has_mesh = scene
@@ -97,7 +97,7 @@ fn nothing_picked(ui: &mut Ui, parts: &mut Parts) {
 /// The selection that the next step uses, which can be edited.
 fn selection(ui: &mut Ui, parts: &mut Parts) {
     if parts.editor.is_searching() {
-        weak(ui, "Searching a short selection of these elements..");
+        weak(ui, "Searching for a short selection of these elements..");
         ui.ctx().request_repaint_after(Duration::from_millis(50));
         return;
     }
@@ -120,9 +120,7 @@ fn selection(ui: &mut Ui, parts: &mut Parts) {
         let key = parts.editor_key(Action::NextProposal);
         let other = ui.small_button("Other selection");
         if other
-            .on_hover_text(format!(
-                "Another selection that means the same elements ({key})"
-            ))
+            .on_hover_text(format!("Another selection of the same elements ({key})"))
             .clicked()
         {
             parts.editor.next_proposal();

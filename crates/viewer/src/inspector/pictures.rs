@@ -7,8 +7,8 @@ type Pictures = (&'static str, Option<&'static [u8]>, Option<&'static [u8]>);
 
 const PICTURES: &[Pictures] = &include!(concat!(env!("OUT_DIR"), "/pictures.rs"));
 
-/// Draws the pictures of an operation side by side. Draws nothing for an operation without pictures, such as one of
-/// another author.
+/// Draws the pictures of an operation side by side. Draws nothing for an operation without pictures, such as an
+/// operation that is not built in.
 pub(super) fn ui(ui: &mut Ui, operation: &str) {
     let files = files(operation);
     if files.is_empty() {

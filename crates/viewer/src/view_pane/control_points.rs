@@ -14,7 +14,7 @@ use crate::theme::Colors;
 #[derive(Clone, Debug)]
 pub(super) struct PointDrag {
     point: ControlPoint,
-    /// From the cursor to the control point at the start, in points of the screen.
+    /// The offset from the cursor to the control point at the start of the drag, in points of the screen.
     grip: DVec2,
     /// The last position, in the space of the object.
     to: Option<DVec3>,

@@ -14,7 +14,7 @@ use crate::theme::Colors;
 
 /// The length of the handles, in points of the screen.
 const LENGTH: f64 = 84.0;
-/// The largest distance between the cursor and a handle that is dragged, in points of the screen.
+/// The maximum distance from the cursor at which a handle can be dragged, in points of the screen.
 const REACH: f64 = 8.0;
 /// Arrows that are shorter than this in the picture point towards the viewer, and cannot be dragged.
 const SHORTEST: f64 = 12.0;
@@ -214,7 +214,7 @@ impl ViewPane {
     fn handles(&self, gizmo: Gizmo, length: f64, lines: &[[DVec2; 2]; 3]) -> Vec<Handle> {
         let straight = |axis: usize| {
             let [p, q] = lines[axis];
-            // The base belongs to no axis.
+            // The lines do not contain the base, where all axes meet.
             let line = vec![p.lerp(q, 0.2), p.lerp(q, 1.1)];
             (p.distance(q) >= SHORTEST).then_some(Handle { axis, line })
         };
@@ -231,11 +231,12 @@ impl ViewPane {
         }
     }
 
-    /// Returns the half of a ring around an axis that is towards the viewer.
+    /// Returns the half of a ring around an axis that is nearer to the viewer, or the whole ring if it faces the
+    /// viewer.
     fn ring(&self, gizmo: Gizmo, length: f64, axis: usize) -> Handle {
         let normal = gizmo.axes[axis];
         let back = self.camera.axes()[2];
-        // From the end of the visible half around to its other end.
+        // The ring starts at `first`, which is one end of the visible half.
         let first = normal
             .cross(back)
             .try_normalize()

@@ -96,7 +96,7 @@ impl ViewPane {
         {
             let (kind, view) = (self.mode.kind(), self.projection());
             let mut picked = pick_area(scene, &view, &area.area(rect), kind);
-            // A wireframe without a surface shows everything.
+            // Hidden elements are visible only in a wireframe without a surface.
             if self.look.wireframe != Wireframe::Lines {
                 keep_visible(scene, shown.indexes, &view, &mut picked);
             }
@@ -119,7 +119,7 @@ impl ViewPane {
             });
             if hovered != self.hovered {
                 self.hovered = hovered;
-                // The status is drawn before the view.
+                // The status was already drawn in this frame, before the view.
                 ui.ctx().request_repaint();
             }
         } else if !response.contains_pointer() {

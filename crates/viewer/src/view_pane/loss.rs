@@ -1,4 +1,4 @@
-//! Errors of the graphics device, which would end the program without this.
+//! Collects the errors of the graphics device, which would otherwise end the program.
 
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 

@@ -33,7 +33,7 @@ pub(crate) enum ViewEvent {
     Click {
         /// The element.
         hit: Option<Hit>,
-        /// Whether the element is added to those that are picked.
+        /// Whether the element is added to the picked elements.
         extends: bool,
         /// Whether it was a double click.
         is_double: bool,
@@ -42,7 +42,7 @@ pub(crate) enum ViewEvent {
     Area {
         /// The elements of each object.
         picked: Vec<Picked>,
-        /// Whether the elements are removed from those that are picked, and not added to them.
+        /// Whether the elements are removed from the picked elements. If not, they are added to them.
         removes: bool,
     },
     /// A drag of a handle at the picked elements.
@@ -77,7 +77,7 @@ pub(crate) struct Shown<'a> {
     pub(crate) can_pick: bool,
     pub(crate) places: &'a [ErrorLocation],
     pub(crate) indexes: &'a Indexes,
-    /// What is said about the picked elements, for people who do not see the picture.
+    /// The description of the picked elements, for screen readers.
     pub(crate) description: &'a str,
     /// Whether the scene is not up to date.
     pub(crate) is_stale: bool,
@@ -120,7 +120,7 @@ pub(crate) struct ViewPane {
     pub(crate) messages: Vec<String>,
     /// Whether the camera was fitted to a scene.
     is_fitted: bool,
-    /// The scene has been fitted with this size of the view.
+    /// Whether the camera is fitted to the scene in the next frame.
     fit_requested: bool,
     /// The area that is being drawn with the mouse.
     area: Option<Outline>,

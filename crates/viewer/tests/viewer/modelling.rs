@@ -276,7 +276,7 @@ fn the_played_edits_are_saved_as_an_animation() {
         }
         let bytes = std::fs::read(&file).unwrap();
         assert!(bytes.starts_with(start));
-        // The notice goes with the next key.
+        // The next key removes the notice.
         window.press(Key::Escape);
     }
 }

@@ -191,7 +191,7 @@ fn the_plan_turns_patches_into_a_mesh() {
     assert_eq!(mesh.faces, Range::at_most(6400));
     assert!(mesh.is_triangles());
     assert_eq!(mesh.attributes[0].name, "uv");
-    // The plan has no patches left, which is a problem.
+    // The plan now has no patches left, so planning the step again reports a problem.
     assert_eq!(problems(&parse("()"), &mut plan, None).len(), 1);
 }
 

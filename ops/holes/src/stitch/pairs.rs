@@ -107,10 +107,10 @@ fn sorted_rims(
     }
 }
 
-/// Returns the cell of a point, given in units of the size of a cell.
+/// Returns the cell of a point whose coordinates are in units of the size of a cell.
 #[expect(clippy::cast_possible_truncation, reason = "at most 1e12")]
 fn cell(place: DVec3) -> [i64; 3] {
-    // The limit applies only if the division overflows. All points for which it overflows are in the last cell.
+    // The limit of 1e12 applies only if the division by the size overflows. Then the point is in the last cell.
     place.to_array().map(|x| x.floor().min(1e12) as i64)
 }
 
@@ -144,7 +144,7 @@ fn midpoint(ends: [DVec3; 2]) -> DVec3 {
 
 /// Whether corresponding ends are within `distance`. Matching half-edges have opposite directions.
 fn coincide(a: &Rim, b: &Rim, distance: f64) -> bool {
-    // The distance is divided before it is squared, so that squares neither overflow nor underflow.
+    // The difference is divided by `distance` before it is squared, so that squares neither overflow nor underflow.
     let is_near = |p: DVec3, q: DVec3| {
         p == q || distance > 0.0 && ((p - q) / distance).length_squared() <= 1.0
     };

@@ -3,7 +3,7 @@
 use mesh::{Connectivity, DVec3, Mesh};
 use op::{Context, OpError};
 
-/// The largest number of elements of one kind. It follows from the largest id, 2^32 - 2.
+/// The largest number of elements of one kind: 2^32 - 2. Every id then fits into 32 bits and is not `NONE`.
 pub(crate) const MAX_ELEMENTS: u64 = u32::MAX as u64 - 1;
 
 pub(crate) fn too_many(n: u64) -> String {

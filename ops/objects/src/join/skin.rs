@@ -100,8 +100,8 @@ fn remove_joints(mesh: &mut Mesh) {
     }
 }
 
-/// Returns the first skinned part if all skinned parts have the same skin and one instance each; `None` if no part has a
-/// skin.
+/// Returns the first skinned part if all skinned parts have the same skin and one instance each; `None` if no part has
+/// a skin.
 pub(super) fn planned(plan: &Plan, parts: &[String]) -> Result<Option<String>, LostSkin> {
     let mut kept: Option<(Option<usize>, &String)> = None;
     for part in parts {

@@ -40,8 +40,8 @@ impl Map {
         self.linear * v
     }
 
-    /// Returns the image of a unit normal. A zero vector stays zero. A mirror negates the normal, because it also turns
-    /// the faces over. When the mesh is then reversed, the normal is negated again.
+    /// Returns the image of a unit normal. A zero vector stays zero. If the map mirrors, the normal is negated, because
+    /// a mirror turns the faces over. The mesh is reversed afterwards, which negates the normal again.
     ///
     /// Normals are transformed by the inverse transpose of R S, which is R S^-1 (Turkowski, "Properties of
     /// Surface-Normal Transformations", 1990). Only the direction of the result matters, so S^-1 is multiplied by the

@@ -82,7 +82,7 @@ impl Transform {
             return None;
         }
         let map = Map::new(self);
-        // The center of an object is not known. It changes only translations.
+        // The center of an object is not known in the plan. It affects only the translations of the nodes.
         let affine = map.affine(self.center(std::iter::empty()));
         let mut maps: Vec<Option<DAffine3>> = vec![None; graph.nodes().len()];
         let mut may_be_skinned = false;
@@ -108,7 +108,8 @@ impl Transform {
             result = move_by(graph, &maps, map.only_moves());
         });
         let error = result.err()?;
-        // The translations of the plan are not those of the run.
+        // With `About::Center`, the run has other translations than the plan, so an overflow in the plan is not
+        // certain.
         let is_certain = self.about != About::Center || matches!(error, OpError::Object(_));
         (is_certain && !may_be_skinned).then(|| Problem::error(error.to_string()))
     }

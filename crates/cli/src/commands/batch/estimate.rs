@@ -71,9 +71,10 @@ pub(super) fn run(batch: &Batch, n: u32) -> anyhow::Result<bool> {
     Ok(true)
 }
 
-/// Returns the estimated memory of a run: the peak memory of the forecast, plus a copy of meshes, because a step holds
-/// the meshes before and after it. For two consecutive steps, the copy is as large as the smaller of the two forecasts;
-/// the largest copy counts. Each of the two terms is at most the budget, because meshes cannot exceed it.
+/// Returns the estimated memory of a run: the peak memory of the forecast, plus the memory of a copy of the meshes. The
+/// copy is needed because a step holds both the meshes before it and the meshes after it. For each pair of consecutive
+/// steps, the size of the copy is the smaller of their two forecasts. The largest of these copies is added. Each of the
+/// two terms is at most the budget, because meshes cannot exceed the budget.
 fn memory(forecast: &Forecast, budget: u64) -> u64 {
     let steps = forecast.steps.windows(2);
     let smaller = steps.map(|pair| pair[0].bytes.max.min(pair[1].bytes.max));

@@ -12,8 +12,8 @@ pub(super) fn folder(out: &Path) -> PathBuf {
     out.join("failed")
 }
 
-/// Returns the path of the file for one failure. It consists of the name of the input, shortened and limited to
-/// characters that all file systems allow, and a digest that distinguishes inputs of the same name.
+/// Returns the path of the file for one failure. The name of the file consists of the name of the input, shortened and
+/// limited to characters that all file systems allow, and a digest that distinguishes inputs of the same name.
 fn path(batch: &Batch, file: &Input) -> PathBuf {
     let name = file.relative.file_name().unwrap_or("set".as_ref());
     let mut name = name.to_string_lossy().into_owned();

@@ -12,8 +12,9 @@
 //! every file that is read, the paths of outputs, the version of the program, and for failures the memory budget.
 //!
 //! Each part of a divided batch writes a journal of its own, so that parts can run at the same time. A batch reads the
-//! journals of all parts in its folder. Therefore it can be resumed with a different number of parts. If several
-//! entries are about the same file, the latest one counts, since its outputs replaced those of the others.
+//! journals of all parts in its folder. Therefore the batch can be resumed with a different number of parts. If several
+//! entries are about the same file, the latest entry counts, because the outputs of the last run replaced the outputs
+//! of earlier runs.
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry as Slot;
@@ -67,8 +68,8 @@ pub(super) struct Journal {
 }
 
 impl Journal {
-    /// Opens the journal of a batch. Creates the file and its folder if they do not exist. Of the entries, keeps those
-    /// for which `is_wanted` is true.
+    /// Opens the journal of a batch. Creates the file and its folder if they do not exist. Keeps only the entries for
+    /// which `is_wanted` returns true.
     pub(super) fn open(path: PathBuf, is_wanted: impl Fn(&Row) -> bool) -> anyhow::Result<Self> {
         let folder = path.parent().unwrap_or(Path::new("."));
         let opened = (|| {
@@ -92,8 +93,8 @@ impl Journal {
         let (mut known, mut processes) = (HashMap::new(), Vec::new());
         let others = others(&path).into_iter().map(std::fs::read);
         for (i, bytes) in std::iter::once(Ok(bytes)).chain(others).enumerate() {
-            // A journal that was removed in the meantime has no entries. Lines of a different version that cannot be
-            // parsed are ignored, so their files are processed again.
+            // A journal that was removed in the meantime has no entries. Lines that cannot be parsed, such as lines of
+            // a different version, are ignored, so their files are processed again.
             for line in bytes.unwrap_or_default().split(|&b| b == b'\n') {
                 if let Ok(entry) = serde_json::from_slice::<Entry>(line) {
                     if is_wanted(&entry.row) {
@@ -131,7 +132,8 @@ impl Journal {
     }
 }
 
-/// Adds an entry, unless a later one about the same file is known. Of two entries of the same time, the second counts.
+/// Adds an entry, unless a later entry about the same file is known. The new entry replaces an entry that is earlier or
+/// has the same time.
 fn insert(known: &mut HashMap<(String, usize), Entry>, entry: Entry) {
     let (input, set) = entry.row.key();
     match known.entry((input.to_owned(), set)) {

@@ -86,8 +86,8 @@ impl<'a> Batch<'a> {
     /// Fails if two files would write the same output, or if an output would overwrite an input file.
     ///
     /// Output paths depend on the input file only through placeholders, in this recipe and in the recipes that it
-    /// calls. So the recipe is planned once with a marker as the file name, and the marker is then replaced by the name
-    /// of each file.
+    /// calls. So the recipe is checked only once for each parameter set, with a marker as the file name. In the output
+    /// paths of this check, the marker is then replaced by the name of each file.
     fn check_outputs(&self) -> anyhow::Result<()> {
         let [stem, name] = ["\u{1}", "\u{1}.\u{2}"];
         let below = |path: &PathBuf| path.strip_prefix(&self.args.out).unwrap_or(path).to_owned();

@@ -14,12 +14,12 @@ use anyhow::{Context as _, bail, ensure};
 use recipe::{Parameter, did_you_mean};
 use serde_json::Value as Json;
 
-/// Values of parameters, with which the recipe runs.
+/// A set of parameter values with which the recipe is run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct ParameterSet {
-    /// The place of the set in its file, from 1. The outputs of the set are in a folder with this name.
+    /// The position of the set in its file, from 1. The outputs of the set are in a folder named after this number.
     pub(super) number: usize,
-    /// The values as texts, as for `--set`.
+    /// The values, written as for `--set`.
     pub(super) values: BTreeMap<String, String>,
 }
 
@@ -52,7 +52,7 @@ pub(super) fn read(
             }
             ensure!(
                 !is_given(&name),
-                "{shown}: set {number}: the parameter `{name}` has a value from the command line already"
+                "{shown}: set {number}: the parameter `{name}` already has a value from the command line"
             );
             let Some(text) = plain(&value) else {
                 bail!(

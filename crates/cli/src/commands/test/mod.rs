@@ -142,7 +142,7 @@ fn tests<'a>(
         let found = counted(recipes.len(), "recipe");
         ensure!(
             !tests.is_empty(),
-            "no recipe with \"{filter}\" in its path, of {found} found"
+            "found {found}, but none has \"{filter}\" in its path"
         );
     }
     mark_called(&mut tests);
@@ -198,7 +198,8 @@ struct Test<'a> {
     found: &'a RecipeFile,
     /// The loaded recipe, or an error if it cannot be read.
     loaded: Result<Loaded, String>,
-    /// Whether another recipe that is tested calls this recipe, so that this recipe is not run by itself.
+    /// Whether the recipe was found in a folder and another tested recipe calls it. If so, the recipe is not run by
+    /// itself.
     is_called: bool,
 }
 
@@ -219,7 +220,7 @@ impl<'a> Test<'a> {
         runs.then_some(loaded)
     }
 
-    /// Returns why the recipe is not run by itself, if it is not.
+    /// If the recipe is not run by itself, returns the reason.
     ///
     /// A recipe that other recipes call may need objects of its callers, so errors from checking the recipe alone are
     /// ignored.

@@ -1,6 +1,7 @@
-//! `meshwright web`: serves a folder of static files, such as the page for browsers, to browsers on this computer.
+//! `meshwright web`: serves a folder of static files, such as Meshwright's web page, to browsers on this computer.
 //!
-//! Each connection has a thread and one request. Files are only read. Ctrl-C ends the program with exit code 130.
+//! Each connection has its own thread and serves one request. Files are only read. Ctrl-C ends the program with exit
+//! code 130.
 
 mod request;
 
@@ -22,11 +23,11 @@ use request::{Refusal, Request};
 /// The interval for checking whether Ctrl-C was pressed.
 const POLL_INTERVAL: Duration = Duration::from_millis(50);
 
-/// The maximum time without progress of a connection.
+/// The maximum time that a connection waits in one read or write.
 const TIMEOUT: Duration = Duration::from_secs(10);
 
-/// The headers of all responses. The first two isolate pages from other origins. Browsers share memory between threads only
-/// on such pages.
+/// The headers of all responses. The first two headers isolate pages from other origins. Browsers share memory between
+/// threads only on isolated pages.
 const HEADERS: &str = "\
 Cross-Origin-Opener-Policy: same-origin\r
 Cross-Origin-Embedder-Policy: require-corp\r
@@ -68,7 +69,7 @@ fn accept(listener: &TcpListener, folder: &Arc<Path>) {
     loop {
         let accepted = listener.accept().and_then(|(stream, _)| {
             let folder = folder.clone();
-            // A browser that has closed its connection needs no answer.
+            // Errors are ignored. The usual error is that the browser has closed the connection.
             Builder::new().spawn(move || _ = answer(&stream, &folder))
         });
         if accepted.is_err() {

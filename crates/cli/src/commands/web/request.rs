@@ -26,13 +26,13 @@ pub(super) struct Found {
     pub(super) is_brotli: bool,
 }
 
-/// Why a request has no file.
+/// The reason why a request is not answered with a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Refusal {
     /// The request is not valid, or too long.
     BadRequest,
-    /// The request is for another host. A page of another host could otherwise read the files, if its name is made to
-    /// point to this computer.
+    /// The request names a host other than this computer. Without this check, a page of another host could read the
+    /// files, because the name of that host can be made to point to this computer (DNS rebinding).
     Host,
     /// The folder does not contain the file.
     NotFound,
@@ -51,7 +51,7 @@ impl Request {
             let Ok(line) = String::from_utf8(line) else {
                 return Ok(None);
             };
-            // The end of the stream.
+            // The stream has ended, or the request is too long.
             let Some(line) = line.strip_suffix('\n') else {
                 return Ok(None);
             };
@@ -113,14 +113,16 @@ impl Request {
     }
 }
 
-/// Returns the regular file at a path, if the file itself is in the folder and not behind a link that leads elsewhere.
+/// Returns the path of a regular file in the folder, with links resolved. Returns `None` if there is no such file, or
+/// if a link leads out of the folder.
 fn inside(folder: &Path, path: &Path) -> Option<PathBuf> {
     let real = folder.join(path).canonicalize().ok()?;
     (real.starts_with(folder) && real.is_file()).then_some(real)
 }
 
-/// Returns the path of a target such as `/a%20b.html?c`, relative to the folder. A path that ends with a slash is that of the
-/// file `index.html` in a folder. Returns `None` if the path is not valid or leads out of the folder.
+/// Returns the path of a target such as `/a%20b.html?c`, relative to the folder. If the path ends with a slash, it is
+/// the path of a folder, and `index.html` is appended. Returns `None` if the path is not valid or leads out of the
+/// folder.
 fn relative_path(target: &str) -> Option<PathBuf> {
     let path = target.split(['?', '#']).next().unwrap_or_default();
     let path = percent_decoded(path.strip_prefix('/')?)?;

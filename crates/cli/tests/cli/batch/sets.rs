@@ -95,7 +95,7 @@ fn wrong_parameter_sets_are_refused_before_anything_runs() {
         (
             "[{\"levels\": 1}]",
             "--set levels=2",
-            "set 1: the parameter `levels` has a value from the command line",
+            "set 1: the parameter `levels` already has a value from the command line",
         ),
         ("[]", "", "sets.json is empty: expected a list of objects"),
         (
@@ -111,7 +111,7 @@ fn wrong_parameter_sets_are_refused_before_anything_runs() {
     }
     let folder = with_models(1).with("sets.json", "[{\"model\": \"a.obj\"}]");
     let ended = batch(&folder, "--sets sets.json").with_code(1);
-    ended.complains(&["set 1: the parameter `model` has a value from the command line"]);
+    ended.complains(&["set 1: the parameter `model` already has a value from the command line"]);
 }
 
 #[test]
@@ -138,7 +138,7 @@ fn the_memory_of_parts_is_estimated_without_a_run() {
             .unwrap()
     };
     let whole = estimate(1);
-    // The largest mesh has 20,480 triangles; the set with the wrong level needs nothing.
+    // The largest mesh has 20,480 triangles. The set with the wrong level needs no memory.
     assert!((1 << 20..1 << 24).contains(&whole), "{whole}");
     assert_eq!(estimate(3), whole);
     assert!(!folder.path("out").exists());

@@ -43,8 +43,9 @@ pub(super) fn elements_in_block(stride: usize) -> usize {
     (BLOCK_BYTES / stride / GROUP * GROUP).min(BLOCK)
 }
 
-/// A lower bound for the size of a stream of `count` elements of `stride` bytes. The stride is at most 256. For blocks
-/// of zeros, version 0 needs 2 bits for each 16 bytes, and version 1 needs 2 bits for each byte of an element.
+/// A lower bound for the size of a stream of `count` elements of `stride` bytes. The stride is at most 256. The
+/// shortest blocks contain zeros. In version 0, such a block needs 2 bits for each group of 16 differences. In version
+/// 1, it needs 2 bits for each byte of an element, and the number of elements in the block does not matter.
 pub(super) fn shortest(count: u64, stride: u64) -> u64 {
     let stride = usize::try_from(stride).unwrap_or(BLOCK).clamp(1, BLOCK);
     let block = elements_in_block(stride) as u64;

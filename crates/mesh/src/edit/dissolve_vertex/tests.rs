@@ -168,8 +168,8 @@ fn a_seam_is_dropped_only_with_seams_drop() {
     };
     let mesh = checked_edit_mesh(&mesh, drop).unwrap();
     // Vertices 1 and 3 are corners of two of the faces. The corner takes the value of the face that is
-    // counter-clockwise of the removed edge: of face 0 at vertex 3, and of face 1, whose values are shifted by 10, at
-    // vertex 1.
+    // counter-clockwise of the removed edge. At vertex 3, this is face 0. At vertex 1, this is face 1, whose values are
+    // shifted by 10.
     for h in mesh.face_half_edges(FaceId::new(0)) {
         let v = mesh.origin(h);
         let shift = if [0, 3].contains(&v.index()) {

@@ -38,8 +38,9 @@ const TANGENT: f64 = 0.221_694_662_642_939_43;
 
 /// Draws a scene with the locations of errors in a strong color.
 ///
-/// The left view shows the whole scene; the right view is a close-up of the first location, with the names of elements.
-/// If `locations` is empty, there is only the left view. `caption` is written below the left view. Returns `None` if
+/// The left view shows all objects that have a location. If a location does not say in which object it is, the left view
+/// shows the whole scene. The right view is a close-up of the first location, with the names of elements. If `locations`
+/// is empty, there is only the left view. `caption` is written below the left view. Returns `None` if
 /// the scene is empty.
 ///
 /// # Errors
@@ -59,7 +60,8 @@ pub fn draw_error_locations(
             budget,
         });
     }
-    let (scene, locations) = &(scene.placed(), placed(scene, locations));
+    let locations = &placed(scene, locations);
+    let scene = &objects_with_errors(scene.placed().into_owned(), locations);
     let Some((center, radius)) = extent(scene) else {
         return Ok(None);
     };
@@ -136,6 +138,23 @@ pub fn draw_error_locations(
         ..SheetStyle::default()
     };
     sheet(&cells, &style, budget).map(Some)
+}
+
+/// Returns the scene without the objects that have no error, because they could hide the locations. Returns the whole
+/// scene if a location does not say in which object it is.
+fn objects_with_errors(scene: Scene, locations: &[ErrorLocation]) -> Scene {
+    let names: HashSet<&str> = locations.iter().map(|location| &*location.object).collect();
+    let objects = scene.objects().iter();
+    let others = objects.filter(|object| !names.contains(&*object.name));
+    let others: Vec<String> = others.map(|object| object.name.clone()).collect();
+    if names.contains("") || others.len() == scene.objects().len() {
+        return scene;
+    }
+    let mut scene = scene;
+    for name in others {
+        scene.remove(&name);
+    }
+    scene
 }
 
 /// Returns a style with pale surfaces, so that marks are visible on them.

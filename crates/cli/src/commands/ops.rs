@@ -150,7 +150,10 @@ fn detail(entry: &Entry) -> String {
         described(&entry.schema(), entry.summary)
     );
     if entry.takes_on {
-        text += "\n`on: [\"name\", ..]` chooses the objects to act on. If omitted, all objects of a suitable kind.\n";
+        text += &format!(
+            "\nActs on all objects of a suitable kind. To choose them by name: (on: [\"name\"], run: {}(..))\n",
+            entry.name
+        );
     }
     text + &format!("\nExample: {}\n", entry.example)
 }

@@ -144,12 +144,16 @@ pub(crate) fn print_outcome(
             n => format!(" after writing {}", counted(n, "file")),
         };
         print_error(&format!("{} failed{written}\n", loaded.path));
-        let parameters = loaded.recipe.parameters();
-        let is_set = parameters.iter().any(recipe::Parameter::is_set);
-        if is_set && outcome.steps.len() == loaded.recipe.steps.len() {
-            print_error(
-                "the expectations may hold only for the default values of parameters: use --no-expect to skip them\n",
-            );
+        if !outcome.unmet.is_empty() {
+            let mut parameters = loaded.recipe.parameters().iter();
+            let reason = if parameters.any(recipe::Parameter::is_set) {
+                "the expectations may hold only for the default values of parameters: "
+            } else {
+                ""
+            };
+            print_error(&format!(
+                "{reason}to write the files without checking expectations, use --no-expect\n"
+            ));
         }
     }
     Ok(())

@@ -221,6 +221,7 @@ fn an_unmet_expectation_keeps_earlier_outputs() {
         "after this step",
         "error: expected at least 9 vertices, found 8\n",
         "recipe.ron failed, no files were written\n",
+        "to write the files without checking expectations, use --no-expect\n",
     ]);
     assert_eq!(folder.entries("out"), ["a.obj"]);
     assert_eq!(folder.read("out/a.obj"), b"old");

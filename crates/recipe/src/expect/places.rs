@@ -7,7 +7,7 @@ use scene::Object;
 
 use super::same::PositionIndex;
 use super::subject::{Subject, selected, smallest_corner_angle};
-use super::{Expectation, symmetry};
+use super::{Expectation, symmetry, textures};
 
 impl Expectation {
     /// Returns the locations in the scene that violate the expectation, at most [`ErrorLocation::MAX_ELEMENTS`].
@@ -99,6 +99,13 @@ impl CheckedMesh<'_> {
             }
             Expectation::SelfIntersections { .. } => {
                 self.locations(self.selected(&FaceSelection::SelfIntersecting))
+            }
+            Expectation::UvStretch { uv, max } => {
+                self.locations(textures::stretched_faces(mesh, uv, *max))
+            }
+            Expectation::UvOverlap { uv, .. } => {
+                let progress = self.subject.progress;
+                self.locations(textures::overlapping_faces(mesh, uv, progress))
             }
             Expectation::MeanFaceArea { of, .. } => self.locations(self.selected(of)),
             Expectation::Position { of, is, .. } => {

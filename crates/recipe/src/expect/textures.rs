@@ -1,7 +1,8 @@
 //! Measures of texture coordinates.
 
 use geometry::uv;
-use mesh::{DVec2, Domain, Mesh, Value};
+use mesh::{DVec2, Domain, FaceId, Mesh, Value};
+use op::Progress;
 
 use super::subject::{Subject, Violation};
 
@@ -11,16 +12,19 @@ fn textured<'s>(
     name: &str,
 ) -> Result<Vec<(&'s Mesh, &'s [DVec2])>, Violation> {
     let meshes = subject.meshes()?.into_iter();
-    let textured = meshes.filter_map(|(_, mesh)| {
-        let column = mesh.attributes().column(Domain::Corner, name)?;
-        Some((mesh, DVec2::of(&column.values)?))
-    });
+    let textured = meshes.filter_map(|(_, mesh)| Some((mesh, coordinates(mesh, name)?)));
     let textured: Vec<_> = textured.collect();
     if textured.is_empty() {
         let message = format!("expected texture coordinates \"{name}\", but no mesh has them");
         return Err(message.into());
     }
     Ok(textured)
+}
+
+/// Returns the texture coordinates `name` of the corners.
+fn coordinates<'m>(mesh: &'m Mesh, name: &str) -> Option<&'m [DVec2]> {
+    let column = mesh.attributes().column(Domain::Corner, name)?;
+    DVec2::of(&column.values)
 }
 
 /// Returns the largest stretch of the meshes; see [`uv::Stretch::aspect`].
@@ -38,4 +42,23 @@ pub(super) fn n_overlapping(subject: Subject, name: &str) -> Result<u64, Violati
         n += faces.map_err(|cancelled| cancelled.to_string())?.len() as u64;
     }
     Ok(n)
+}
+
+/// Returns the faces that have a larger stretch than `max`, the most stretched face first.
+pub(super) fn stretched_faces(mesh: &Mesh, name: &str, max: f64) -> Vec<FaceId> {
+    let Some(uvs) = coordinates(mesh, name) else {
+        return Vec::new();
+    };
+    let face_aspects = uv::aspects(mesh, uvs)
+        .filter_map(|(triangle, aspect)| Some((aspect, mesh.face(triangle[0])?)));
+    let mut stretched: Vec<(f64, FaceId)> =
+        face_aspects.filter(|(aspect, _)| *aspect > max).collect();
+    stretched.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    stretched.into_iter().map(|(_, f)| f).collect()
+}
+
+/// Returns the faces that overlap another face of the mesh.
+pub(super) fn overlapping_faces(mesh: &Mesh, name: &str, progress: &dyn Progress) -> Vec<FaceId> {
+    let found = coordinates(mesh, name).map(|uvs| uv::overlapping_faces(mesh, uvs, progress));
+    found.and_then(Result::ok).unwrap_or_default()
 }

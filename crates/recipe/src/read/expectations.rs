@@ -1,6 +1,7 @@
 //! Reads the expectations of a recipe.
 
 use super::Reader;
+use super::steps::explain_outer_fields;
 use crate::expect::Expectation;
 use crate::recipe::RecipeExpectation;
 use crate::schema;
@@ -52,7 +53,11 @@ impl Reader<'_, '_> {
         value: &Value,
         on: Option<(Span, Vec<String>)>,
     ) -> Option<RecipeExpectation> {
-        let that: Expectation = self.typed(value, schema::expectation())?;
+        let before = self.diagnostics.len();
+        let that = self.typed(value, schema::expectation());
+        let wrong = &mut self.diagnostics[before..];
+        explain_outer_fields(wrong, value, &schema::expectation_envelope(), "that");
+        let that: Expectation = that?;
         if let Some(problem) = that.problem() {
             let help = match that.output() {
                 Some(_) => "remove `tolerance`",

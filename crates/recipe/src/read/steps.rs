@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use op::{Entry, Refusal, Step};
 use serde::Deserialize;
+use serde_json::Value as Json;
 
 use super::{Draft, Reader, flow};
 use crate::recipe::{MAX_STEPS, OnLoss, RecipeStep};
@@ -132,8 +133,9 @@ impl Reader<'_, '_> {
 
     fn operation(&mut self, entry: &Entry, run: &Value) -> Option<Arc<dyn Step>> {
         let schema = self.shared.schemas.of(entry);
-        let checked = check_step(run, &schema);
+        let mut checked = check_step(run, &schema);
         if !checked.wrong.is_empty() || run.has_errors() {
+            explain_outer_fields(&mut checked.wrong, run, schema::step_envelope(), "run");
             self.diagnostics.extend(checked.wrong);
             return None;
         }
@@ -200,6 +202,27 @@ impl Reader<'_, '_> {
                 format!("the recipe has at least {n} steps, expected at most {MAX_STEPS}");
             let span = step.name().map_or(step.span, |(_, span)| span);
             self.error(span, message, "");
+        }
+    }
+}
+
+/// Improves the help of errors about unknown parameters: if a parameter is a field of the step or of the expectation around
+/// the call, such as `on`, the help says where to write it. `inner` is the field for the call itself: `run` or `that`.
+pub(super) fn explain_outer_fields(
+    wrong: &mut [Diagnostic],
+    call: &Value,
+    envelope: &Json,
+    inner: &str,
+) {
+    let Some((owner, _)) = call.name() else {
+        return;
+    };
+    for diagnostic in wrong {
+        let mut fields = call.fields().iter();
+        let field = fields.find(|field| diagnostic.span == Some(field.name.span));
+        let name = field.map_or("", |field| &*field.name.text);
+        if envelope["properties"].get(name).is_some() {
+            diagnostic.help = Some(format!("write `({name}: .., {inner}: {owner}(..))`"));
         }
     }
 }

@@ -149,6 +149,22 @@ fn unknown_fields_of_recipes_and_steps_are_errors() {
 }
 
 #[test]
+fn the_help_says_where_fields_of_steps_and_expectations_are_written() {
+    has_one_error(
+        &steps("Sheet(columns: 1, on: [\"a\"])"),
+        "on",
+        "unknown field `on` in `Sheet`",
+        "write `(on: .., run: Sheet(..))`",
+    );
+    has_one_error(
+        "(recipe: 1, steps: [], expect: [Faces(eq: 1, after: \"a\")])",
+        "after",
+        "unknown field `after` in `Faces`",
+        "write `(after: .., that: Faces(..))`",
+    );
+}
+
+#[test]
 fn a_step_must_be_an_operation() {
     has_one_error(&steps("7"), "7", "expected an operation, found 7", "");
     let reading = read(&steps("(id: \"a\")"));

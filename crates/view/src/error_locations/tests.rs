@@ -53,6 +53,19 @@ fn a_location_is_marked_in_the_overview_and_larger_in_the_close_up() {
 }
 
 #[test]
+fn other_objects_do_not_hide_a_location() {
+    let mut scene = scene(shapes::icosahedron());
+    let mesh = scene.objects()[0].as_mesh().unwrap().clone();
+    let location = ErrorLocation::of("mesh", &mesh, mesh.faces().next().unwrap()).unwrap();
+    let alone = draw(&scene, std::slice::from_ref(&location), "");
+    scene
+        .insert(Object::mesh("around", shapes::uv_sphere(24, 12)))
+        .unwrap();
+
+    assert_eq!(draw(&scene, &[location], ""), alone);
+}
+
+#[test]
 fn a_location_is_visible_on_every_side_of_a_sphere() {
     let scene = scene(shapes::uv_sphere(24, 12));
     let mesh = scene.objects()[0].as_mesh().unwrap();

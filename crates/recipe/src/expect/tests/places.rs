@@ -167,3 +167,25 @@ fn expectations_that_are_not_about_elements_have_no_places() {
     let text = "Count(of: Edges(Between(0, 99)), eq: 1)";
     assert!(places(&cube(), text).is_empty());
 }
+
+#[test]
+fn stretched_and_overlapping_faces_are_named() {
+    // The second square has half the width of the first in the texture, and covers a part of it.
+    let at = |x: f64, y: f64| DVec3::new(x, y, 0.0);
+    let positions = [(0, 0), (1, 0), (2, 0), (0, 1), (1, 1), (2, 1)];
+    let positions = positions.map(|(x, y)| at(f64::from(x), f64::from(y)));
+    let mut mesh = mesh_from(&positions, &[&[0, 1, 4, 3], &[1, 2, 5, 4]]);
+    let mut uvs = vec![mesh::DVec2::ZERO; mesh.n_half_edges()];
+    for h in mesh.half_edges() {
+        let p = mesh.position(mesh.origin(h));
+        let is_second = mesh.face(h) == Some(mesh::FaceId::new(1));
+        let u = if is_second { 0.5 * (p.x - 1.0) } else { p.x };
+        uvs[h.index()] = mesh::DVec2::new(u, p.y);
+    }
+    mesh.set(mesh::UV, uvs);
+    let scene = scene([("squares", mesh)]);
+
+    assert_eq!(names(&scene, "UvStretch(max: 1.5)"), ["f1"]);
+    assert_eq!(names(&scene, "UvStretch(max: 2.5)"), [""; 0]);
+    assert_eq!(names(&scene, "UvOverlap(eq: 0)"), ["f0", "f1"]);
+}

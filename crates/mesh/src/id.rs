@@ -12,8 +12,8 @@ pub trait Id:
     /// [`Connectivity`](crate::Connectivity). Accessors return `Option` instead.
     const NONE: Self;
 
-    /// The attribute domain that these ids index. A half-edge indexes the corner at its origin, in
-    /// its face.
+    /// The domain of the attribute columns that ids of this kind index. A half-edge stands for the corner at its
+    /// origin, in its face.
     const DOMAIN: Domain;
 
     /// Creates the id with this index.

@@ -24,8 +24,8 @@ pub(super) struct Deformation<'a> {
 }
 
 impl<'a> Deformation<'a> {
-    /// Determines the content to write, and adds losses for the other content. `sets`, if given, replaces the number of
-    /// sets in the original file of the object.
+    /// Determines the content to write, and adds losses for the content that is not written. `sets`, if given, replaces
+    /// the number of sets in the original file of the object.
     pub(super) fn new(
         object: &Object,
         mesh: &'a Mesh,
@@ -213,8 +213,8 @@ impl Bound {
     }
 }
 
-/// Returns the morph targets of an object. Their number is the number of weights in the label of the object, or the
-/// number of targets of the mesh if that is greater.
+/// Returns the morph targets of an object. There are as many targets as weights in the label that the graph has for the
+/// object, or as many as the mesh has, if the mesh has more.
 fn morphs<'a>(
     object: &Object,
     mesh: &'a Mesh,

@@ -361,7 +361,7 @@ TAGGED = [("Vertices", "vertex"), ("Edges", "edge"), ("Faces", "face")]
 #: Where a method of a mesh leaves its result.
 RESULTS = {
     "Measure": 'Its ``attributes["mean_curvature"]``, or the attribute of the given name, is an array of the values.',
-    "Unwrap": 'Its ``attributes["uv"]`` has the coordinates of each corner, and ``corners`` has the vertex of each corner.',
+    "Unwrap": 'Its ``attributes["uv"]`` has the coordinates of the corners, and ``corners`` has their vertices.',
     "VertexNormals": 'Its ``attributes["normal"]`` has the normals.',
     **{f"Tag{d}": f"Its ``tag(\"{w}\", name)`` is an array of Booleans." for d, w in TAGGED},
 }

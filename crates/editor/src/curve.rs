@@ -54,8 +54,8 @@ impl ControlPoint {
     }
 }
 
-/// Returns the control point that is nearest to a pixel, within [`PICK_RADIUS`]. If several control points are at the
-/// same pixel, returns the one that is nearest to the camera.
+/// Returns the control point that is nearest to a pixel, within [`PICK_RADIUS`]. If several control points are
+/// equally near to the pixel, returns the one that is nearest to the camera.
 pub fn pick_control_point(scene: &Scene, view: &Projection, pixel: DVec2) -> Option<ControlPoint> {
     let mut best: Option<([f64; 2], ControlPoint)> = None;
     for instance in scene.instances() {

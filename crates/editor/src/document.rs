@@ -52,7 +52,7 @@ pub struct Conflict {
 #[derive(Debug, thiserror::Error)]
 pub enum SaveError {
     /// The file was changed by another program since it was read.
-    #[error("{} was changed by another program: keep your text or load the file", .0.display())]
+    #[error("{} was changed by another program: choose `Keep mine` or `Take theirs`", .0.display())]
     Conflict(PathBuf),
     /// The file cannot be written.
     #[error(transparent)]

@@ -94,8 +94,8 @@ impl Play {
     /// Returns one level of Loop subdivision as local edits: all edges are split, then the new edges between an old and
     /// a new vertex are flipped, then all vertices move. None of the edits is done yet.
     ///
-    /// `None` if `after` is not one level of Loop subdivision of all faces of `before`, or if there are more than 10
-    /// 000 edits.
+    /// `None` if `after` is not one level of Loop subdivision of all faces of `before`, or if there are more than
+    /// 10 000 edits.
     pub fn of_loop_level(before: &Mesh, after: &Mesh) -> Option<Self> {
         if !is_loop_level(before, after) {
             return None;

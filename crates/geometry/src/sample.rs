@@ -228,7 +228,7 @@ mod tests {
                 least = least.min(a.position.distance(b.position));
             }
         }
-        // In a set of independent random points, the smallest distance would be about a thirtieth of this.
+        // For independent random points, the smallest distance would be about a thirtieth of this distance.
         assert!(least > 0.6 * 2.0 * radius, "{least} {radius}");
     }
 

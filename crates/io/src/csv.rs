@@ -126,8 +126,8 @@ impl Parts {
         Self(scene.objects().iter().map(part).collect())
     }
 
-    /// Returns the part of a row, which is the last part that has started. If there are several parts, also appends the
-    /// name of this part to the row.
+    /// Returns the part that contains a row: the last part for which `has_started` is true. If there are several parts,
+    /// also appends the name of this part to the row.
     fn push(&self, out: &mut Vec<u8>, has_started: impl Fn(&Part) -> bool) -> &Part {
         let part = &self.0[self.0.partition_point(has_started) - 1];
         if self.0.len() > 1 {

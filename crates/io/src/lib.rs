@@ -26,8 +26,8 @@
 //! or the JSON pointer in a glTF file. A path in a file must not lead out of the folder of the file. A file is written
 //! completely or not at all.
 //!
-//! The source code of each mesh format is in a folder. The `mod.rs` of the folder lists how each part of a file is
-//! converted. Most of these folders have the modules `read` (from bytes to polygons) and `write`. For example, the
+//! The source code of each mesh format is in its own folder. The `mod.rs` of the folder lists how each part of a file
+//! is converted. Most of these folders have the modules `read` (from bytes to polygons) and `write`. For example, the
 //! faces of an OBJ file are read in `obj/statement.rs`, and those of a glTF file in `gltf/primitives.rs`. The formats
 //! share these modules:
 //!

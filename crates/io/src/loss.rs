@@ -27,7 +27,7 @@ pub struct Loss {
 const NOT_ATTRIBUTES: [&str; 4] = ["influences", "joint weights", "morph targets", "polygon"];
 
 impl Loss {
-    /// Returns a stable name of the kind of loss, such as `attribute-lost`. Programs can compare this name.
+    /// Returns the name of the kind of loss, such as `attribute-lost`. This name is stable, so programs can rely on it.
     pub fn code(&self) -> String {
         const PARTS: [&str; 10] = [
             "animations",

@@ -10,7 +10,7 @@ use mesh::{Elements, VertexId};
 /// Content of a file that a reader changed or left out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Note {
-    /// A stable name of the kind of note, such as `faces-reversed`. Programs can compare this name.
+    /// The name of the kind of note, such as `faces-reversed`. This name is stable, so programs can rely on it.
     pub code: &'static str,
     /// Whether the content is missing from the scene, or is present in a different form.
     pub kind: NoteKind,

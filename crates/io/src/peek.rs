@@ -136,8 +136,7 @@ pub struct PeekMesh {
     pub colors: bool,
     /// Whether faces have materials.
     pub materials: bool,
-    /// The maximum number of joints that deform the mesh, which is the number of joints for which vertices can have
-    /// weights.
+    /// The maximum number of joints for which vertices can have weights.
     pub joints: u64,
     /// The number of morph targets.
     pub targets: u64,

@@ -44,8 +44,8 @@ pub(crate) fn is_byte(x: f64) -> bool {
     (f64::from(to_byte(x)) / 255.0).to_bits() == x.to_bits()
 }
 
-/// Returns the texture coordinates of each vertex, if at each vertex, the texture coordinates of all corners have the
-/// same bits. Otherwise, returns `None`. Vertices without a corner get zero.
+/// Returns the texture coordinates of each vertex if all corners of each vertex have bitwise equal texture coordinates.
+/// Otherwise, returns `None`. Vertices without a corner get zero.
 pub(crate) fn uvs_of_vertices(mesh: &Mesh, uvs: &Values) -> Option<Values> {
     let bits = |h: usize| DVec2::of(uvs).map(|uvs| uvs[h].to_array().map(f64::to_bits));
     vertex_values(mesh, uvs, |a, b| bits(a) == bits(b))

@@ -44,8 +44,8 @@ macro_rules! id {
             ///
             /// # Panics
             ///
-            /// Panics if `index` is not below 2³² − 1. The edits and builders of this crate check the number of elements
-            /// first.
+            /// Panics if `index` is not below 2³² − 1. The edits and builders of this crate check the number of
+            /// elements first.
             #[inline]
             pub fn new(index: usize) -> Self {
                 assert!(index < u32::MAX as usize, "more than 2^32 - 2 elements of one kind");

@@ -13,8 +13,8 @@
 //! entries: an undo truncates the arrays to their old lengths. An undo in turn records the values that it
 //! overwrites; this record is the change that redoes the edits.
 //!
-//! If the entries (without copies of whole arrays) take at least as much memory as the mesh plus 64 KiB, one copy of the
-//! mesh replaces them before the next edit starts. A level that has a copy of the mesh needs no further entries.
+//! If the entries (without copies of whole arrays) take at least as much memory as the mesh plus 64 KiB, one copy of
+//! the mesh replaces them before the next edit starts. A level that has a copy of the mesh needs no further entries.
 
 use bytemuck::cast_slice_mut;
 use glam::DVec3;

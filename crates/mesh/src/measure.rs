@@ -14,8 +14,8 @@ pub fn angle_between(a: DVec3, b: DVec3) -> f64 {
     libm::atan2(a.cross(b).length(), a.dot(b) + 0.0)
 }
 
-/// Returns the length of a vector. The vector is scaled first, so that the squares of its components neither overflow
-/// nor underflow.
+/// Returns the length of a vector. A vector with very small or very large components is scaled first, so that the
+/// squares of the components do not overflow and the length does not underflow.
 fn length(v: DVec3) -> f64 {
     match ordinary(v) {
         (v, 0) => v.length(),

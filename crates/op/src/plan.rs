@@ -379,8 +379,8 @@ pub struct Plan {
     /// The index of each object by its name. The map is empty between [`objects_mut`](Self::objects_mut) and the next
     /// [`insert`](Self::insert).
     index_by_name: HashMap<String, usize>,
-    /// For each name to which [`free_name`](Self::free_name) has added a number, the last number that it chose. All
-    /// lower numbers are taken. The map is cleared together with `index_by_name`.
+    /// For each name that was passed to [`free_name`](Self::free_name), the last number that `free_name` chose for this
+    /// name. All lower numbers are taken. The map is cleared together with `index_by_name`.
     taken_numbers: HashMap<String, u64>,
     is_edited: bool,
     /// The files that the steps so far read.

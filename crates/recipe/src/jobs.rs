@@ -222,8 +222,8 @@ where
         })
     }
 
-    /// Returns the bytes of the next job, if there is one and the limits allow it to start. A job that needs
-    /// more bytes than the budget counts as if it needed exactly the budget.
+    /// Returns the bytes of the next job, if there is one and the limits allow it to start. A job that needs more bytes
+    /// than the budget counts as if it needed exactly the budget.
     fn admissible(&self, state: &State) -> Option<u64> {
         if state.next >= self.jobs.count || state.running >= self.max_running {
             return None;

@@ -256,7 +256,7 @@ impl Recipe {
         self.scopes.get(scope).map_or(0, |scope| scope.source)
     }
 
-    /// Returns the diagnostic for the text of a scope: sets the index of the text, and the calls that led to the scope.
+    /// Returns the diagnostic with the location of a scope: the index of its text, and the calls that led to the scope.
     pub fn located(&self, diagnostic: Diagnostic, scope: usize) -> Diagnostic {
         located(diagnostic, scope, &self.scopes)
     }
@@ -289,7 +289,7 @@ impl Recipe {
     }
 }
 
-/// Returns the diagnostic for the text of a scope: sets the index of the text, and the calls that led to the scope.
+/// Returns the diagnostic with the location of a scope: the index of its text, and the calls that led to the scope.
 pub(crate) fn located(mut diagnostic: Diagnostic, scope: usize, scopes: &[Scope]) -> Diagnostic {
     let Some(mut at) = scopes.get(scope) else {
         return diagnostic;

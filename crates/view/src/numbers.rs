@@ -21,7 +21,8 @@ pub struct ColorBy {
     #[serde(default)]
     pub map: Option<ColorMap>,
     /// The values that the first and the last color represent, as in `(0, 60)`. If omitted, the range depends on the
-    /// values of the quantity. For curvatures, it leaves out the lowest and the highest eighth of the values.
+    /// values of the quantity. For curvatures, the range is symmetric about 0 and leaves out the lowest and the highest
+    /// eighth of the values, or fewer values if the others are all 0.
     #[serde(default)]
     pub range: Option<[f64; 2]>,
     /// Whether a legend in a corner explains the colors.
@@ -265,9 +266,9 @@ impl Quantity {
             Self::DihedralAngle => [0.0, if high > 90.0 { 180.0 } else { 90.0 }],
             Self::DistanceTo(_) => [0.0, high],
             // The range is symmetric about 0. It excludes the lowest and the highest eighth of the values, because
-            // curvatures are very large at a few sharp corners and rims, which often have many of the vertices. If all
-            // remaining values are 0, as on a flat surface with sharp edges, only 2 % at each end are excluded. If
-            // these are 0 too, no values are excluded.
+            // curvatures are very large at a few sharp corners and rims, where meshes often have many vertices. If all
+            // remaining values are 0, as on a flat surface with sharp edges, only 2 % at each end are excluded. If the
+            // values that then remain are all 0 too, no values are excluded.
             Self::MeanCurvature | Self::GaussianCurvature => {
                 let max = [8, 50, usize::MAX].map(|part| {
                     let n_outliers = values.len() / part;

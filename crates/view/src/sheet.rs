@@ -62,8 +62,8 @@ impl Default for SheetStyle {
 }
 
 impl SheetStyle {
-    /// If the shorter side of the images is longer than 560 pixels, returns the style with larger captions and gaps.
-    /// The captions then stay as readable as the images when the sheet is scaled down.
+    /// Returns the style for images of this size. If the shorter side of the images is longer than 560 pixels, the
+    /// captions and gaps are larger, so that the captions stay as readable as the images when the sheet is scaled down.
     #[must_use]
     pub fn scaled_to(self, [width, height]: [u32; 2]) -> Self {
         let side = width.min(height);

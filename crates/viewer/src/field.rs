@@ -167,7 +167,7 @@ fn use_picked(ui: &mut Ui, field: &Field, change: &mut Option<Change>) {
     }
 }
 
-/// The widget of a parameter that has no line of its own, but is beside the name of the parameter.
+/// The widget of a parameter, if the widget is on the same line as the name of the parameter.
 fn widget(ui: &mut Ui, field: &Field) -> Option<Change> {
     let of = field.of;
     let current = match field.live {

@@ -95,8 +95,8 @@ impl MeshOperation for Triangulate {
         cx.advance("triangulate", 1, 3)?;
         let duplicates = duplicates::avoid(mesh, &mut cuts);
         cx.advance("triangulate", 2, 3)?;
-        // A mesh stores three ids for each half-edge, and a half-edge also has a source of its values. Each of these
-        // arrays is extended once.
+        // For each half-edge, the mesh stores three ids, and a list stores the half-edge from which its values are
+        // copied. Each of these arrays is extended once.
         let n_half_edges = mesh.n_half_edges() + 2 * diagonals;
         mesh::require_memory(24 * n_half_edges + 24 * mesh.n_vertices());
         mesh.replace(assemble::assemble(mesh, &cuts, diagonals));

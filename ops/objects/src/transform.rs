@@ -83,7 +83,7 @@ pub enum About {
     #[default]
     Origin,
     /// The center of the bounding box of each object. The box contains the vertices of a mesh, the control points of
-    /// patches or curves, or the points of polylines. With `space: Scene`, it contains the points of all instances of
+    /// patches or curves, or the points of polylines. With `space: Scene`, it contains these points of all instances of
     /// the object.
     Center,
     /// A point with the coordinates x, y, z.

@@ -33,7 +33,7 @@ pub enum PickMode {
     Vertex,
     /// An edge.
     Edge,
-    /// The nearest half-edge, on the side of the edge where the pixel is.
+    /// A half-edge: the half of the nearest edge that is on the side where the pixel is.
     HalfEdge,
     /// A face.
     Face,

@@ -46,9 +46,9 @@ impl Frame {
     }
 }
 
-/// Rotates points around the axis, by an angle that changes with the height. A point (x, y, z) moves to (x cos θ - y
-/// sin θ, x sin θ + y cos θ, z), where θ changes linearly from 0 at the height `from` to `angle` at the height `to`.
-/// The twist preserves volume. The inverse of a twist is the twist by the opposite angle.
+/// Rotates points around the axis, by an angle that changes with the height. A point (x, y, z) moves to
+/// (x cos θ - y sin θ, x sin θ + y cos θ, z), where θ changes linearly from 0 at the height `from` to `angle` at the
+/// height `to`. The twist preserves volume. The inverse of a twist is the twist by the opposite angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Twist {
     /// The coordinates.

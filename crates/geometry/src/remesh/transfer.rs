@@ -230,8 +230,9 @@ impl Work<'_> {
     }
 
     /// Returns the edge of the source from which a new edge gets its values. For a new edge on a line, this is an edge
-    /// of the line. For any other new edge, it is the nearest edge of the source triangle at its midpoint, excluding
-    /// edges on lines; `None` if all three edges of the triangle are on lines.
+    /// of the line. For any other new edge, it is an edge of the source triangle at the midpoint of the new edge: of
+    /// the edges that are not on a line, the edge nearest to the midpoint. Returns `None` if all three edges of the
+    /// triangle are on lines.
     fn edge(&self, e: EdgeId) -> Option<EdgeId> {
         if let Some(track) = self.tracks[e.index()] {
             let h = along(e, track);

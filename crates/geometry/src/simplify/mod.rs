@@ -25,8 +25,8 @@
 //! ```text
 //!     +-------+-------+            Boundaries, seams, borders of tags and materials, creases and chosen
 //!     |  \    |    /  |            features are lines. A vertex on a line merges only with its neighbors
-//!     |    \  |  /    |            along this line. A vertex on no line merges with another such vertex,
-//!     X=======+=======X            or into a vertex of a line (+). Where lines end or meet (X), the
+//!     |    \  |  /    |            along this line. A vertex that is not on a line merges with another such
+//!     X=======+=======X            vertex, or into a vertex on a line (+). Where lines end or meet (X), the
 //!     |    /  |  \    |            vertex keeps its position.
 //! ```
 

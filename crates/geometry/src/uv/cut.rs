@@ -15,8 +15,8 @@ use crate::sparse::SolveError;
 /// A chart is flattened by a projection to a plane if the aspect (see [`Stretch`](super::Stretch)) of the projection
 /// is at most this number everywhere.
 const FLAT: f64 = 1.0 + 1e-6;
-/// Two charts are joined only if they meet along at least this fraction of the length of the shorter one of their
-/// borders.
+/// Two charts are joined only if the length of their common border is at least this fraction of the length of the
+/// shorter of their two borders.
 const MIN_SHARED: f64 = 0.1;
 /// Two charts are not joined if the mean of `1 - cosine` of the angles at which they meet is above this number.
 const MAX_CREASE: f64 = 0.5;

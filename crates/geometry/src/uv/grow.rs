@@ -250,9 +250,9 @@ impl Growth {
     }
 }
 
-/// Divides the solid faces, which are the faces with an area, into connected charts. Returns the chart of each face,
-/// which is [`u32::MAX`] for other faces, and the number of charts. A region is added to a chart only if the cosine of
-/// the angle between its normal and the mean normal of the chart is at least `min_cosine` at that time.
+/// Divides the solid faces, which are the faces with a nonzero area, into connected charts. Returns the chart of each
+/// face, which is [`u32::MAX`] for other faces, and the number of charts. A region is added to a chart only if the
+/// cosine of the angle between its normal and the mean normal of the chart is at least `min_cosine` at that time.
 pub(super) fn grow(
     surface: &Surface,
     smooth: &[DVec3],

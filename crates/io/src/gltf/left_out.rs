@@ -68,8 +68,7 @@ struct Used {
     textures: Vec<bool>,
     samplers: Vec<bool>,
     images: Vec<bool>,
-    /// Among the textures that materials use, the number of those with an image that does not exist or has an unknown
-    /// kind.
+    /// The number of references from materials to textures whose image does not exist or has an unknown kind.
     without_image: usize,
 }
 

@@ -408,9 +408,9 @@ fn octahedral(v: DVec3, bits: Bits) -> [i16; 3] {
 }
 
 /// Returns an upper bound for the factor by which a map stretches lengths. This factor is the square root of the
-/// largest eigenvalue of M^T M, where M is the matrix of the map. No eigenvalue of a matrix exceeds the largest column
-/// sum, which is the sum of the absolute values in a column. The bound is exact if M scales along each axis and then
-/// rotates.
+/// largest eigenvalue of M^T M, where M is the matrix of the map. For each column of a matrix, take the sum of the
+/// absolute values: no eigenvalue exceeds the largest of these sums. The bound is exact if M scales along each axis and
+/// then rotates.
 fn stretch(map: &DAffine3) -> f64 {
     let m = map.matrix3;
     let square = m.transpose() * m;

@@ -3,8 +3,8 @@
 //!
 //! Source: Sander, Nehab, Barczak, "Fast Triangle Reordering for Vertex Locality and Reduced Overdraw", 2007. The order
 //! consists of fans: all remaining triangles around one vertex, then all remaining triangles around the next vertex,
-//! and so on. The center of the next fan is chosen from the vertices of the last fan. Preferably, it still counts as
-//! recently used when its own fan is complete.
+//! and so on. The center of the next fan is chosen from the vertices of the last fan. Vertices that will still count as
+//! recently used when their own fan is complete are preferred.
 
 use std::collections::BTreeMap;
 

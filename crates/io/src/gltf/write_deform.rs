@@ -213,8 +213,8 @@ impl Bound {
     }
 }
 
-/// Returns the morph targets of an object. There are as many targets as weights in the label that the graph has for the
-/// object, or as many as the mesh has, if the mesh has more.
+/// Returns the morph targets of an object. Their number is the number of weights in the label of the object, or the
+/// number of targets of the mesh if that is greater.
 fn morphs<'a>(
     object: &Object,
     mesh: &'a Mesh,

@@ -48,7 +48,7 @@ fn n_tiles([left, top, right, bottom]: TileRect) -> usize {
     (right - left) as usize * (bottom - top) as usize
 }
 
-/// Returns the maximum number of tiles that an item can touch to be in the lists of these tiles. An item that touches
+/// Returns the number of tiles up to which an item is in the list of each tile that it touches. An item that touches
 /// more tiles is in the list that all tiles read, so that the size of the lists is bounded.
 fn max_listed_tiles(items: &[(u32, TileRect)]) -> usize {
     let mut entries = [0; MAX_LISTED_TILES + 1];

@@ -140,7 +140,9 @@ impl Parts {
     pub(super) fn pick_by_angle(&mut self) {
         let picked = self.editor.picked().map(|picked| &picked.elements);
         let Some(Selected::Faces(list)) = picked else {
-            self.inform("Pick a face first. Faces around it are then picked, up to sharp edges.");
+            self.inform(
+                "Pick a face first. This command then picks the faces around it, up to sharp edges.",
+            );
             return;
         };
         let ids: Vec<String> = list.iter().map(|f| f.index().to_string()).collect();

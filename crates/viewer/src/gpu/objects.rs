@@ -146,7 +146,7 @@ pub(super) struct Uploaded {
     /// `None` for grids and overlays.
     pub(super) key: Option<Key>,
     pub(super) center: DVec3,
-    /// The two opposite corners of the bounding box, in scene units: the lowest and the highest coordinates.
+    /// Two opposite corners of the bounding box, in scene units: the lowest and the highest coordinates.
     pub(super) bounds: Option<[DVec3; 2]>,
     pub(super) chunks: Vec<ChunkBuffers>,
     /// The buffers that are updated after a local change of the mesh. `None` if the whole object is converted after

@@ -53,7 +53,7 @@ pub struct Painter {
     globals: wgpu::Buffer,
     globals_group: wgpu::BindGroup,
     objects: Vec<Uploaded>,
-    /// The two opposite corners of the bounding box of the scene: the lowest and the highest coordinates.
+    /// Two opposite corners of the bounding box of the scene: the lowest and the highest coordinates.
     bounds: Option<[DVec3; 2]>,
     overlay: Uploaded,
     overlay_key: Option<(Overlay, f32)>,

@@ -7,8 +7,8 @@ use glam::DVec3;
 use mesh::{Column, Domain, HalfEdgeId, Mesh, Rule, Values, VertexId};
 use scene::{Geometry, Image, Material, Object};
 
-/// The part of an object that differs. With a domain, this is the attribute with this name. Without a domain, it is
-/// another part with this name. The names are the same as in losses.
+/// The part of an object that differs. With a domain, these are the values with this name, such as the positions or an
+/// attribute. Without a domain, it is another part with this name. The names are the same as in losses.
 pub(super) type Key = (Option<Domain>, String);
 
 /// The kind of difference between two scenes.

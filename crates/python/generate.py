@@ -152,7 +152,7 @@ def word(name: str) -> str:
 
 
 def expression(tokens: list[str]) -> tuple[str, list[str]]:
-    """The Python expression for the value at the beginning, and the tokens after it."""
+    """The Python expression for the value at the beginning of the tokens, and the tokens after this value."""
     first, rest = tokens[0], tokens[1:]
     if first in "([":
         parts, rest = arguments(rest)
@@ -284,7 +284,7 @@ def method(name: str, entry: Any, of_mesh: bool) -> list[str]:
     properties = schema.get("properties", {})
     required = [n for n in properties if n in schema.get("required", [])]
     optional = [n for n in properties if n not in required]
-    # A parameter of a recipe has no value where a step runs immediately.
+    # A method of a mesh runs its step immediately, so it cannot take a recipe parameter, which has no value yet.
     extra = ["Ron"] if of_mesh else ["Arg", "Ron"]
     head, tail = ["self"], []
     for n in [*required, *optional]:
@@ -310,7 +310,7 @@ def method(name: str, entry: Any, of_mesh: bool) -> list[str]:
         fields = [(n, {**s, "description": OTHERS[name, n]} if (name, n) in OTHERS else s) for n, s in fields]
     more = [":param on: The objects that the step acts on. If omitted, all that it supports."] if takes_on else []
     more.append(":param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.")
-    shown = ":param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True` for a bar of tqdm."
+    shown = ":param progress: Called with the step, the task, the number of finished parts and the total number of parts; or `True` for a bar of tqdm."
     more.append(shown if of_mesh else f"{shown} For a recipe, see :meth:`Recipe.run`.")
     if of_mesh:
         more.append(f":returns: The new mesh. This mesh does not change. {RESULTS.get(name, '')}".rstrip())
@@ -348,7 +348,7 @@ def split_union(text: str) -> list[str]:
     return [*parts, text[start:]]
 
 
-#: Parameters that name another object, for which a method of a mesh takes a mesh, and what they are then.
+#: Parameters that name another object. A method of a mesh takes a mesh instead of the name, with this description.
 OTHERS = {
     ("Transfer", "from"): "The mesh with the attributes.",
     ("Project", "onto"): "The mesh with the surface.",
@@ -360,8 +360,8 @@ RELATIVE = re.compile(r"(?:The|A relative) path is relative to (the output folde
 TAGGED = [("Vertices", "vertex"), ("Edges", "edge"), ("Faces", "face")]
 #: Where a method of a mesh leaves its result.
 RESULTS = {
-    "Measure": 'Its ``attributes["mean_curvature"]``, or another name, has the values as an array.',
-    "Unwrap": 'Its ``attributes["uv"]`` has the coordinates of each corner, and ``corners`` its vertex.',
+    "Measure": 'Its ``attributes["mean_curvature"]``, or the attribute of the given name, is an array of the values.',
+    "Unwrap": 'Its ``attributes["uv"]`` has the coordinates of the corners, and ``corners`` has their vertices.',
     "VertexNormals": 'Its ``attributes["normal"]`` has the normals.',
     **{f"Tag{d}": f"Its ``tag(\"{w}\", name)`` is an array of Booleans." for d, w in TAGGED},
 }

@@ -1,5 +1,5 @@
-//! Encodes any edit of a mesh as numbers, for the random tests and the fuzzer: local edits, and algorithms that change
-//! the whole surface.
+//! Encodes edits of a mesh as numbers, for the random tests and the fuzzer. An edit is a local edit, or an algorithm
+//! that changes the whole surface.
 
 use geometry::surface_index::{SurfaceIndex, Winding};
 use geometry::{deform, remesh, simplify, smooth, uv};
@@ -308,7 +308,7 @@ fn change_surface_further(mesh: &mut Mesh, code: EditCode) {
     }
 }
 
-/// Transfers all attributes of the mesh, moved a little, to the mesh itself.
+/// Transfers all attributes from a slightly moved copy of the mesh to the mesh.
 fn transfer(mesh: &mut Mesh, a: u16) {
     let mut from = mesh.clone();
     for p in from.positions_mut() {
@@ -386,8 +386,8 @@ fn around(mesh: &Mesh, h: HalfEdgeId, steps: u16) -> HalfEdgeId {
     }
 }
 
-/// Returns the first half-edge without a face from `h` on, in the order of ids, continuing at id 0. If the mesh has no
-/// hole, returns `h`.
+/// Returns the first half-edge without a face. The search starts at `h`, follows the order of ids, and continues at the
+/// lowest id. If the mesh has no hole, returns `h`.
 fn hole(mesh: &Mesh, h: HalfEdgeId) -> HalfEdgeId {
     let n = mesh.domain_len(Domain::Corner);
     (0..n)

@@ -1,5 +1,5 @@
-//! Tests that `check` knows what a run will refuse or lose: small recipes that combine shapes and files, operations
-//! and formats.
+//! Tests that `check` knows what a run will refuse or lose. The tested recipes are small, and combine a shape or a file
+//! with operations and formats.
 
 use std::collections::BTreeSet;
 use std::path::Path;

@@ -13,10 +13,10 @@
 //! The variables tell the allocator of Linux to keep memory. Otherwise the time jumps at the size at which the system
 //! provides new memory for each run.
 //!
-//! Each time is the median of several runs on one thread, in processor time, so that other programs matter little. The
-//! time on a mesh is compared with the time on a mesh that is four times as large (doubled twice). If the growth is too
-//! large, it is measured again, and then with both meshes four times as large, because the time also jumps at the size
-//! at which the data no longer fit in a cache.
+//! Each measured time is the median of the processor times of several runs on one thread, so that other programs hardly
+//! affect it. The time on a mesh is compared with the time on a mesh that is four times as large (doubled twice). If
+//! the growth is too large, it is measured again. If it is still too large, it is measured with both meshes four times
+//! as large, because the time also jumps at the size at which the data no longer fit in a cache.
 
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -52,12 +52,12 @@ const SIZES: [usize; 2] = [1000, 64_000];
 /// with the mesh.
 const OTHER: &str = "Load Polygons MoveControlPoint MovePatchPoint CurveLevels SampleCurve CurveFigure HalfEdgeFigure";
 
-/// Steps whose time may grow faster, with the maximum growth. The comment gives the reason.
+/// Steps whose time may grow faster, with the maximum growth. The comment above a step gives the reason.
 const STEEPER: &[(&str, f64)] = &[
     // All vertices of a row become one vertex, whose valence is the length of a row. So the time for n faces is
     // proportional to n^1.5.
     ("CollapseEdges(", 8.5),
-    // Flips of all edges of a row end at one vertex, with the same effect.
+    // After the flips, all edges of a row end at one vertex, so the time is also proportional to n^1.5.
     ("FlipEdges(edges: All, on_refusal", 8.5),
     // The factorization of the sparse matrix of a surface takes a time proportional to n^1.5. Source: Lipton, Rose,
     // Tarjan, "Generalized Nested Dissection", 1979.
@@ -254,7 +254,7 @@ fn steps(steps: &str) -> String {
     format!("(recipe: 1, steps: [{steps}])")
 }
 
-/// Returns the shortest of three times that it takes to read and check a recipe.
+/// Reads and checks a recipe three times, and returns the shortest duration.
 fn time_to_check(text: &str) -> Duration {
     let registry = ops_all::registry();
     let engine = Engine::new(&registry);
@@ -266,8 +266,8 @@ fn time_to_check(text: &str) -> Duration {
     times.min().expect("three times")
 }
 
-/// A quadratic search among 8000 parts is noticed, because it would take most of the time. The test fails only if four
-/// times the parts take more than 8 times as long, so that it does not fail on a busy machine.
+/// A quadratic search among 8000 parts is noticed, because it would take most of the time. The test fails only if a
+/// recipe with four times as many parts takes more than 8 times as long, so that it does not fail on a busy machine.
 #[test]
 fn reading_and_checking_a_recipe_is_not_quadratic() {
     let failures = on_one_thread(|| {
@@ -285,7 +285,9 @@ fn reading_and_checking_a_recipe_is_not_quadratic() {
                 } else {
                     least
                 };
-                (least > 8.0).then(|| format!("{what}: {least:.2} for four times the parts"))
+                (least > 8.0).then(|| {
+                    format!("{what}: {least:.2} times as long for four times as many parts")
+                })
             })
             .collect()
     });
@@ -332,7 +334,9 @@ fn operations_take_at_most_two_point_three_times_as_long_on_twice_the_mesh() {
                         println!("{factor:6.2} {name}");
                         let mut steeper = STEEPER.iter().filter(|(step, _)| name.starts_with(step));
                         if factor > steeper.next().map_or(MAX_GROWTH, |&(_, most)| most) {
-                            failures.push(format!("{name}: {factor:.2} for four times the mesh"));
+                            failures.push(format!(
+                                "{name}: {factor:.2} times as long for a mesh four times as large"
+                            ));
                         }
                     }
                 }
@@ -381,7 +385,9 @@ fn expectations_take_at_most_two_point_three_times_as_long_on_twice_the_mesh() {
                 Growth::By(factor) => {
                     println!("{factor:6.2} {that}");
                     if factor > MAX_GROWTH {
-                        failures.push(format!("{that}: {factor:.2} for four times the mesh"));
+                        failures.push(format!(
+                            "{that}: {factor:.2} times as long for a mesh four times as large"
+                        ));
                     }
                 }
             }

@@ -35,8 +35,8 @@ const ALLOWED_DEPENDENCIES: &[(&str, &[&str])] = &[
     ("tests", &["cli"]),
 ];
 
-/// The maximum number of external packages that `cargo build` compiles. A change that raises it must say in its
-/// commit how much time it adds to a first build.
+/// The maximum number of external packages that `cargo build` compiles. A commit that raises this number must state how
+/// much time it adds to a first build.
 const MAX_PACKAGES: usize = 122;
 
 fn cargo(arguments: &str) -> String {

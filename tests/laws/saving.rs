@@ -152,7 +152,8 @@ fn the_losses_of_writing_are_planned() {
             else {
                 continue;
             };
-            // Only the names of the losses are compared, because they do not depend on whether the objects are joined.
+            // Only the names of the losses are compared, because other parts of a loss can depend on whether the
+            // objects are joined.
             let lost: BTreeSet<String> = report.losses.into_iter().map(|l| l.attribute).collect();
             let (_, plan) = planned(&path, scene);
             let names = |losses: &[Loss]| losses.iter().map(|l| l.name.clone()).collect();

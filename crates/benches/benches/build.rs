@@ -6,7 +6,7 @@
 //! allocated memory.
 //!
 //! - `build`: from offsets and corners.
-//! - `from_polygons`: from one list of corners for each triangle, which is first copied into offsets and
+//! - `from_polygons`: from one list of corners for each triangle. The library first copies these lists into offsets and
 //!   corners.
 //! - `shuffled`: the same triangles and vertices in random order, so that neighbors are far apart in memory.
 //! - `half reversed`: every second triangle has the opposite orientation. The library builds the mesh, searches for the

@@ -1,10 +1,9 @@
 //! How many faces per second does subdivision produce, and how does the speed compare with the memory
 //! bandwidth?
 //!
-//! The cage is the coarse mesh that is subdivided. The time starts with the cage in memory and ends with the
-//! refined mesh, with full connectivity, in memory. `tests/oracle` measures `OpenSubdiv` on the same cages. The
-//! group also copies 256 MB and fills 256 MB of newly allocated memory, to show the speed of the memory of the
-//! machine.
+//! The cage is the coarse mesh that is subdivided. The time starts with the cage in memory and ends with the refined
+//! mesh, with full connectivity, in memory. `tests/oracle` measures `OpenSubdiv` on the same cages. For comparison with
+//! the memory bandwidth of the machine, the benchmark also copies 256 MB and fills 256 MB of newly allocated memory.
 
 use std::hint::black_box;
 

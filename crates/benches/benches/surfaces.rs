@@ -22,7 +22,7 @@ fn bumpy() -> Mesh {
     mesh
 }
 
-/// Texture coordinates for a mesh: the positions without z, which are continuous everywhere.
+/// Texture coordinates for a mesh: the x and y coordinates of the positions, so that there are no seams.
 fn with_uvs(mut mesh: Mesh) -> Mesh {
     let at = |h| mesh.position(mesh.origin(h)).truncate();
     let uvs = mesh.half_edges().map(at).collect();

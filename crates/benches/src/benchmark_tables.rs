@@ -76,8 +76,8 @@ fn main() -> std::io::Result<()> {
 }
 
 /// Returns the time of copying, reading or writing only the bytes that `row` processes, in seconds with one thread.
-/// This time is in another row of the group, whose name contains `bytes alone` and starts with `bytes` or with the
-/// first word of the name of `row`. Returns `None` if the name of `row` itself contains `bytes alone`.
+/// This time is in another row of the same group. The name of that row contains `bytes alone`, and starts with `bytes`
+/// or with the first word of the name of `row`. Returns `None` if the name of `row` itself contains `bytes alone`.
 fn reference(row: &Row, rows: &[Row]) -> Option<f64> {
     let is_bytes = |row: &Row| row.name.contains("bytes alone");
     let word = row.name.split([' ', ',']).next()?;

@@ -9,10 +9,11 @@
 //! ```
 //!
 //! To test a side, its boundary curve is sampled at i/m for i from 0 to m, where m is the number of segments or 3,
-//! whichever is smaller. The side is collapsed if every sample differs from the first sample by at most 1e-12 times the
-//! extent of the patch, in every coordinate. With three or more segments, a collapsed side is one point, because a
-//! cubic that has the same value at four parameters is constant. With fewer segments, a collapsed side can also be a
-//! loop whose samples coincide.
+//! whichever is smaller. The extent of a patch is the longest side of the bounding box of its control points. The side
+//! is collapsed if every coordinate of every sample differs from that of the first sample by at most 1e-12 times the
+//! extent of the patch. With three or more segments, a collapsed side is one point, because a cubic that has the same
+//! value at four parameters is constant. With fewer segments, a collapsed side can also be a loop whose samples
+//! coincide.
 
 use glam::DVec3;
 
@@ -82,7 +83,7 @@ impl Sides {
         let n = u64::from(segments);
         let square = |x: u64| x.saturating_mul(x);
         let collapsed = self.collapsed.iter().filter(|&&side| side).count() as u64;
-        // The number of corners between two collapsed sides.
+        // The number of corners of the patch at which two collapsed sides meet.
         let corners = (0..4)
             .filter(|&a| self.collapsed[a] && self.collapsed[(a + 1) % 4])
             .count();
@@ -149,7 +150,7 @@ mod tests {
         points[0][3] = points[0][0];
         assert!(Sides::of(&Patch::new(points).unwrap(), 1).collapsed[0]);
         assert!(!Sides::of(&Patch::new(points).unwrap(), 2).collapsed[0]);
-        // A figure eight passes through its ends at t = 0.5.
+        // The side becomes a figure eight: at t = 0.5, it passes through the point at which it starts and ends.
         points[0][2] = points[0][0] * 2.0 - points[0][1];
         assert!(Sides::of(&Patch::new(points).unwrap(), 2).collapsed[0]);
         assert!(!Sides::of(&Patch::new(points).unwrap(), 3).collapsed[0]);

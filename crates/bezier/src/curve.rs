@@ -98,7 +98,7 @@ impl<P: Point> Curve<P> {
         self.points.len() - 1
     }
 
-    /// Returns the same curve with control point `index` moved to `point`.
+    /// Returns a copy of the curve in which control point `index` is moved to `point`.
     ///
     /// # Errors
     ///

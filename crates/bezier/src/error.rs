@@ -25,7 +25,7 @@ pub enum BezierError {
     /// The magnitude of a coordinate of a patch exceeds [`MAX_COORDINATE`](crate::MAX_COORDINATE). `index` is
     /// 4 * row + column.
     #[error(
-        "expected coordinates with a magnitude of at most {:e}, but control point {index} exceeds it",
+        "expected coordinates with a magnitude of at most {:e}, but control point {index} has a larger one",
         crate::MAX_COORDINATE
     )]
     TooLarge {
@@ -46,7 +46,7 @@ pub enum BezierError {
     /// The tessellation would have more elements than there are 32-bit ids. A count that exceeds 64 bits is
     /// replaced by the largest 64-bit number.
     #[error(
-        "expected at most {} vertices, faces and face corners each, found {} vertices, {} faces and {} face corners",
+        "expected at most {} elements of each kind, found {} vertices, {} faces and {} face corners",
         u32::MAX, .0.vertices, .0.faces, .0.corners
     )]
     TooManyElements(Counts),

@@ -23,10 +23,10 @@
 //! along which N1 is also zero, need N2 and higher coefficients. N has degree 5 in u and in v, so N10 is the last
 //! coefficient.
 //!
-//! The line runs straight across the edge, or along the diagonal from a corner. If the limit exists, it is
-//! the same along every line. If the limit does not exist (at the tip of a cone at the corner of a patch,
-//! or at a cusp), the result is the limit along this line. If N is zero along the whole line, two more
-//! lines beside it are tried; if N is also zero along these lines, the point has no normal.
+//! From a point on an edge, the line runs straight across the patch; from a corner, it runs along the diagonal. If the
+//! limit exists, it is the same along every line. If the limit does not exist (at the tip of a cone at the corner of a
+//! patch, or at a cusp), the result is the limit along this line. If N is zero along the whole line, two more lines
+//! beside it are tried; if N is also zero along these lines, the point has no normal.
 //!
 //! Before the coefficients are compared with zero, the derivatives along u are divided by the largest
 //! difference of control points that are neighbors along u, and the derivatives along v by the largest

@@ -21,7 +21,7 @@ pub struct Tessellation {
     pub normals: Vec<DVec3>,
     /// The parameters (u, v) of every vertex in its patch.
     pub uvs: Vec<DVec2>,
-    /// For each face, the index of its first corner in `indices`, followed by the length of `indices`.
+    /// For each face, the index of its first corner in `indices`. The last entry is the length of `indices`.
     pub offsets: Vec<u32>,
     /// The vertices of all faces, face after face, counter-clockwise.
     pub indices: Vec<u32>,

@@ -18,10 +18,10 @@
 //! A collapsed side, whose points coincide (as at the pole of a teapot's lid), becomes one vertex, and adjacent
 //! collapsed sides together become one vertex. A cell with one collapsed side becomes a triangle; a cell with more
 //! collapsed sides becomes no face. To test a side, its boundary curve is sampled at i/m for i from 0 to m, where m is
-//! n or 3, whichever is smaller. The side is collapsed if every sample differs from the first sample by at most 1e-12
-//! times the extent of the control points of the patch, in every coordinate. The vertex of adjacent collapsed sides is
-//! at the start of the first of these sides, in the order v = 0, u = 1, v = 1, u = 0. The UV and the normal of this
-//! vertex are those of the middle of that first side.
+//! n or 3, whichever is smaller. The side is collapsed if every coordinate of every sample differs from that of the
+//! first sample by at most 1e-12 times the longest side of the bounding box of the control points of the patch. The
+//! vertex of adjacent collapsed sides is at the start of the first of these sides, in the order v = 0, u = 1, v = 1,
+//! u = 0. The UV and the normal of this vertex are those of the middle of that first side.
 //!
 //! A patch is a curve or a point if all of its rows or all of its columns coincide, with the same tolerance. A
 //! patch gives no vertices and no faces if it is a curve or a point, or if none of its cells becomes a face. The

@@ -1,4 +1,4 @@
-//! Blobs: files with the long arrays of scenes, or with the output files of steps.
+//! Blobs: files that each hold one long array of a scene, or one output file of a step.
 
 use std::fs::{self, File};
 use std::io::{self, Read, Seek, SeekFrom, Write};

@@ -102,7 +102,7 @@ fn remove(path: &Path) -> io::Result<()> {
 }
 
 /// Returns the path of the file `sizes`. Each run appends the number of bytes that it stored, as 8 bytes. A run that
-/// lists all files instead replaces the content of `sizes` by their total.
+/// lists all files instead replaces the content of `sizes` by the total size of these files.
 fn sizes(folder: &Folder) -> PathBuf {
     folder.root().join("sizes")
 }

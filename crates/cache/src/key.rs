@@ -11,7 +11,7 @@ use recipe::RecipeStep;
 /// another version of the format never finds them.
 const FORMAT: &str = "meshwright step cache 2";
 
-/// Everything that determines the result of a step before it runs.
+/// The data that determine the result of a step and that are known before the step runs.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
 pub(crate) struct Ingredients {
     pub(crate) program: String,

@@ -9,12 +9,12 @@
 //! key                 the secret key of the cache: random bytes that enter the digests of records
 //! ```
 //!
-//! **Keys.** The key of a step is the digest of everything that determines its result before it runs: the program, the
-//! operation with its version and parameters, the objects in `on`, the label that seeds random choices, the expected
-//! refusal, the memory budget, and the state before the step. The state after a step is the digest of its key and of
-//! the files that it read or looked for. The files that a step reads are known only after the step has run. Before a
-//! cached result is used, the contents of these files are compared again. Modification times are not used to compare
-//! files.
+//! **Keys.** The key of a step is the digest of the data that determine its result and that are known before the step
+//! runs: the program, the operation with its version and parameters, the objects in `on`, the label that seeds random
+//! choices, the expected refusal, the memory budget, and the state before the step. The state after a step is the
+//! digest of its key and of the files that it read or looked for. The files that a step reads are known only after the
+//! step has run. Before a cached result is used, the contents of these files are compared again. Modification times are
+//! not used to compare files.
 //!
 //! **Integrity.** Only regular files are read, not links, and only up to a maximum length. Every blob must match the
 //! digest in its name. Every record must match its digest, which depends on the secret key of the cache. Only the user
@@ -24,13 +24,13 @@
 //! cannot be written, the problem is reported once, and the run continues without storing anything.
 //!
 //! **What is stored.** The record of each completed step is stored, unless the state of an input file is unknown.
-//! Scenes in which a mesh has removed elements are not stored, because they cannot be restored exactly. Other scenes,
-//! and output files, of fewer than [`ALWAYS_STORED`] bytes are always stored. A larger scene is stored if the
+//! Scenes in which a mesh has removed elements are not stored, because they cannot be restored exactly. Other scenes
+//! and output files are always stored if they have fewer than [`ALWAYS_STORED`] bytes. A larger scene is stored if the
 //! computation since the last stored scene took at least as long as storing the scene takes (at [`BYTES_PER_SECOND`]).
-//! A first run that stores its results therefore takes at most about twice as long. Recomputing a scene in a later run
-//! takes no longer than storing the scene would have taken. Larger output files are stored if running the step and
-//! loading its scene takes at least as long as storing the files. Equal long arrays are stored once. A step that
-//! changes one attribute of a large mesh therefore adds only that attribute.
+//! A first run that stores its results therefore takes at most about twice as long as a run without the cache.
+//! Recomputing a scene in a later run takes no longer than storing the scene would have taken. Larger output files are
+//! stored if running the step and loading its scene takes at least as long as storing the files. Equal long arrays are
+//! stored once. A step that changes one attribute of a large mesh therefore adds only that attribute.
 //!
 //! **Size.** At the end of a run that has stored something, the numbers of bytes that all runs have added are summed.
 //! If the sum exceeds the limit or is not known, all files are listed. If these files exceed the limit, the least

@@ -355,8 +355,8 @@ impl<'a> Session<'a> {
         restored
     }
 
-    /// Stores the scene after a step, if the scene can be restored exactly and storing it is not slower than computing
-    /// it again.
+    /// Stores the scene after a step, if the scene can be restored exactly and is either small or not slower to store
+    /// than to compute again.
     fn store_scene(&mut self, scene: &Scene, number: usize, label: &str) -> Option<SceneRef> {
         let bytes = estimated_bytes(scene);
         let why = if !is_dense(scene) {
@@ -378,8 +378,8 @@ impl<'a> Session<'a> {
         Some(stored)
     }
 
-    /// Stores the output files of a step, if storing them is not slower than computing them again. Returns `None`
-    /// if the step has no outputs.
+    /// Stores the output files of a step, if the files are either small or not slower to store than to compute again.
+    /// Returns `None` if the step has no outputs.
     fn store_outputs(&mut self, files: &Files, done: &CompletedStep) -> Option<Outputs> {
         let requested: Vec<_> = done
             .uses

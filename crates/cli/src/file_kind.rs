@@ -1,5 +1,5 @@
-//! Checks that a file is of the kind that a command expects. The error for another kind names the commands that accept
-//! the file.
+//! Checks that a file is of the kind that a command expects. The error for a file of another kind names the commands
+//! that accept the file.
 
 use std::path::Path;
 

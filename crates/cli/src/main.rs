@@ -11,7 +11,8 @@ fn main() -> ExitCode {
     cli::run(ops_all::registry())
 }
 
-/// If `RUST_BACKTRACE` requests backtraces, lets a panic hook print them instead of the standard library.
+/// If `RUST_BACKTRACE` requests backtraces, sets a panic hook that prints them, and keeps the standard library from
+/// printing them.
 ///
 /// The standard library would also print a backtrace when memory runs out. Printing takes a lock and needs memory, so a
 /// second failed allocation would wait for this lock forever.

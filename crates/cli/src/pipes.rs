@@ -57,7 +57,7 @@ pub(crate) fn refuse(path: &Path, command: &str) -> anyhow::Result<()> {
 ///
 /// # Errors
 ///
-/// [`WrongUsage`] if the format of a stream is missing or unknown, or if the format of a file is given.
+/// [`WrongUsage`] if the format of a stream is missing or unknown, or if a format is given although the path is a file.
 pub(crate) fn mesh_name(
     path: &Path,
     format: Option<&str>,

@@ -1,5 +1,5 @@
-//! Shows pictures in a terminal: as pixels if the terminal supports them, else as half-block characters, else as
-//! letters.
+//! Shows pictures in a terminal: as pixels, half-block characters or letters. The first of these forms that the
+//! terminal supports is used.
 //!
 //! The abilities of the terminal are derived from environment variables. Querying the terminal would be more reliable,
 //! but the program would wait for terminals that do not answer, and could mistake typed keys for the answer.

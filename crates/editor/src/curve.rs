@@ -8,8 +8,8 @@ use crate::edit::{Command, CommandError, Editor};
 use crate::panel::number;
 use crate::pick::{PICK_RADIUS, Projection};
 
-/// Returns the control points of a curve or of patches, in the space of the object. A patch has 16 points, row by row. Empty
-/// for other objects.
+/// Returns the control points of a curve or of patches, in the space of the object. A patch has 16 points, row by row.
+/// Empty for other objects.
 pub fn control_points(object: &Object) -> Vec<DVec3> {
     match &object.geometry {
         Geometry::Curve(curve) => curve.points().iter().map(|p| p.extend(0.0)).collect(),
@@ -35,9 +35,9 @@ pub struct ControlPoint {
 }
 
 impl ControlPoint {
-    /// Returns the position in the space of the object, if the control point is dragged to a pixel. A control point of
-    /// a curve stays in the plane of the curve. A control point of patches stays in the plane through it that is
-    /// parallel to the picture. `None` if the pixel shows no point of this plane.
+    /// Returns the position, in the space of the object, to which the control point moves when it is dragged to a
+    /// pixel. A control point of a curve stays in the plane of the curve. A control point of patches stays in the plane
+    /// through it that is parallel to the picture. `None` if the pixel shows no point of this plane.
     pub fn dragged_to(&self, view: &Projection, pixel: DVec2) -> Option<DVec3> {
         let of_object = view.of_object(self.to_scene);
         let at = if self.is_of_curve {
@@ -54,8 +54,8 @@ impl ControlPoint {
     }
 }
 
-/// Returns the control point that is nearest to a pixel, within [`PICK_RADIUS`]; of several at the same place, the nearest to
-/// the camera.
+/// Returns the control point that is nearest to a pixel, within [`PICK_RADIUS`]. If several control points are
+/// equally near to the pixel, returns the one that is nearest to the camera.
 pub fn pick_control_point(scene: &Scene, view: &Projection, pixel: DVec2) -> Option<ControlPoint> {
     let mut best: Option<([f64; 2], ControlPoint)> = None;
     for instance in scene.instances() {
@@ -83,14 +83,15 @@ pub fn pick_control_point(scene: &Scene, view: &Projection, pixel: DVec2) -> Opt
 }
 
 impl Editor {
-    /// Moves a control point of a curve or of patches of the scene at the cursor, by a step `MoveControlPoint` or
-    /// `MovePatchPoint`. `to` is in the space of the object; curves lie in the plane z = 0. If the step before the cursor
-    /// moves the same control point, its `to` is changed, so that dragging gives one step. With `is_preview`, the text stays
-    /// as it is.
+    /// Moves a control point of a curve or of patches of the scene at the cursor, with a step `MoveControlPoint` or
+    /// `MovePatchPoint`. `to` is in the space of the object; curves lie in the plane z = 0. If the step before the
+    /// cursor moves the same control point, the `to` of that step is changed, so that dragging gives one step. With
+    /// `is_preview`, the text stays as it is.
     ///
     /// # Errors
     ///
-    /// [`CommandError::NoControlPoints`] if the object is neither a curve nor patches; other errors as [`Editor::apply`].
+    /// [`CommandError::NoControlPoints`] if the object is neither a curve nor patches; other errors as
+    /// [`Editor::apply`].
     pub fn move_control_point(
         &mut self,
         object: &str,

@@ -35,7 +35,7 @@ pub struct Document {
 #[derive(Clone, Debug)]
 struct State {
     text: Arc<str>,
-    /// What the change that led to this text did, for the Undo and Redo buttons.
+    /// A description of the change that led to this text, for the Undo and Redo buttons.
     label: String,
     /// Where the step cursor was after the change.
     cursor: usize,
@@ -52,7 +52,7 @@ pub struct Conflict {
 #[derive(Debug, thiserror::Error)]
 pub enum SaveError {
     /// The file was changed by another program since it was read.
-    #[error("{} was changed by another program: keep your text or take theirs", .0.display())]
+    #[error("{} was changed by another program: choose `Keep mine` or `Take theirs`", .0.display())]
     Conflict(PathBuf),
     /// The file cannot be written.
     #[error(transparent)]
@@ -124,7 +124,8 @@ impl Document {
         &self.path
     }
 
-    /// Returns the file and the stamp that it had when it was last checked, if the recipe has a file.
+    /// Returns the path of the file, and the stamp that the file had when it was last checked, if the recipe has a
+    /// file.
     pub(crate) fn seen(&self) -> Option<(PathBuf, String)> {
         self.has_file
             .then(|| (self.path.clone(), stamp_line(&self.path, self.seen)))
@@ -140,10 +141,10 @@ impl Document {
         self.is_removed || self.saved.as_ref() != Some(self.text())
     }
 
-    /// Replaces the text. `label` says what the change does. Returns whether the text is different.
+    /// Replaces the text. `label` says what the change does. Returns whether the text has changed.
     ///
-    /// If `merges` is set and the last change had the same label, both become one step of the history. Typing uses
-    /// this, so that an undo removes more than one letter.
+    /// If `merges` is set and the last change had the same label, both changes become one entry of the history. Typing
+    /// uses this, so that an undo removes more than one letter.
     pub fn replace(&mut self, text: impl Into<Arc<str>>, label: &str, merges: bool) -> bool {
         let text = text.into();
         if *self.text() == text {

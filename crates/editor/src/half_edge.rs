@@ -1,4 +1,4 @@
-//! Walking over half-edges, and what a panel shows about one.
+//! Walks from half-edge to half-edge, and collects what a panel shows about a half-edge.
 
 use mesh::{Domain, EdgeId, FaceId, HalfEdgeId, Mesh, Values, VertexId};
 

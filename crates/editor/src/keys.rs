@@ -212,7 +212,7 @@ const GROUPS: &[(&str, &[Row])] = &[
             (
                 Action::NextProposal,
                 &["A"],
-                "show the next selection that means the picked elements",
+                "show the next selection that describes the picked elements",
             ),
         ],
     ),
@@ -352,8 +352,8 @@ pub enum KeysError {
 }
 
 impl Keys {
-    /// Reads changes of the default keys from RON: `{ Flip: ["Ctrl+F"], Split: [] }`. Actions that are not named keep their
-    /// keys, unless another action takes them.
+    /// Reads changes of the default keys from RON: `{ Flip: ["Ctrl+F"], Split: [] }`. Actions that are not named keep
+    /// their keys, unless another action takes them.
     ///
     /// # Errors
     ///

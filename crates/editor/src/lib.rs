@@ -1,5 +1,5 @@
-//! The logic of the editor, without user interface: a document, an engine thread, picks that become selections, commands
-//! that become text.
+//! The logic of the editor, without user interface: a document, an engine thread, picks that become selections,
+//! commands that become text.
 //!
 //! ```text
 //! text --parse--> recipe --run from the first step that is not known--> snapshots --> view

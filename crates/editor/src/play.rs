@@ -13,7 +13,7 @@ use crate::edit::Editor;
 /// The maximum number of edits that are played.
 const MAX_EDITS: usize = 10_000;
 
-/// The operation whose level is played as splits, flips and moves.
+/// The operation of which one level can be played as splits, flips and moves.
 const LOOP: &str = "LoopSubdivide";
 
 /// The local edits of a step, and how many of them are done.
@@ -35,7 +35,7 @@ pub struct PlayedEdit {
     pub edge: Option<EdgeId>,
     /// Why the edit is refused, if it is.
     pub refused: Option<EditError>,
-    /// The half-edges around the edge whose pointers change, in the order of their numbers.
+    /// Of the half-edges around the edge, those whose pointers change, in the order of their numbers.
     pub pointers: Vec<PointerChange>,
 }
 
@@ -62,8 +62,8 @@ pub struct Pointers {
 }
 
 impl Play {
-    /// Returns the edits of a step `FlipEdges`, `SplitEdges` or `CollapseEdges` on an object of the scene before the step, at
-    /// the moment before the first of them. At most the first 10 000 edits are played.
+    /// Returns the edits of a step `FlipEdges`, `SplitEdges` or `CollapseEdges` on an object of the scene before the
+    /// step. None of the edits is done yet. At most the first 10 000 edits are played.
     ///
     /// `label` is the label of the step, which seeds random choices. `None` for other operations, for `FlipEdges` with
     /// `until`, for steps with errors or `arg(..)`, and for objects that are not meshes.
@@ -91,11 +91,11 @@ impl Play {
         Some(play.rewound())
     }
 
-    /// Returns one level of Loop subdivision as local edits: all edges are split, then the new edges between an old and a new
-    /// vertex are flipped, then all vertices move. The moment is before the first edit.
+    /// Returns one level of Loop subdivision as local edits: all edges are split, then the new edges between an old and
+    /// a new vertex are flipped, then all vertices move. None of the edits is done yet.
     ///
-    /// `None` if `after` is not one level of Loop subdivision of all faces of `before`, or if there are more than 10 000
-    /// edits.
+    /// `None` if `after` is not one level of Loop subdivision of all faces of `before`, or if there are more than
+    /// 10 000 edits.
     pub fn of_loop_level(before: &Mesh, after: &Mesh) -> Option<Self> {
         if !is_loop_level(before, after) {
             return None;
@@ -188,7 +188,7 @@ impl Play {
         self.changes.push(change);
     }
 
-    /// Returns the mesh at this moment. Removed elements are still numbered: the mesh may not be dense.
+    /// Returns the mesh at this moment. The numbers of removed elements are not reused, so the mesh may not be dense.
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
     }
@@ -239,8 +239,8 @@ impl Editor {
         }
     }
 
-    /// Whether a step of the text does edits that can be played. Apart from the number of levels, its parameters are not checked:
-    /// [`play`](Self::play) may return `None`.
+    /// Whether a step of the text does edits that can be played. Apart from the number of levels, the parameters of the
+    /// step are not checked, so [`play`](Self::play) may still return `None`.
     pub fn has_edits(&self, step: usize) -> bool {
         let operation = self.outline().steps.get(step).map(|text| &*text.name);
         operation.is_some_and(|name| match Edit::of(name) {
@@ -249,9 +249,9 @@ impl Editor {
         })
     }
 
-    /// Returns the edits of a step of the text, and the name of the object that they change: the object of `on`, or else the
-    /// picked object, or else the first mesh. `None` if the scene before the step is not known, and in the cases of
-    /// [`Play::of_step`] and, for `LoopSubdivide`, of [`Play::of_loop_level`].
+    /// Returns the edits of a step of the text, and the name of the object that they change: the object of `on`, or
+    /// else the picked object, or else the first mesh. `None` if the scene before the step is not known, or if
+    /// [`Play::of_step`] or, for `LoopSubdivide`, [`Play::of_loop_level`] returns `None`.
     pub fn play(&self, step: usize) -> Option<(String, Play)> {
         let text = self.outline().steps.get(step)?;
         if text.name == LOOP {
@@ -283,7 +283,7 @@ impl Editor {
         Some((object.to_owned(), scene))
     }
 
-    /// Returns the mesh before and after a level of Loop subdivision that can be played, and its name.
+    /// Returns the name of an object, and its mesh before and after a level of Loop subdivision that can be played.
     fn loop_level(&self, step: usize) -> Option<(String, [Arc<Mesh>; 2])> {
         let (object, before) = self.played_object(step)?;
         let after = self.scene_before(step + 1)?;
@@ -344,8 +344,8 @@ fn edges(
     }
 }
 
-/// Returns the half-edges that leave or reach an end of an edge, and those of the faces there, in the order of their
-/// numbers.
+/// Returns the half-edges that leave or reach an end of an edge, and the half-edges of the faces at these ends, in the
+/// order of their numbers.
 fn half_edges_around(mesh: &Mesh, edge: EdgeId) -> Vec<HalfEdgeId> {
     if !mesh.has_edge(edge) {
         return Vec::new();

@@ -108,7 +108,7 @@ fn signed_dihedral(mesh: &Mesh, e: EdgeId) -> f64 {
     };
     let (n, m) = (mesh.face_normal(f), mesh.face_normal(g));
     let [v, w] = mesh.edge_vertices(e).map(|v| mesh.position(v));
-    // The first half of the edge runs from v to w with f to its left.
+    // The first half-edge of the edge runs from v to w with f to its left.
     if n.cross(m).dot(w - v) >= 0.0 {
         angle_between(n, m)
     } else {
@@ -116,7 +116,7 @@ fn signed_dihedral(mesh: &Mesh, e: EdgeId) -> f64 {
     }
 }
 
-/// Returns the value of each vertex, by index, in scene units.
+/// Returns the value of each vertex, by index, converted to scene units. Values that are not finite become NaN.
 fn at_vertices(
     scaled: &Scaled,
     dimension: i32,

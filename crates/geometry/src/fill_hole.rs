@@ -37,9 +37,10 @@ const SHAPE_WEIGHT: f64 = 1e-6;
 /// whose triangles are closest to equilateral. Source: Barequet and Sharir, "Filling gaps in the boundary of a
 /// polyhedron", 1995. The time is proportional to n³ for n edges.
 ///
-/// In larger holes, corners are cut off one after another. The next corner is always the corner whose two neighbors are
-/// nearest to each other. This takes time proportional to n log n. Corners that are straight or reflex, as seen along
-/// the mean normal, are cut off last. In a hole that is far from convex, the triangles can overlap.
+/// In a hole with more than 500 edges, corners are cut off one after another. The next corner is always the corner
+/// whose two neighbors are nearest to each other. This takes time proportional to n log n. Corners that are straight or
+/// reflex, as seen along the mean normal, are cut off last. In a hole that is far from convex, the triangles can
+/// overlap.
 ///
 /// A new edge never connects two vertices that already share an edge.
 ///
@@ -60,8 +61,8 @@ pub fn fill_hole_triangles(mesh: &mut Mesh, h: HalfEdgeId) -> Result<Vec<FaceId>
     mesh.fill_hole_by_ears(h, &ears)
 }
 
-/// Returns the vertices to cut off, in order, as indices into `rim`. The two vertices that remain at the end
-/// are not returned.
+/// Returns the vertices to cut off, in order, as indices into `rim`, the half-edges around the hole. The two vertices
+/// that remain at the end are not returned.
 fn ears(mesh: &Mesh, rim: &[HalfEdgeId]) -> Result<Vec<usize>, EditError> {
     let hole = Hole::of(mesh, rim);
     let ears = if rim.len() <= MAX_EXACT_EDGES {

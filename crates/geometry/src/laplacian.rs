@@ -59,10 +59,10 @@ pub struct Laplacian {
 impl Laplacian {
     /// Computes the Laplacian of a mesh. Rows of dead vertices are empty.
     ///
-    /// A polygon with 4 to 16 corners is divided by a virtual vertex at the mean of its corners. The value at
-    /// the virtual vertex is the mean of the values at the corners. So the result does not depend on a
-    /// triangulation, and the gradient of a linear function on a flat polygon is exact. Polygons with more corners
-    /// are cut into triangles.
+    /// A polygon with 4 to 16 corners is divided into triangles around a virtual vertex at the mean of its corners. The
+    /// value at the virtual vertex is the mean of the values at the corners. So the result does not depend on a
+    /// triangulation, and the gradient of a linear function on a flat polygon is exact. Polygons with more corners are
+    /// cut into triangles.
     ///
     /// If a triangle is degenerate or almost degenerate, the same small length is added to the lengths of all edges. In
     /// every triangle, the sum of two sides then exceeds the third side by at least 1e-5 times the mean edge length. If
@@ -83,7 +83,7 @@ impl Laplacian {
             let all = (b * FACES..n_faces.min((b + 1) * FACES)).map(FaceId::new);
             all.filter(|&f| mesh.has_face(f))
         };
-        // For each block of faces, the sum and the count of the lengths.
+        // For each block of faces, the sum and the count of the lengths of the sides of triangles.
         let sums: Result<Vec<[f64; 2]>, Cancelled> = parallel::map(n_blocks, |b| {
             let (mut sum, mut n, mut pieces) = (0.0, 0.0, Pieces::default());
             for f in faces(b) {

@@ -10,9 +10,9 @@ pub fn area(mesh: &Mesh) -> f64 {
 /// Returns the volume inside the mesh. The volume is negative if the faces are oriented inward. It is meaningful
 /// only for a closed mesh.
 ///
-/// Each face is triangulated as a fan. The volume is the sum of the signed volumes of the tetrahedra from a
-/// fixed point to these triangles, by the divergence theorem. The point is the center of the bounding box, so
-/// that meshes far from the origin do not lose precision.
+/// Each face is triangulated as a fan. The volume is the sum of the signed volumes of the tetrahedra from a fixed point
+/// to these triangles, by the divergence theorem. This fixed point is the center of the bounding box, so that the
+/// volume is accurate even for a mesh far from the origin.
 pub fn volume(mesh: &Mesh) -> f64 {
     let middle = bounds(mesh).map_or(DVec3::ZERO, |[min, max]| 0.5 * (min + max));
     sum_over_faces(mesh, |f| {
@@ -36,7 +36,7 @@ fn sum_over_faces(mesh: &Mesh, term: impl Fn(FaceId) -> f64 + Sync) -> f64 {
     })
 }
 
-/// Returns the bounding box of all vertices as its minimum and maximum; `None` for a mesh without vertices.
+/// Returns the lowest and the highest corner of the bounding box of all vertices; `None` for a mesh without vertices.
 pub fn bounds(mesh: &Mesh) -> Option<[DVec3; 2]> {
     let bounds = |v: usize| {
         let v = VertexId::new(v);
@@ -59,8 +59,8 @@ pub fn genus(mesh: &Mesh) -> i64 {
     (2 * components - count(mesh.n_boundary_loops()) - euler) / 2
 }
 
-/// Returns the component index of each vertex, by vertex index. Components are numbered from 0 in order of
-/// their lowest vertices, and an isolated vertex is a separate component. Dead vertices have `usize::MAX`.
+/// Returns the component index of each vertex, by vertex index. Components are numbered from 0 in the order of the
+/// lowest vertex id of each component. An isolated vertex is a separate component. Dead vertices have `usize::MAX`.
 pub fn components(mesh: &Mesh) -> Vec<usize> {
     let mut component = vec![usize::MAX; mesh.positions().len()];
     let mut n = 0;

@@ -17,8 +17,8 @@ use mesh::{Connectivity, Domain, EdgeId, FaceId, HalfEdgeId, Mesh, Sources, Vert
 
 use crate::components;
 
-/// Returns the component index of each face, by face index. Components are numbered from 0 in order of their
-/// lowest faces. Dead faces have `usize::MAX`.
+/// Returns the component index of each face, by face index. Components are numbered from 0 in the order of the lowest
+/// face id of each component. Dead faces have `usize::MAX`.
 pub fn face_components(mesh: &Mesh) -> Vec<usize> {
     let of_vertex = components(mesh);
     let mut number = vec![usize::MAX; of_vertex.len()];
@@ -35,11 +35,10 @@ pub fn face_components(mesh: &Mesh) -> Vec<usize> {
     components
 }
 
-/// Returns each component as a separate mesh, in order of the lowest faces.
+/// Returns each component as a separate mesh, in the order of the lowest face id of each component.
 ///
-/// Elements keep their order and all their values. Isolated vertices are left out; [`Mesh::n_isolated_vertices`]
-/// counts them. The parts are dense. The function takes linear time for any number of
-/// components.
+/// Elements keep their order and all their values. Isolated vertices are left out; [`Mesh::n_isolated_vertices`] counts
+/// them. The parts are dense. The time is linear in the size of the mesh, for any number of components.
 ///
 /// # Examples
 ///
@@ -61,11 +60,11 @@ pub fn separated(mesh: &Mesh) -> Vec<Mesh> {
 /// Parts are in ascending order of these values. Faces with the value `usize::MAX` and isolated vertices are left
 /// out.
 ///
-/// Elements keep their order and their values. An edge between two parts is copied to both. If the faces of a
-/// part form several fans around a vertex, the fan with the lowest boundary half-edge keeps the vertex, and
-/// each of the other fans gets a copy, numbered after all other vertices. A part with a new boundary loses the
-/// columns with [`Rule::Drop`](mesh::Rule::Drop). The parts are dense. Apart from sorting the faces, the function
-/// takes linear time for any number of parts.
+/// Elements keep their order and their values. An edge between two parts is copied to both. If the faces of a part form
+/// several fans around a vertex, the fan with the lowest boundary half-edge keeps the vertex. Each of the other fans
+/// gets a copy, which is numbered after all other vertices. A part with a new boundary loses the columns with
+/// [`Rule::Drop`](mesh::Rule::Drop). The parts are dense. Apart from sorting the faces, the time is linear in the size
+/// of the mesh, for any number of parts.
 ///
 /// # Panics
 ///

@@ -1,4 +1,4 @@
-//! Points on a surface that keep their distance from each other.
+//! Random points on a surface, spread so that no two of them are very close to each other.
 
 use std::collections::BinaryHeap;
 
@@ -14,17 +14,17 @@ use crate::tangent::triangles;
 pub struct Sample {
     /// The position.
     pub position: DVec3,
-    /// The unit normal of its triangle.
+    /// The unit normal of the triangle that contains the point.
     pub normal: DVec3,
     /// The face.
     pub face: FaceId,
 }
 
-/// The number of random candidates for each returned point.
+/// The number of random candidates, divided by the number of returned points.
 const CANDIDATES: usize = 5;
 
-/// Returns exactly `count` points on a surface, spread evenly at random. Polygons are triangulated. Returns no points
-/// if the area of the surface is zero or not finite.
+/// Returns exactly `count` random, evenly spread points on a surface. Polygons are triangulated. Returns no points if
+/// the area of the surface is zero or not finite.
 ///
 /// First, 5 × `count` random points are distributed by area. Then the most crowded point is removed, again and again,
 /// until `count` points are left (Yuksel, "Sample Elimination for Generating Poisson Disk Sample Sets", 2015).
@@ -142,7 +142,7 @@ fn candidates(mesh: &Mesh, n: usize, seed: u64) -> (Vec<Sample>, f64) {
 struct Grid {
     points: Vec<DVec3>,
     size: f64,
-    /// The cells of the points.
+    /// For each point, the cell that contains it.
     cells: Vec<[f64; 3]>,
     /// The points, sorted by cell.
     sorted: Vec<usize>,
@@ -228,13 +228,13 @@ mod tests {
                 least = least.min(a.position.distance(b.position));
             }
         }
-        // Random points would be about 30 times closer to each other.
+        // For independent random points, the smallest distance would be about a thirtieth of this distance.
         assert!(least > 0.6 * 2.0 * radius, "{least} {radius}");
     }
 
     #[test]
     fn points_are_distributed_by_area() {
-        // The outer part of the area of a torus with the radii M and m is 1/2 + m / (π M).
+        // On a torus with the radii M and m, the fraction of the area on the outer side is 1/2 + m / (π M).
         let mesh = shapes::torus(64, 32, 1.0, 0.4);
         let points = samples(&mesh, 2000, 1, &NoProgress).unwrap();
         let outer = |p: DVec3| p.truncate().length() > 1.0;

@@ -12,8 +12,9 @@ const ORDINARY: i32 = 64;
 
 /// A mesh, scaled by a power of two if its coordinates are very small or very large.
 ///
-/// Areas, curvatures and tests of distances contain products of up to four lengths. For lengths of about 1e-90 or 1e90
-/// scene units, these products are 0 or infinite. Scaling by a power of two changes only the exponent of a result.
+/// Computations of areas and curvatures, and comparisons of distances, contain products of up to four lengths. For
+/// lengths of about 1e-90 or 1e90 scene units, these products are 0 or infinite. Scaling by a power of two changes only
+/// the exponent of a result.
 #[derive(Clone, Debug)]
 pub struct Scaled<'a> {
     mesh: Cow<'a, Mesh>,

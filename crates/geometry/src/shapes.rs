@@ -1,7 +1,7 @@
 //! Simple meshes for examples, tests and recipes.
 //!
-//! All shapes except [`square`] are centered at the origin. Faces are counter-clockwise when seen from outside,
-//! and faces of flat shapes when seen from above (from +z).
+//! All shapes except [`square`] are centered at the origin. Faces are counter-clockwise when seen from outside. The
+//! faces of flat shapes are counter-clockwise when seen from above (from +z).
 
 use mesh::{DVec3, Mesh, VertexId, parallel};
 
@@ -54,7 +54,7 @@ pub fn tetrahedron() -> Mesh {
     of(positions, &[[0, 1, 3], [0, 2, 1], [0, 3, 2], [1, 2, 3]])
 }
 
-/// Makes a regular octahedron with corners at distance 1 on the axes: 6 vertices, 8 triangles.
+/// Makes a regular octahedron with corners on the axes, at distance 1 from the origin: 6 vertices, 8 triangles.
 pub fn octahedron() -> Mesh {
     let positions = vec![
         DVec3::X,
@@ -79,7 +79,7 @@ pub fn octahedron() -> Mesh {
     )
 }
 
-/// Makes a regular icosahedron with its corners at distance 1: 12 vertices, 20 triangles.
+/// Makes a regular icosahedron with corners at distance 1 from the origin: 12 vertices, 20 triangles.
 pub fn icosahedron() -> Mesh {
     let golden = f64::midpoint(1.0, 5.0_f64.sqrt());
     let scale = 1.0 / (1.0 + golden * golden).sqrt();
@@ -169,8 +169,8 @@ pub fn torus(around: u32, across: u32, major: f64, minor: f64) -> Mesh {
     of(positions, &polygons)
 }
 
-/// Makes a cylinder around the z axis with radius 1, from z = -1 to z = 1. The cylinder has `around`
-/// quadrilaterals and, if `caps` is true, two faces with `around` corners.
+/// Makes a cylinder around the z axis with radius 1, from z = -1 to z = 1. The side has `around` quadrilaterals. If
+/// `caps` is true, each end is closed by one face with `around` corners.
 ///
 /// # Panics
 ///

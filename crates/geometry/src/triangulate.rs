@@ -97,11 +97,11 @@ impl Cut {
 
 /// Triangulates faces one after another, and reuses its buffers.
 ///
-/// A quadrilateral is cut along its shorter diagonal. If both diagonals are equally long (relative difference
-/// of the squared lengths at most 1e-12), the quadrilateral is cut along the diagonal at its vertex with the
-/// lowest id. A diagonal is avoided if one of its triangles has zero area or is flipped, as seen along the face
-/// normal. If both diagonals have this problem, neither is avoided. A quadrilateral with a reflex corner is
-/// therefore cut at that corner.
+/// A quadrilateral is cut along its shorter diagonal. If both diagonals are equally long (relative difference of the
+/// squared lengths at most 1e-12), the quadrilateral is cut along the diagonal at its vertex with the lowest id. A
+/// diagonal is avoided if one of its triangles has zero area or is flipped, as seen along the face normal. A
+/// quadrilateral with a reflex corner is therefore cut at that corner. If both diagonals have this problem, neither is
+/// avoided.
 ///
 /// A larger face is projected along its normal and cut by ear clipping (Held, "FIST: Fast Industrial-Strength
 /// Triangulation of Polygons", 2001, as implemented by the crate `earcut`). The time of ear clipping can grow with the
@@ -109,8 +109,8 @@ impl Cut {
 /// and others, "Computational Geometry: Algorithms and Applications", 2008, chapter 3). Then diagonals are flipped until
 /// the result is a constrained Delaunay triangulation.
 ///
-/// A face becomes a fan around its vertex with the lowest id if it has more than ten million corners, or if it cannot be
-/// cut, which happens if its area is zero or its sides cross.
+/// A face becomes a fan around its vertex with the lowest id if it has more than ten million corners or cannot be cut.
+/// A face cannot be cut if its area is zero or its sides cross.
 ///
 /// # Examples
 ///
@@ -174,7 +174,7 @@ impl Cutter {
         let n = self.points.len();
         let side = |i: usize| self.points[(i + 1) % n] - self.points[i % n];
         let turns_left = (0..n).all(|i| normal.dot(side(i).cross(side(i + 1))) > 0.0);
-        // If a polygon goes around once, the direction of its sides along an axis changes exactly twice.
+        // If the sides of a polygon turn by 360° in total, their direction along an axis changes exactly twice.
         let (axis, _) = normal.any_orthonormal_pair();
         let signs = (0..n).map(|i| axis.dot(side(i))).filter(|s| *s != 0.0);
         let signs: Vec<bool> = signs.map(|s| s > 0.0).collect();
@@ -429,8 +429,8 @@ mod tests {
     fn invalid_triangulations_are_detected() {
         assert!(is_triangulation(5, &[[0, 1, 2], [0, 2, 3], [0, 3, 4]]));
         for wrong in [
-            // These lists have, in order, too few triangles, a duplicate triangle, crossing diagonals, a corner twice
-            // in a triangle, and two triangles at one side of the polygon.
+            // The lists have these faults, in order: too few triangles, a duplicate triangle, crossing diagonals, a
+            // triangle that contains a corner twice, and two triangles at one side of the polygon.
             vec![[0, 1, 2], [0, 2, 4]],
             vec![[0, 1, 2], [0, 2, 4], [0, 2, 4]],
             vec![[0, 1, 2], [1, 2, 3], [0, 3, 4]],

@@ -55,7 +55,7 @@ fn behind(mesh: &Mesh, index: &SurfaceIndex, h: HalfEdgeId, f: FaceId, offset: f
     let next = mesh.position(mesh.target(h)) - p;
     let last = mesh.position(mesh.origin(mesh.prev(h))) - p;
     let bisector = next.normalize_or_zero() + last.normalize_or_zero();
-    // At a reflex corner, the face is on the other side.
+    // At a reflex corner, the bisector of the two edges points out of the face.
     let is_reflex = next.cross(last).dot(normal) < 0.0;
     let into = if is_reflex { -bisector } else { bisector };
     let origin = p + INWARD * next.length().min(last.length()) * into - offset * normal;

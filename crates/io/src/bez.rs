@@ -41,12 +41,12 @@ fn patches(bytes: &[u8]) -> Result<Vec<Patch>, Fault> {
         for (k, point) in points.as_flattened_mut().iter_mut().enumerate() {
             let (k, i) = (k + 1, i + 1);
             for (axis, x) in ['x', 'y', 'z'].into_iter().zip(point.as_mut()) {
-                let what = || format!("{axis} of control point {k} of 16 of patch {i} of {n}");
+                let what = || format!("{axis} of control point {k} (of 16) in patch {i} (of {n})");
                 *x = coordinate(&mut cursor, what)?;
             }
         }
         let patch = Patch::new(points);
-        patches.push(patch.map_err(|e| place.error(format!("patch {} of {n}: {e}", i + 1)))?);
+        patches.push(patch.map_err(|e| place.error(format!("patch {} (of {n}): {e}", i + 1)))?);
     }
     expect_end(&mut cursor, &format!("the last of {n} patches"))?;
     Ok(patches)
@@ -69,7 +69,7 @@ fn curve(bytes: &[u8]) -> Result<Curve<DVec2>, Fault> {
     let n = count(&mut cursor, "control points", 2)?;
     let mut points = Vec::with_capacity(n);
     for i in 0..n {
-        let what = |axis| format!("{axis} of control point {} of {n}", i + 1);
+        let what = |axis| format!("{axis} of control point {} (of {n})", i + 1);
         let x = coordinate(&mut cursor, || what('x'))?;
         let y = coordinate(&mut cursor, || what('y'))?;
         points.push(DVec2::new(x, y));
@@ -257,7 +257,7 @@ mod tests {
                 format!("1\n{short}"),
                 17,
                 8,
-                "z of control point 16 of 16 of patch 1 of 1",
+                "z of control point 16 (of 16) in patch 1 (of 1)",
             ),
             (format!("1\n{one}7\n"), 18, 1, "found `7`"),
             (format!("1\n{one}# end\n"), 18, 1, "no comments"),
@@ -292,7 +292,7 @@ mod tests {
             ("", 1, "expected the number of control points"),
             ("\n0", 2, "at least one control point"),
             ("2\n0 0\n1", 1, "the rest of the file has only"),
-            ("2\n0 0\n1     ", 3, "y of control point 2 of 2"),
+            ("2\n0 0\n1     ", 3, "y of control point 2 (of 2)"),
             ("1\n0 0\n1 1", 3, "expected the end of the file"),
             ("4000000000\n0 0", 1, "the rest of the file has only"),
         ] {

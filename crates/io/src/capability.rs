@@ -18,7 +18,7 @@ pub enum Storage {
     Kept,
 }
 
-/// The attributes of a mesh that is written in a format.
+/// Determines which attributes of a mesh a file of a format stores.
 #[derive(Clone, Copy)]
 pub struct Stored<'a> {
     /// The format.
@@ -40,8 +40,8 @@ impl Stored<'_> {
     }
 
     /// Returns how much of an attribute is stored. Only the type of `values` is used. If `values` is `None`, the
-    /// attribute is assumed to have the usual type of attributes with this name. If this name has no usual type, and
-    /// the result depends on the type, it is [`Storage::Partial`].
+    /// attribute is assumed to have the usual type of attributes with this name. If attributes with this name have no
+    /// usual type, and different types give different results, returns [`Storage::Partial`].
     pub fn storage(&self, domain: Domain, name: &str, values: Option<&Values>) -> Storage {
         let of_type = |values: &Values| self.storage_of(domain, name, values);
         if let Some(values) = values {
@@ -183,7 +183,7 @@ impl Format {
         )
     }
 
-    /// How the names of several meshes that are joined are handled.
+    /// How the writer of this format handles the names of objects whose meshes are joined into one mesh.
     pub(crate) const fn joined_names(self) -> Names {
         match self {
             Self::Ply => Names::Tags,

@@ -21,7 +21,7 @@ const N_GROUPS: usize = 16;
 pub(crate) type SourcePolygons = Option<Vec<u32>>;
 
 /// Removes each corner that repeats the vertex of the previous corner, and removes the faces and vertices that the
-/// policies drop. Returns the indices in the file of the remaining polygons.
+/// policies drop. Returns, for each remaining polygon, its index in the file.
 pub(crate) fn clean(
     polygons: &mut Polygons,
     policies: Policies,

@@ -1,4 +1,4 @@
-//! Numbers the distinct values on the corners around vertices, for writers.
+//! Assigns numbers to the distinct values on the corners around each vertex, for writers.
 
 use std::sync::atomic::AtomicU32;
 use std::sync::atomic::Ordering::Relaxed;
@@ -9,22 +9,23 @@ use mesh::{FaceId, HalfEdgeId, Mesh, Values, VertexId};
 /// The maximum number of distinct values at a vertex that a corner is compared with.
 const MAX_COMPARED: usize = 64;
 
-/// The numbers of the distinct values on the corners of each vertex of a mesh. The values are numbered in the order of
-/// the faces and their corners, over the whole mesh.
+/// A number for each distinct value on the corners of each vertex of a mesh. The numbers increase in the order of the
+/// faces and their corners, and are unique in the whole mesh.
 #[derive(Debug)]
 pub(crate) struct CornerNumbers {
     /// For each half-edge of a face, the first half-edge that starts at the same vertex and has the same value.
     same: Vec<AtomicU32>,
     /// For each half-edge that is the first one with its value, the number of the value, from 0.
     numbers: Vec<AtomicU32>,
-    /// For each number of a value, the first half-edge with that value.
+    /// For each value, in the order of the numbers, the first half-edge with that value.
     firsts: Vec<HalfEdgeId>,
 }
 
 impl CornerNumbers {
-    /// Numbers the values of corners. `equal` returns whether two corners of one vertex have the same value. A corner
-    /// is compared with the latest [`MAX_COMPARED`] distinct values at its vertex, so that the time for a vertex with a
-    /// million corners stays linear. If a vertex has more distinct values, a value can get a second number.
+    /// Assigns numbers to the values of corners. `equal` returns whether two corners of one vertex have the same value.
+    /// A corner is compared only with the latest [`MAX_COMPARED`] distinct values at its vertex. This limit keeps the
+    /// time for a vertex with a million corners linear. If a vertex has more distinct values, a value can get a second
+    /// number.
     pub(crate) fn new(mesh: &Mesh, equal: impl Fn(HalfEdgeId, HalfEdgeId) -> bool + Sync) -> Self {
         // Each entry is written by only one task: an entry of `same` by the task that handles the origin of the
         // half-edge, and an entry of `numbers` by the task that handles the number.
@@ -75,14 +76,14 @@ impl CornerNumbers {
         self.numbers[first as usize].load(Relaxed) as usize
     }
 
-    /// For each number, a corner with that value.
+    /// For each value, in the order of the numbers, a corner with that value.
     pub(crate) fn firsts(&self) -> &[HalfEdgeId] {
         &self.firsts
     }
 }
 
-/// Returns the values of vertices, if `same` is true for the corners of each vertex. Otherwise, returns `None`.
-/// Vertices without a corner get zero.
+/// Returns a value for each vertex, if all corners of each vertex have the same value according to `same`. Otherwise,
+/// returns `None`. Vertices without a corner get zero.
 pub(crate) fn vertex_values(
     mesh: &Mesh,
     values: &Values,

@@ -2,11 +2,11 @@
 //!
 //! | column | content |
 //! | --- | --- |
-//! | `object` | the name of the object, if there are several objects; the numbers then count from 0 in each object |
+//! | `object` | if there are several objects: the name of the object; faces and vertices are then numbered from 0 in each object |
 //! | `face` | in tables of faces and corners: the number of the face |
 //! | `vertex` | in tables of vertices and corners: the number of the vertex |
 //! | `x`, `y`, `z` | the position; in tables of faces, the mean of the corners |
-//! | name of an attribute | a number, or 0 and 1 for a tag |
+//! | name of an attribute | a number; for a tag, 1 if the element has the tag, otherwise 0 |
 //! | `name[0]`, `name[1]`, ... | the components of a vector |
 //!
 //! Lines end with a line feed, and fields with commas, quotes or line breaks are quoted (RFC 4180). Numbers have the
@@ -32,7 +32,7 @@ pub enum Rows {
     /// Vertices.
     #[default]
     Vertices,
-    /// Faces, at the means of their corners.
+    /// Faces. The position of a face is the mean of its corners.
     Faces,
     /// The corners of the faces, face by face.
     Corners,
@@ -126,7 +126,8 @@ impl Parts {
         Self(scene.objects().iter().map(part).collect())
     }
 
-    /// Returns the last part that starts at or before a row. If there are several parts, appends the name of this part.
+    /// Returns the part that contains a row: the last part for which `has_started` is true. If there are several parts,
+    /// also appends the name of this part to the row.
     fn push(&self, out: &mut Vec<u8>, has_started: impl Fn(&Part) -> bool) -> &Part {
         let part = &self.0[self.0.partition_point(has_started) - 1];
         if self.0.len() > 1 {

@@ -21,8 +21,8 @@ pub(crate) fn leading_number(text: &[u8]) -> Option<(f64, usize)> {
 #[inline]
 pub(crate) fn up_to_eight_digits(text: &[u8], at: usize) -> (u64, usize) {
     let word = eight_bytes(text, at) ^ 0x3030_3030_3030_3030;
-    // The high bit is set in each byte that is not a digit. Higher bytes can be wrong, so only the lowest set bit is
-    // used.
+    // The high bit is set in the lowest byte that is not a digit, and in no byte below it. The bytes above it can be
+    // wrong, so only the lowest set bit is used.
     let non_digits = (word.wrapping_add(0x7676_7676_7676_7676) | word) & 0x8080_8080_8080_8080;
     let count = non_digits.trailing_zeros() / 8;
     if count == 0 {

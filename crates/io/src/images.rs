@@ -22,19 +22,20 @@ use crate::{Format, WriteOptions, gzip};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Images {
-    /// Store the images in the file or, for `.gltf`, in its `.bin` file. OBJ files cannot embed images.
+    /// Store the images in the file or, for `.gltf`, in its `.bin` file. OBJ files cannot embed images, so writing an
+    /// OBJ file with images fails.
     Embed,
-    /// Write the images to files in the folder of the written file. Each image file keeps the path that it has in the
-    /// original model, and each embedded image gets the name of the written file, with the extension of the image. If a
-    /// different file with this path exists, a number is appended to the name of the copy.
+    /// Write the images to files in the folder of the written file. An image file keeps the path that it has in the
+    /// original model. An embedded image gets the name of the written file, with the extension of the image. If a
+    /// different file already has the path of an image, a number is appended to the name of the copy.
     Copy,
-    /// Write only the paths of the images, as in the original model. Embedded images stay embedded, except that OBJ
-    /// files cannot store them.
+    /// Write only the paths of the images, as in the original model. Embedded images stay embedded in glTF files and
+    /// are lost in OBJ files.
     Keep,
 }
 
-/// The largest number of different image files that a model can refer to. More images are left out, because
-/// searching for files takes time.
+/// The largest number of different image files that a model can refer to. All further images are left out, because
+/// searching for very many files would be slow.
 const MAX_IMAGES: usize = 4096;
 
 /// Loads the image files that the materials refer to. If an image cannot be read, its path is kept, and a note is
@@ -343,7 +344,7 @@ impl<'a> Copies<'a> {
             Some(real) if !real.starts_with(&root) => Err(WriteError::Scene {
                 path: self.path.to_path_buf(),
                 message: format!(
-                    "the folder {} of an image leads out of the folder of the file through a link",
+                    "the folder {} of an image leads through a link out of the folder of the file",
                     folder.display()
                 ),
             }),

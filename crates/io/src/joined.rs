@@ -71,7 +71,7 @@ pub(crate) fn joined(scene: &Scene, format: Format) -> Result<Joined<'_>, Unwrit
     let tags = names == Names::Tags;
     if names != Names::Kept {
         let became = if tags {
-            ": each object became a face tag"
+            ": the name of each object became a face tag"
         } else {
             ""
         };

@@ -26,9 +26,10 @@
 //! or the JSON pointer in a glTF file. A path in a file must not lead out of the folder of the file. A file is written
 //! completely or not at all.
 //!
-//! Formats for meshes have a folder, whose `mod.rs` lists how each part of a file is converted. Most of these folders
-//! have the modules `read` (from bytes to polygons) and `write`. For example, the faces of an OBJ file are read in
-//! `obj/statement.rs`, and those of a glTF file in `gltf/primitives.rs`. The formats share these modules:
+//! The source code of each mesh format is in its own folder. The `mod.rs` of the folder lists how each part of a file
+//! is converted. Most of these folders have the modules `read` (from bytes to polygons) and `write`. For example, the
+//! faces of an OBJ file are read in `obj/statement.rs`, and those of a glTF file in `gltf/primitives.rs`. The formats
+//! share these modules:
 //!
 //! | module | purpose |
 //! | --- | --- |
@@ -36,7 +37,7 @@
 //! | `fault` | errors in a file, with their positions |
 //! | `note`, `loss` | the content that a reader left out or changed; the content that a written file does not store |
 //! | `polygons`, `clean`, `weld` | building a mesh from polygons with attributes |
-//! | `joined`, `corners`, `file_vertices`, `writing` | reducing a scene to what a format can store |
+//! | `joined`, `corners`, `file_vertices`, `writing` | converting a scene to a form that a format can store |
 //! | `assets`, `save` | the files that a file refers to; writing files atomically |
 //!
 //! # Examples
@@ -123,10 +124,10 @@ use save::{Content, save};
 /// How to read a file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ReadOptions {
-    /// The name for objects that have no name in the file, and for the only object of an `.mws` file. If `None`,
-    /// objects without a name get the name of the file without its extension, and the object of an `.mws` file keeps
-    /// its name. In glTF and COLLADA files, an object has the name of its node or, if the node has no name, of its
-    /// mesh.
+    /// The name for objects that have no name in the file. If an `.mws` file contains a single object, this name also
+    /// replaces the name of that object. If `None`, objects without a name get the name of the file without its
+    /// extension, and the objects of an `.mws` file keep their names. In glTF and COLLADA files, an object has the name
+    /// of its node or, if the node has no name, of its mesh.
     pub name: Option<String>,
     /// How to handle polygons that do not form a clean mesh.
     pub policies: Policies,
@@ -134,12 +135,13 @@ pub struct ReadOptions {
     pub placements: Placements,
     /// Whether reading fails if anything in the file would be left out.
     pub strict: bool,
-    /// Whether reading marks the copies of vertices that it splits to make the mesh a manifold. If the mesh is then
-    /// written to an `.obj`, `.ply`, `.off`, `.gltf` or `.glb` file, the copies are merged, so that the file has the
-    /// same vertices as the file that was read. This option is for conversions without edits.
+    /// Whether reading marks copies of vertices. Reading makes copies when it splits vertices so that the mesh becomes
+    /// a manifold. If the mesh is then written to an `.obj`, `.ply`, `.off`, `.gltf` or `.glb` file, the marked copies
+    /// are merged again, and the file has the same vertices as the file that was read. This option is for conversions
+    /// without edits.
     pub keep_vertices: bool,
-    /// The memory budget in bytes for content whose size does not depend on the size of the file: all images together,
-    /// and the decompressed content of a `.gz` file. Defaults to 4 GiB.
+    /// The memory budget in bytes. This is the maximum size of all images together, and also the maximum size of the
+    /// decompressed content of a `.gz` file. Defaults to 4 GiB.
     pub budget: Option<u64>,
 }
 
@@ -167,15 +169,17 @@ pub struct WriteOptions {
     /// files, images in the folder of the original model are copied to the folder of the written file. OBJ files cannot
     /// embed images, so embedded images are also written to files.
     pub images: Option<Images>,
-    /// How to compress the geometry of glTF files. If `None`, the geometry is not compressed. Other formats are
-    /// refused.
+    /// How to compress the geometry of glTF files. If `None`, the geometry is not compressed. If this option is set,
+    /// files of other formats are refused.
     pub compression: Option<Compression>,
-    /// How to quantize the geometry of glTF files. If `None`, numbers have 32 bits. Other formats are refused.
+    /// How to quantize the geometry of glTF files. If `None`, numbers have 32 bits. If this option is set, files of
+    /// other formats are refused.
     pub quantization: Option<Quantization>,
     /// For glTF, the maximum number of sets of four joints that are written for each vertex of a skinned mesh. If
     /// `None`, the number of sets in the original file of the mesh, or 1 if the mesh was not read from a file.
     pub weight_sets: Option<u32>,
-    /// The kind of elements of a `.csv` file. Each element has a row. If `None`, vertices. Other formats are refused.
+    /// The kind of elements of a `.csv` file. Each element has a row. If `None`, the rows list vertices. If this option
+    /// is set, files of other formats are refused.
     pub rows: Option<Rows>,
     /// Whether writing fails if the file would not store everything.
     pub strict: bool,

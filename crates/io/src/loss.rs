@@ -23,11 +23,11 @@ pub struct Loss {
     pub reason: String,
 }
 
-/// Parts of a mesh whose losses have a domain, but which are not single attributes.
+/// The names of parts of a mesh that are not single attributes, although their losses have a domain.
 const NOT_ATTRIBUTES: [&str; 4] = ["influences", "joint weights", "morph targets", "polygon"];
 
 impl Loss {
-    /// A stable name of the kind of loss, for programs, such as `attribute-lost`.
+    /// Returns the name of the kind of loss, such as `attribute-lost`. This name is stable, so programs can rely on it.
     pub fn code(&self) -> String {
         const PARTS: [&str; 10] = [
             "animations",
@@ -84,8 +84,8 @@ impl fmt::Display for Loss {
     }
 }
 
-/// Returns the number of values of an attribute that elements of the mesh use. Boundary half-edges have an entry in the
-/// arrays of corners, but are not corners.
+/// Returns the number of values that an attribute of this domain has. The arrays of corner attributes also have an
+/// entry for each boundary half-edge. These entries are not counted, because boundary half-edges are not corners.
 pub(crate) fn n_values(mesh: &Mesh, domain: Domain) -> usize {
     match domain {
         Domain::Corner => {
@@ -132,8 +132,7 @@ impl<'a> Losses<'a> {
         }
     }
 
-    /// Adds a loss for every column of `mesh` that the format cannot store, or that is not stored according to
-    /// `is_stored`.
+    /// Adds a loss for every column of `mesh` that the format cannot store, or for which `is_stored` returns false.
     pub(crate) fn add_columns(
         &mut self,
         mesh: &Mesh,

@@ -10,7 +10,7 @@ use mesh::{Elements, VertexId};
 /// Content of a file that a reader changed or left out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Note {
-    /// A stable name of the kind of note, for programs, such as `faces-reversed`.
+    /// The name of the kind of note, such as `faces-reversed`. This name is stable, so programs can rely on it.
     pub code: &'static str,
     /// Whether the content is missing from the scene, or is present in a different form.
     pub kind: NoteKind,
@@ -26,8 +26,9 @@ pub struct Note {
     pub what: String,
     /// The affected elements of the file, if they are known.
     pub elements: Option<Elements>,
-    /// The positions of the first elements, at most [`MAX_PLACES`](Self::MAX_PLACES), in scene units. A vertex has one
-    /// point, an edge has both ends, and a face has its corners in order.
+    /// The positions of the first affected elements, in scene units. Each entry lists the points of an element: one
+    /// point for a vertex, both ends for an edge, and the corners in order for a face. At most
+    /// [`MAX_PLACES`](Self::MAX_PLACES) entries.
     pub places: Vec<Vec<DVec3>>,
 }
 
@@ -205,8 +206,8 @@ fn singular_noun(plural: &str) -> String {
     }
 }
 
-/// The maximum number of notes in the list. More notes are only counted, because a large file can cause millions of
-/// notes.
+/// The maximum number of notes in the list. All further notes are only counted, because a large file can cause millions
+/// of notes.
 const MAX_LISTED: usize = 1000;
 
 /// Collects the notes about one file while it is read.

@@ -15,24 +15,24 @@ pub enum Compression {
     Meshopt,
 }
 
-/// The numbers of bits of the attributes of quantized glTF files. Each number is from 8 to 16.
+/// The numbers of bits with which quantized glTF files store attributes. Each number is from 8 to 16.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Quantization {
-    /// The bits of each coordinate of a position. Positions are rounded to a grid that covers the bounding box of the
-    /// object and has the same step along all axes. The longest side of the box has 2^bits - 1 steps. Positions of
-    /// objects with joints or morph targets are not quantized. Defaults to 16.
+    /// The number of bits of each coordinate of a position. Positions are rounded to a grid that covers the bounding
+    /// box of the object and has the same step along all axes. The longest side of the box has 2^bits - 1 steps.
+    /// Positions of objects with joints or morph targets are not quantized. Defaults to 16.
     #[serde(default = "Bits::most")]
     pub position: Bits,
-    /// The bits of each of the two numbers that represent a normal or a tangent as a point of an octahedron. Defaults
-    /// to 8.
+    /// The number of bits of each of the two numbers that represent a normal or a tangent. The two numbers locate a
+    /// point on an octahedron. Defaults to 8.
     #[serde(default = "Bits::least")]
     pub normal: Bits,
-    /// The bits of each texture coordinate. A set with coordinates outside the range from 0 to 1 is not quantized.
-    /// Defaults to 16.
+    /// The number of bits of each texture coordinate. A set of texture coordinates is not quantized if a coordinate is
+    /// outside the range from 0 to 1. Defaults to 16.
     #[serde(default = "Bits::most")]
     pub uv: Bits,
-    /// The bits of each component of a color. Defaults to 8.
+    /// The number of bits of each component of a color. Defaults to 8.
     #[serde(default = "Bits::least")]
     pub color: Bits,
 }

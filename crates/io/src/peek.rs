@@ -136,7 +136,7 @@ pub struct PeekMesh {
     pub colors: bool,
     /// Whether faces have materials.
     pub materials: bool,
-    /// The largest number of joints that can have weights at vertices.
+    /// The maximum number of joints for which vertices can have weights.
     pub joints: u64,
     /// The number of morph targets.
     pub targets: u64,
@@ -169,7 +169,8 @@ pub struct PeekRanges {
 /// The maximum number of corners of a face whose vertices are compared with each other.
 pub(crate) const MAX_COMPARED: usize = 16;
 
-/// Whether the words are indices of different elements: all positive or all negative, and without leading zeros.
+/// Whether the words are certainly indices of different elements: they differ from each other, are all positive or all
+/// negative, and have no leading zeros.
 pub(crate) fn are_different(words: &[&[u8]]) -> bool {
     let is_index = |digits: &[u8]| {
         digits.first().is_some_and(|&first| first != b'0') && digits.iter().all(u8::is_ascii_digit)

@@ -37,8 +37,8 @@ pub(crate) fn placed<'s>(
     let bytes = scene.placed_bytes();
     if bytes > MAX_PLACED_BYTES {
         let message = format!(
-            "the format has no nodes, so each instance is written separately, which needs {} of memory, more than \
-             the limit of {}",
+            "the format has no nodes, so each instance is written separately; this needs {} of memory, which is more \
+             than the limit of {}",
             mesh::readable_bytes(bytes),
             mesh::readable_bytes(MAX_PLACED_BYTES)
         );

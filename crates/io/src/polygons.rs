@@ -186,7 +186,7 @@ impl Polygons {
         0
     }
 
-    /// Removes and returns the attributes of corners that have normals.
+    /// Removes and returns the corner attributes that contain normals.
     fn take_normals(&mut self) -> Vec<Column> {
         let columns = self.attributes.of(Domain::Corner).iter();
         let normals = columns.filter(|column| column.rule == Rule::Normal);

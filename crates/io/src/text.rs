@@ -212,7 +212,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Whether the byte after the byte at the cursor is a line end.
+    /// Whether a line end follows the byte at the cursor.
     fn continues(&self) -> bool {
         self.bytes
             .get(self.at + 1)

@@ -22,14 +22,13 @@ const CHUNK: usize = 1 << 15;
 const BUCKET: usize = 1 << 14;
 const MAX_BUCKETS: usize = 1 << 10;
 
-/// Counts the vertices with faces whose positions, rounded to 32 bits, equal the position of an earlier vertex. Readers
-/// of formats that identify vertices by position merge these vertices.
+/// Counts the vertices that a reader merges with an earlier vertex, for formats that identify vertices by position.
+/// Only vertices with a face are considered. Positions are rounded to 32 bits before they are compared.
 pub(crate) fn n_merged(mesh: &Mesh) -> usize {
     n_merged_as(mesh, |position| position.as_vec3().as_dvec3())
 }
 
-/// Counts the vertices with faces whose positions equal the position of an earlier vertex after both positions are
-/// rounded by `round`.
+/// Like [`n_merged`], but positions are rounded by `round` instead of to 32 bits.
 pub(crate) fn n_merged_as(mesh: &Mesh, round: impl Fn(DVec3) -> DVec3 + Sync) -> usize {
     let used = vertices_with_faces(mesh);
     let places = parallel::collect(used.len(), |i| round(mesh.position(VertexId::new(used[i]))));

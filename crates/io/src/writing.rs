@@ -33,7 +33,7 @@ pub(crate) fn push_comment(out: &mut Vec<u8>, word: &str, comment: Option<&str>)
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
-    reason = "the cast saturates at the lowest and the highest byte"
+    reason = "the cast saturates at 0 and 255"
 )]
 pub(crate) fn to_byte(x: f64) -> u8 {
     (x * 255.0).round() as u8
@@ -44,8 +44,8 @@ pub(crate) fn is_byte(x: f64) -> bool {
     (f64::from(to_byte(x)) / 255.0).to_bits() == x.to_bits()
 }
 
-/// Returns the texture coordinates of each vertex, if all corners of the vertex have the same bits. Otherwise, returns
-/// `None`. Vertices without a corner get zero.
+/// Returns the texture coordinates of each vertex if all corners of each vertex have bitwise equal texture coordinates.
+/// Otherwise, returns `None`. Vertices without a corner get zero.
 pub(crate) fn uvs_of_vertices(mesh: &Mesh, uvs: &Values) -> Option<Values> {
     let bits = |h: usize| DVec2::of(uvs).map(|uvs| uvs[h].to_array().map(f64::to_bits));
     vertex_values(mesh, uvs, |a, b| bits(a) == bits(b))

@@ -97,8 +97,8 @@ impl Mesh {
     ///
     /// # Panics
     ///
-    /// Panics if arrays that belong together differ in length, the number of half-edges is odd, or the mesh has
-    /// more elements than there are ids.
+    /// Panics if two arrays with entries for the same kind of element differ in length, if the number of half-edges is
+    /// odd, or if the mesh has more elements than there are ids.
     pub fn from_arrays(connectivity: Connectivity, positions: Vec<DVec3>) -> Self {
         let mesh = Self {
             connectivity,

@@ -12,8 +12,8 @@ pub trait Id:
     /// [`Connectivity`](crate::Connectivity). Accessors return `Option` instead.
     const NONE: Self;
 
-    /// The attribute domain that these ids index. A half-edge indexes the corner at its origin, in
-    /// its face.
+    /// The domain of the attribute columns that ids of this kind index. A half-edge stands for the corner at its
+    /// origin, in its face.
     const DOMAIN: Domain;
 
     /// Creates the id with this index.
@@ -44,8 +44,8 @@ macro_rules! id {
             ///
             /// # Panics
             ///
-            /// Panics if `index` is not below 2³² − 1. The edits and builders of this crate check the number of elements
-            /// first.
+            /// Panics if `index` is not below 2³² − 1. The edits and builders of this crate check the number of
+            /// elements first.
             #[inline]
             pub fn new(index: usize) -> Self {
                 assert!(index < u32::MAX as usize, "more than 2^32 - 2 elements of one kind");

@@ -1,9 +1,9 @@
 //! Undo and redo of edits.
 //!
-//! [`Mesh::begin`] opens a journal. From then on every write records the value that it overwrites.
-//! [`Mesh::rollback`] restores the mesh bit for bit. [`Mesh::commit`] returns a [`Change`] that can be reverted
-//! later and then redone. Memory and time are proportional to the change, not to the mesh.
-//! While no journal is open, a write costs only one additional comparison.
+//! [`Mesh::begin`] opens a journal. From then on every write records the value that it overwrites. [`Mesh::rollback`]
+//! restores the mesh bit for bit. [`Mesh::commit`] returns a [`Change`] that can be reverted later and then redone.
+//! Memory and time are proportional to the size of the change, not to the size of the mesh. While no journal is open, a
+//! write costs only one additional comparison.
 //!
 //! Calls can be nested: each `begin` opens a level, which the matching `commit` or `rollback` ends. An inner
 //! `rollback` undoes the edits since the inner `begin`; an inner `commit` makes these edits part of the outer
@@ -13,7 +13,7 @@
 //! entries: an undo truncates the arrays to their old lengths. An undo in turn records the values that it
 //! overwrites; this record is the change that redoes the edits.
 //!
-//! If the entries, not counting copies of whole arrays, take more memory than the mesh and 64 KiB together, one copy of
+//! If the entries (without copies of whole arrays) take at least as much memory as the mesh plus 64 KiB, one copy of
 //! the mesh replaces them before the next edit starts. A level that has a copy of the mesh needs no further entries.
 
 use bytemuck::cast_slice_mut;
@@ -44,7 +44,7 @@ impl Change {
     }
 }
 
-/// If the entries of a journal take more memory than the mesh and this number of bytes together, a copy of the mesh
+/// If the entries of a journal take at least as much memory as the mesh plus this number of bytes, a copy of the mesh
 /// replaces the entries.
 const JOURNAL_ALLOWANCE: usize = 1 << 16;
 
@@ -63,7 +63,7 @@ pub(crate) struct Journal {
 struct Level {
     /// The index of the first entry of the level.
     start: usize,
-    /// The index of the first byte of values of the level.
+    /// The index, in [`Change::values`], of the first byte that the level recorded.
     first_value: usize,
     /// The lengths of the arrays at `begin`.
     lengths: Lengths,
@@ -92,7 +92,7 @@ pub(crate) enum Entry {
     Whole(Box<Mesh>),
     /// The lengths of the arrays at the start of a level. An undo truncates the arrays to these lengths.
     Level(Box<Lengths>),
-    /// The ends that an undo cut off from the arrays. A redo appends them again.
+    /// The last entries of the arrays, which an undo cut off. A redo appends them again.
     Tail(Box<Tail>),
 }
 
@@ -123,7 +123,7 @@ impl Connectivity {
 /// The number of elements of each domain, including dead ones.
 type Lengths = [usize; 4];
 
-/// The ends of all arrays, from given lengths on.
+/// The last entries of all arrays: of each array, the entries from a given length on.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Tail {
     connectivity: Connectivity,

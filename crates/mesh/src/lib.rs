@@ -1,7 +1,7 @@
 //! A half-edge mesh of polygons in space.
 //!
-//! Every edge is a pair of half-edges, one for each side, that run in opposite directions. A half-edge
-//! stores the next half-edge around its face, its origin vertex, and its face:
+//! Every edge is a pair of half-edges that run in opposite directions, one on each side of the edge. A half-edge stores
+//! the next half-edge around its face, its origin vertex, and its face:
 //!
 //! ```text
 //!              c
@@ -21,16 +21,17 @@
 //!
 //! [`Mesh::defects`] lists every broken invariant, with the element that breaks it:
 //!
-//! 1. Arrays that belong together have the same length, and the number of half-edges is even.
+//! 1. All arrays with one entry for each element of the same kind have the same length. The number of half-edges is
+//!    even.
 //! 2. Every stored id belongs to an element that was not removed.
-//! 3. `next` is a permutation of the half-edges. The next half-edge lies on the same face (or around the same
-//!    hole), and starts where the half-edge ends: `origin(next(h)) == target(h)`.
+//! 3. `next` is a permutation of the half-edges. The half-edge `next(h)` lies on the same face as `h` (or around the
+//!    same hole), and starts where `h` ends: `origin(next(h)) == target(h)`.
 //! 4. The two ends of an edge are different vertices, and each edge has a face on at least one side. Both
 //!    halves of an edge always exist; on the boundary `face(h)` is `None`.
-//! 5. A face has at least three corners, and its half-edges form one loop through its
-//!    [`face_half_edge`](Mesh::face_half_edge).
-//! 6. The [`vertex_half_edge`](Mesh::vertex_half_edge) of a vertex is an outgoing half-edge of that vertex. On
-//!    the boundary, it is the outgoing half-edge without a face. Only an isolated vertex has no half-edge.
+//! 5. A face has at least three corners. Its half-edges form one loop, which contains the
+//!    [`face_half_edge`](Mesh::face_half_edge) of the face.
+//! 6. The [`vertex_half_edge`](Mesh::vertex_half_edge) of a vertex is an outgoing half-edge of that vertex. At a
+//!    boundary vertex, this half-edge has no face. Only an isolated vertex has no half-edge.
 //! 7. The faces at a vertex form one connected fan with at most one gap: walking around the vertex reaches
 //!    all of its outgoing half-edges.
 //! 8. Positions are finite.
@@ -38,7 +39,7 @@
 //!
 //! # Editing
 //!
-//! Local edits first check, then change the mesh, so an `Err` means that the mesh is unchanged.
+//! A local edit checks whether it is possible before it changes the mesh. If it returns `Err`, the mesh is unchanged.
 //!
 //! | on | edits |
 //! | --- | --- |

@@ -14,7 +14,8 @@ pub fn angle_between(a: DVec3, b: DVec3) -> f64 {
     libm::atan2(a.cross(b).length(), a.dot(b) + 0.0)
 }
 
-/// Returns the length of a vector. Squares of components cannot overflow or underflow.
+/// Returns the length of a vector. A vector with very small or very large components is scaled first, so that the
+/// squares of the components do not overflow and the length does not underflow.
 fn length(v: DVec3) -> f64 {
     match ordinary(v) {
         (v, 0) => v.length(),
@@ -23,9 +24,9 @@ fn length(v: DVec3) -> f64 {
 }
 
 /// Scales a vector by a power of two, so that squares of its components cannot overflow and its length does not
-/// underflow. Returns the scaled vector and the exponent of the power of two by which the scaled vector must be
-/// multiplied to restore the vector. If the largest absolute value of a component is zero, not finite, or neither very
-/// small nor very large, the vector is returned unchanged, with the exponent 0.
+/// underflow. Returns the scaled vector and an exponent k: the original vector is the scaled vector times 2ᵏ. If the
+/// largest absolute value of a component is zero, not finite, or neither very small nor very large, the vector is
+/// returned unchanged, with the exponent 0.
 fn ordinary(v: DVec3) -> (DVec3, i32) {
     let largest = v.abs().max_element();
     if (1e-70..1e70).contains(&largest) || largest == 0.0 || !largest.is_finite() {

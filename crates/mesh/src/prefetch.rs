@@ -13,9 +13,9 @@ use crate::{EdgeId, HalfEdgeId, Mesh};
 const STEPS: [usize; 4] = [32, 24, 16, 8];
 
 impl Mesh {
-    /// Asks the processor to prefetch the memory that later edits will use: the edits of the edges after index `at`
-    /// of `edges`. The call is only a hint: the mesh does not change. `edges` may contain ids of elements that are
-    /// dead or do not exist.
+    /// Asks the processor to prefetch the memory that later edits will use, if these edit the edges after index `at` of
+    /// `edges`, in order. The call is only a hint: the mesh does not change. `edges` may contain ids of elements that
+    /// are dead or do not exist.
     ///
     /// # Examples
     ///

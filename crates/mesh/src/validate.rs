@@ -42,9 +42,7 @@ pub enum Defect {
     #[error("{0} has fewer than three corners")]
     FewCorners(FaceId),
     /// The half-edge stored at a face lies on a different face, or the half-edges of the face form several loops.
-    #[error(
-        "the half-edge stored at {0} does not lead around a single loop of all half-edges of {0}"
-    )]
+    #[error("the half-edges of {0} do not form one loop that contains the half-edge stored at {0}")]
     FaceHalfEdge(FaceId),
     /// The half-edge stored at a vertex leaves a different vertex, or a vertex with edges stores no half-edge.
     #[error("the half-edge stored at {0} is missing or does not leave {0}")]

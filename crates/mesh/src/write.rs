@@ -124,10 +124,11 @@ impl Mesh {
         });
     }
 
-    /// Updates the values of corner `to` when an edge at its vertex collapses to the point at `t`. `sides` has,
-    /// for the face on each side of the edge, the corners of the face at both ends of the edge. Corner `to` is at
-    /// end `end` of the edge (0 or 1). If `to` has the same value as the corner of one side at this end,
-    /// `to` gets the interpolated value of that side. `to` must not be one of the corners in `sides`.
+    /// Updates the values of corner `to` when an edge at its vertex collapses to the point at `t` (0 at the first end
+    /// of the edge, 1 at the second). For each side of the edge that has a face, `sides` has the two corners of this
+    /// face at the ends of the edge. Corner `to` is at end `end` of the edge (0 or 1). If `to` has the same value as
+    /// the corner of one side at this end, `to` gets the interpolated value of that side. `to` must not be one of the
+    /// corners in `sides`.
     pub(crate) fn follow_values(
         &mut self,
         sides: [Option<[HalfEdgeId; 2]>; 2],

@@ -1,4 +1,4 @@
-//! A store whose writing stops when a run is cancelled.
+//! A store whose writing stops when a run is canceled.
 
 use std::fmt;
 use std::io::{self, Write};
@@ -10,7 +10,7 @@ use store::{Entry, NewFile, Store, StoreError};
 /// The maximum number of bytes that are written between two checks for cancellation.
 const PIECE: usize = 1 << 20;
 
-/// A store that reports progress while files are written. If the run is cancelled, writing fails.
+/// A store that reports progress while files are written. If the run is canceled, writing fails.
 pub struct CancellableStore<'a> {
     store: &'a dyn Store,
     progress: &'a dyn Progress,

@@ -1,6 +1,7 @@
 //! Serialization of large types that many crates use.
 
-/// Implements `Deserialize` and `Serialize` for a type whose derives have `#[serde(remote = "Self")]`.
+/// Implements `Deserialize` and `Serialize` for a type that derives them with the attribute
+/// `#[serde(remote = "Self")]`.
 ///
 /// Derived code is generic over the format, so it would be compiled again in every crate with a step that has a field
 /// of this type. These implementations call the derived code through trait objects, so it is compiled only once, in

@@ -31,7 +31,7 @@ pub struct Context<'a> {
 }
 
 impl<'a> Context<'a> {
-    /// Creates a context without a choice of objects and without a memory budget.
+    /// Creates a context for a step without `on:`, with an unlimited memory budget.
     pub fn new(progress: &'a dyn Progress, files: &'a Files) -> Self {
         Self {
             progress,
@@ -57,8 +57,8 @@ impl<'a> Context<'a> {
     }
 
     /// Sets the object on which selections are evaluated. Stores the materials of this object, and the other objects
-    /// for [`other_mesh`](Self::other_mesh). Until [`clear_object`](Self::clear_object) is called, the meshes of the
-    /// other objects are shared.
+    /// for [`other_mesh`](Self::other_mesh). Until [`clear_object`](Self::clear_object) is called, the context shares
+    /// the meshes of the other objects with the scene.
     pub fn set_object(&mut self, scene: &Scene, name: &str) {
         let (mut materials, mut others) = (Vec::new(), Vec::new());
         for object in scene.objects() {

@@ -18,8 +18,8 @@ pub enum OnRefusal {
 }
 
 impl OnRefusal {
-    /// Returns the planned number of edited elements: all `selected` elements, or any number of these elements if
-    /// refusals are skipped.
+    /// Returns the planned number of edited elements: the number of `selected` elements or, if refusals are skipped,
+    /// from 0 to this number.
     #[must_use]
     pub fn done(self, selected: Range) -> Range {
         match self {

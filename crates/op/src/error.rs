@@ -52,7 +52,8 @@ pub enum Refusal {
     /// The elements do not have the relation that the edit needs. For example, two vertices are not corners of a common
     /// face, or an element is given twice.
     WrongPlace,
-    /// An element, tag, attribute, material or path that the step needs does not exist, or no longer exists.
+    /// An element, tag, attribute, material or path along edges that the step needs does not exist, or no longer
+    /// exists.
     Missing,
     /// The number of selected elements or parts differs from the expected number.
     Expectation,

@@ -29,7 +29,7 @@ pub enum FileError {
     NoName(String),
     /// A placeholder in the path is not known.
     #[error(
-        "unknown placeholder {{{0}}} in \"{1}\"; known placeholders, which stand for file names in path parameters: {2}"
+        "unknown placeholder {{{0}}} in \"{1}\"; known placeholders, which stand for the file names of path parameters: {2}"
     )]
     Placeholder(String, String, String),
     /// The path leads out of the output folder through a symbolic link.
@@ -293,7 +293,7 @@ mod tests {
         );
         assert_eq!(
             files().to_write("{mdel}.obj").unwrap_err().to_string(),
-            "unknown placeholder {mdel} in \"{mdel}.obj\"; known placeholders, which stand for file names in path parameters: {model.stem}"
+            "unknown placeholder {mdel} in \"{mdel}.obj\"; known placeholders, which stand for the file names of path parameters: {model.stem}"
         );
     }
 

@@ -37,7 +37,7 @@ pub trait MeshOperation:
     const DONE: &'static str = "";
 
     /// Returns the names of other objects whose meshes the operation reads with [`Context::other_mesh`], each with the
-    /// parameter that names it. Without `on:`, a step does not act on these objects.
+    /// name of the parameter that contains it. Without `on:`, a step does not act on these objects.
     fn reads(&self) -> Vec<(&str, &'static str)> {
         Vec::new()
     }
@@ -58,7 +58,7 @@ pub trait MeshOperation:
     /// method runs before any geometry exists and must be fast.
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem>;
 
-    /// Changes the mesh. The mesh [is dense](Mesh::is_dense): ids are indices of its arrays, such as `positions()`.
+    /// Changes the mesh. The mesh [is dense](Mesh::is_dense): ids are indices into its arrays, such as `positions()`.
     /// Calls [`Context::advance`] before its first change. An operation that computes a new mesh stores it with
     /// [`Mesh::replace`].
     ///

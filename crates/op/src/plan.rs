@@ -127,7 +127,7 @@ impl Range {
     }
 }
 
-/// The plan of an attribute.
+/// What is known about an attribute before anything runs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PlannedAttribute {
     /// The domain.
@@ -157,7 +157,7 @@ pub struct MeshPlan {
     pub materials: Option<Vec<String>>,
 }
 
-/// The size of one attribute value, in bytes: from 1 for a tag to 32.
+/// The size of one attribute value, in bytes: from 1 (a tag) to 32 (a vector of four numbers).
 const ATTRIBUTE_VALUE_BYTES: Range = Range { min: 1, max: 32 };
 
 impl MeshPlan {
@@ -219,7 +219,8 @@ impl MeshPlan {
         self.degrees == Range::exactly(3)
     }
 
-    /// Returns the number of corners of `faces` faces: at most two for each edge of the mesh.
+    /// Returns the number of corners of some of the faces: at most two for each edge of the mesh. `faces` is the number
+    /// of these faces.
     pub fn corners_of(&self, faces: Range) -> Range {
         faces.times(self.degrees).capped(self.edges.by(2).max)
     }
@@ -257,7 +258,8 @@ impl MeshPlan {
             .retain(|a| a.domain != domain || a.name != name);
     }
 
-    /// Removes the normals and tangents of vertices and corners, and the normals of morph targets. Operations that change the shape use this method.
+    /// Removes the normals and tangents of vertices and corners, and the normals of morph targets. Operations that
+    /// change the shape use this method.
     pub fn drop_normals(&mut self) {
         self.drop_attribute(Domain::Vertex, VERTEX_NORMAL.name);
         self.drop_attribute(Domain::Corner, CORNER_NORMAL.name);
@@ -377,8 +379,8 @@ pub struct Plan {
     /// The index of each object by its name. The map is empty between [`objects_mut`](Self::objects_mut) and the next
     /// [`insert`](Self::insert).
     index_by_name: HashMap<String, usize>,
-    /// For each name to which [`free_name`](Self::free_name) added a number, a number below which all numbers are
-    /// taken. The map is empty whenever the index is empty.
+    /// For each name that was passed to [`free_name`](Self::free_name), the last number that `free_name` chose for this
+    /// name. All lower numbers are taken. The map is cleared together with `index_by_name`.
     taken_numbers: HashMap<String, u64>,
     is_edited: bool,
     /// The files that the steps so far read.
@@ -455,7 +457,7 @@ impl Plan {
     /// Returns the first name that no object has among `name`, `name.2`, `name.3` and so on.
     pub fn free_name(&mut self, name: &str) -> String {
         self.fill_index();
-        // Objects cannot be removed without clearing the map, so the numbers that were taken are still taken.
+        // Removing an object clears the map, so all numbers below the number in the map are still taken.
         let first = self.taken_numbers.get(name).copied().unwrap_or(1);
         let is_free = |(_, name): &(u64, String)| !self.index_by_name.contains_key(name);
         let (number, free) = numbered(name, first)
@@ -514,7 +516,7 @@ impl Plan {
     }
 
     /// Returns the nodes that place the objects, with their skins and animations. Scales, rotations and the hierarchy
-    /// are those that the scene will have. Translations can differ if they depend on points, and
+    /// are those that the scene will have. Translations that depend on points can differ from those of the scene.
     /// [`Graph::arrays`] is incomplete.
     pub fn graph(&self) -> &Graph {
         &self.graph

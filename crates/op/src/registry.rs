@@ -76,8 +76,8 @@ impl Entry {
         (self.schema_in)(generator).to_value()
     }
 
-    /// Deserializes a step `Name(levels: 2)` or only its parameters `(levels: 2)`. The name is not checked. `Name` without
-    /// parentheses is the same as `Name()`.
+    /// Deserializes a step `Name(levels: 2)` or only its parameters `(levels: 2)`. The name is not checked. `Name`
+    /// without parentheses is the same as `Name()`.
     ///
     /// # Errors
     ///

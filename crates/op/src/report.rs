@@ -85,8 +85,8 @@ impl fmt::Display for Loss {
 }
 
 impl Loss {
-    /// Creates a loss that occurred while a file was read. `code` names the lost data. `message` describes the loss and
-    /// names the file.
+    /// Creates a loss that occurred while a file was read. `code` is used as the code of the loss and as the name of
+    /// the lost data. `message` describes the loss and names the file.
     pub fn reading(file: &str, code: &str, count: u64, message: impl Into<String>) -> Self {
         Self {
             code: code.to_owned(),

@@ -24,7 +24,7 @@ impl Statistics {
         let n = finite().count();
         let share = |i: usize| {
             let x = values[i];
-            // Each value is divided before the sum, so that the sum of large values is finite.
+            // Each value is divided by n before it is added, so that the mean of large values is finite.
             if x.is_finite() { x / n as f64 } else { 0.0 }
         };
         Some(Self {

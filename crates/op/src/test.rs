@@ -60,7 +60,7 @@ pub fn run(operation: &impl Operation, scene: &mut Scene) -> Result<Report, OpEr
     operation.apply(scene, &mut Context::new(&NoProgress, &files))
 }
 
-/// Returns the mesh that a source creates in an empty scene.
+/// Returns the mesh that a source (an operation that creates an object) creates in an empty scene.
 ///
 /// # Panics
 ///

@@ -149,7 +149,7 @@ impl Array {
     )]
     #[expect(
         clippy::needless_pass_by_value,
-        reason = "the signature is that of PyO3"
+        reason = "PyO3 requires this signature"
     )]
     // SAFETY: `PyBuffer_FillInfo` stores the pointer and a reference to `slf` in `view`, and refuses requests for
     // writable memory. The bytes belong to `slf`, which is frozen, or to a mesh that `slf` shares and never changes, so

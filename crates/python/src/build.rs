@@ -11,9 +11,10 @@ use crate::array::{Array, values_from};
 use crate::interrupt::run;
 use crate::mesh_views::{Mesh, number};
 
-/// Builds a mesh from positions (`float64`, three for each vertex), the start of the corners of each face and their end
-/// (`uint32`), and the vertex of each corner (`uint32`). Returns the mesh, the repairs in words, for each vertex of the
-/// mesh the index of its position, and for each face the index of its polygon.
+/// Builds a mesh from three arrays: the positions (`float64`, three numbers for each vertex); the index of the first
+/// corner of each face, and at the end the number of all corners (`uint32`); and the vertex of each corner (`uint32`).
+/// Returns the mesh, a description of each repair, the index of the position that each vertex has, and the index of the
+/// polygon that each face comes from.
 #[pyfunction]
 pub(crate) fn from_arrays(
     py: Python<'_>,

@@ -47,7 +47,7 @@ impl Editor {
         Self(Mutex::new((*mesh.0).clone()))
     }
 
-    /// The mesh as edited so far, without gaps in its numbering.
+    /// The mesh as edited so far, with new ids, so that the ids have no gaps.
     fn mesh(&self) -> Mesh {
         let mut mesh = self
             .0
@@ -58,7 +58,7 @@ impl Editor {
         Mesh(Arc::new(mesh))
     }
 
-    /// The numbers of vertices, edges and faces.
+    /// The number of vertices, of edges and of faces.
     fn counts(&self) -> (usize, usize, usize) {
         let mesh = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         (mesh.n_vertices(), mesh.n_edges(), mesh.n_faces())

@@ -94,7 +94,7 @@ pub(crate) fn run<T: Send>(
     }
 }
 
-/// Reports the end of the work to the calling thread when dropped, so that a panic ends the waiting, too.
+/// Reports the end of the work to the calling thread when dropped, so that the thread stops waiting even after a panic.
 struct End<'a>(&'a AtomicBool, thread::Thread);
 
 impl Drop for End<'_> {

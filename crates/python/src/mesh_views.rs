@@ -50,7 +50,7 @@ fn corner_half_edges(mesh: &Kernel) -> Vec<HalfEdgeId> {
 
 #[pymethods]
 impl Mesh {
-    /// The numbers of vertices, edges and faces.
+    /// The number of vertices, of edges and of faces.
     fn counts(&self) -> (usize, usize, usize) {
         (self.0.n_vertices(), self.0.n_edges(), self.0.n_faces())
     }
@@ -162,7 +162,7 @@ impl Mesh {
             |i: usize| (0..values.n_components()).all(|c| values.component(i, c).is_finite());
         if let Some(bad) = (0..values.len()).find(|&i| !is_finite(i)) {
             return Err(PyValueError::new_err(format!(
-                "value {bad} of {name:?} is not finite"
+                "{name:?}: the value at index {bad} is not finite"
             )));
         }
         let changed = run(py, None, |_| {
@@ -270,7 +270,7 @@ fn plural(domain: Domain) -> &'static str {
     }
 }
 
-/// Returns the number of an element.
+/// Returns the id of an element as a number.
 pub(crate) fn number(id: impl Id) -> u32 {
     u32::try_from(id.index()).expect("ids have 32 bits")
 }

@@ -147,8 +147,8 @@ impl Scene {
             .ok_or_else(|| PyTypeError::new_err(format!("{name:?} is {kind}, expected a mesh")))
     }
 
-    /// The numbers of the elements of a mesh that a selection selects. Without a domain, the selection must be one for
-    /// a single domain.
+    /// The ids of the elements of a mesh that a selection matches. If no domain is given, the selection must be valid
+    /// for only one domain.
     fn select(
         &self,
         py: Python<'_>,

@@ -246,7 +246,7 @@ def test_2000_files_on_ray_with_a_killed_worker(folder: Path) -> None:
 
 
 def test_tasks_state_their_memory(folder: Path) -> None:
-    """The estimate grows with the mesh, and a task that needs more memory than every worker has still runs."""
+    """The estimate grows with the mesh. A task runs even if it needs more memory than any worker has."""
     distributed = pytest.importorskip("distributed")
     tasks = meshwright._batch.tasks
     arguments = [str(ball_file(folder)), "--out", "out", "--set"]

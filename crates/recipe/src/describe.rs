@@ -11,7 +11,7 @@ pub struct FieldDoc {
     pub name: String,
     /// The kind of value that the parameter takes, with its range.
     pub kind: String,
-    /// The default as RON, or `none` if the parameter is optional and has no default. `None` if it is required.
+    /// `None` if the parameter is required. Otherwise the default as RON, or the text `none` if there is no default.
     pub default: Option<String>,
     /// The description of the parameter.
     pub doc: String,
@@ -42,8 +42,8 @@ pub fn fields_in(root: &Json, part: &Json) -> Vec<FieldDoc> {
     fields_of(&Schema::new(root, part), true)
 }
 
-/// Returns the fields of a schema. The variants of the types of the fields are included only if `with_variants` is set.
-/// Variants cannot be included at every level, because selections contain selections.
+/// Returns the fields of a schema. If `with_variants` is set, each field whose type is an enumeration includes the
+/// variants of that type. Variants cannot be included at every level, because selections contain selections.
 fn fields_of(schema: &Schema, with_variants: bool) -> Vec<FieldDoc> {
     let required: Vec<&str> = schema.required().collect();
     let described = |name: &str| {
@@ -112,7 +112,7 @@ pub fn expectations() -> Vec<VariantDoc> {
     variants(&Schema::root(crate::schema::expectation()))
 }
 
-/// Returns the types of selections, and the region that some of them use.
+/// Returns the types of selections, and the type of the regions that some selections use.
 pub fn selections() -> Vec<TypeDoc> {
     let mut all = types(crate::schema::expectation());
     all.retain(TypeDoc::is_selection);
@@ -164,7 +164,7 @@ fn range(schema: &Schema) -> String {
     if let (Some(lowest), Some(highest)) = (lowest, &highest) {
         return format!(" from {} to {highest}", number(lowest));
     }
-    // The minimum 0 of an unsigned integer is not shown alone.
+    // The minimum 0 of an unsigned integer is not shown if there is no maximum.
     let is_number = schema.own("type").is_some_and(|name| name == "number");
     let lowest = lowest.filter(|x| is_number || x.as_u64() != Some(0));
     let is_inclusive = lowest.is_some() || highest.is_some();
@@ -245,8 +245,8 @@ fn default_of(schema: &Schema, value: &Json) -> String {
     }
 }
 
-/// Formats a JSON value as RON. An object with one key, which is capitalized, is a variant, and an array of 1 to 4
-/// numbers is a tuple. Fields without a value are left out.
+/// Formats a JSON value as RON. An object whose only key is capitalized is written as a variant. An array of 1 to 4
+/// numbers is written as a tuple. Fields without a value are left out.
 fn to_ron(value: &Json) -> String {
     match value {
         Json::Null => "none".to_owned(),

@@ -59,7 +59,7 @@ pub struct Jobs<B, S, W> {
     pub count: usize,
     /// Returns the estimated peak memory of a job, in bytes.
     pub bytes: B,
-    /// Returns whether no more jobs should start.
+    /// Returns `true` if no more jobs should start.
     pub stop: S,
     /// Runs a job.
     pub work: W,
@@ -69,9 +69,9 @@ impl<B, S, W> Jobs<B, S, W> {
     /// Runs the jobs. `ended` is called on the calling thread with all jobs that ended since the last call, in the
     /// order in which they ended. Every job is passed to `ended` exactly once.
     ///
-    /// Jobs start in the order of their indices. A job starts when fewer than the maximum number of jobs run, and its
-    /// bytes and the bytes of the running jobs together are within the budget. A job that exceeds the budget counts as
-    /// the whole budget. A panic ends only the job that panicked.
+    /// Jobs start in the order of their indices. A job starts if the number of running jobs is below the maximum, and
+    /// if the bytes of the job and of the running jobs together are within the budget. A job that needs more bytes than
+    /// the budget counts as if it needed exactly the budget. A panic ends only the job that panicked.
     ///
     /// This method blocks, so it must not be called from a thread of a rayon pool.
     ///
@@ -222,8 +222,8 @@ where
         })
     }
 
-    /// Returns the bytes of the next job, if there is one and the limits allow it to start. A job that exceeds the
-    /// budget counts as the whole budget.
+    /// Returns the bytes of the next job, if there is one and the limits allow it to start. A job that needs more bytes
+    /// than the budget counts as if it needed exactly the budget.
     fn admissible(&self, state: &State) -> Option<u64> {
         if state.next >= self.jobs.count || state.running >= self.max_running {
             return None;

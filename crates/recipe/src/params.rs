@@ -64,7 +64,7 @@ pub enum Param {
     },
     /// The path of an input file. The default is relative to the recipe's folder; a path set on the command line is
     /// relative to the working directory. Output paths can contain `{p.stem}` and `{p.name}`, where `p` is the name of
-    /// the parameter. They stand for the file name without and with its extension.
+    /// the parameter. These placeholders stand for the file name without and with its extension.
     Path {
         /// The default value.
         default: String,

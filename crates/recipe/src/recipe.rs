@@ -205,7 +205,7 @@ pub struct RecipeExpectation {
 }
 
 impl Recipe {
-    /// Makes losses errors in all steps with `on_loss: Warn`, which is the default.
+    /// Changes `on_loss: Warn`, which is the default, to `on_loss: Error` in all steps.
     pub fn forbid_losses(&mut self) {
         for step in &mut self.steps {
             if step.on_loss == OnLoss::Warn {
@@ -256,7 +256,7 @@ impl Recipe {
         self.scopes.get(scope).map_or(0, |scope| scope.source)
     }
 
-    /// Sets the text of a diagnostic to the text of a scope, and its calls to the calls that led to the scope.
+    /// Returns the diagnostic with the location of a scope: the index of its text, and the calls that led to the scope.
     pub fn located(&self, diagnostic: Diagnostic, scope: usize) -> Diagnostic {
         located(diagnostic, scope, &self.scopes)
     }
@@ -289,7 +289,7 @@ impl Recipe {
     }
 }
 
-/// Sets the text of a diagnostic to the text of a scope, and its calls to the calls that led to the scope.
+/// Returns the diagnostic with the location of a scope: the index of its text, and the calls that led to the scope.
 pub(crate) fn located(mut diagnostic: Diagnostic, scope: usize, scopes: &[Scope]) -> Diagnostic {
     let Some(mut at) = scopes.get(scope) else {
         return diagnostic;

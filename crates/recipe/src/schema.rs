@@ -101,7 +101,7 @@ fn flow_fields(kind: Kind, step: &Json) -> Json {
                 "with": {
                     "type": "object",
                     "additionalProperties": {},
-                    "description": "Values for parameters of the called recipe. The others keep their defaults.",
+                    "description": "Values for parameters of the called recipe. The other parameters keep their defaults.",
                 },
             }),
             json!(["recipe"]),

@@ -42,8 +42,8 @@ pub fn is_alike(a: &str, b: &str) -> bool {
     words(a) == words(b)
 }
 
-/// Returns the smallest scene found for which `fails` returns true. `fails` must return true for `scene`. `fails` is
-/// called at most `tries` times.
+/// Returns the smallest scene that was found for which `fails` returns true. `fails` must return true for `scene`.
+/// `fails` is called at most `tries` times.
 ///
 /// # Errors
 ///

@@ -120,7 +120,7 @@ pub(crate) fn below(path: &Path, folder: &Path) -> Option<PathBuf> {
     let absolute = if folder.has_root() {
         folder.to_owned()
     } else {
-        // The folder of a file that is given by its bare name is "".
+        // If a file is given only by its name, its folder is "".
         std::path::absolute(Path::new(".").join(folder)).ok()?
     };
     path.strip_prefix(absolute).ok().map(Path::to_owned)

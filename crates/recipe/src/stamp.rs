@@ -40,7 +40,7 @@ pub struct Run {
     /// The parameters that were set, and their values as text. Paths are shown as in [`inputs`](Self::inputs).
     #[serde(default, skip_serializing_if = "Pairs::is_empty")]
     pub set: Pairs,
-    /// The files that were read, by their paths relative to the recipe's folder, and their digests. See [`shown`].
+    /// The digest of each file that was read, by the path of the file relative to the recipe's folder. See [`shown`].
     #[serde(default, skip_serializing_if = "Pairs::is_empty")]
     pub inputs: Pairs,
 }
@@ -175,7 +175,7 @@ mod tests {
         let input = elsewhere.path().join("a.bez");
         std::fs::write(&input, "0").unwrap();
         let here = std::path::absolute("sub/b.bez").unwrap();
-        // The folder of a recipe that is given by its bare name is "".
+        // If a recipe is given only by its file name, its folder is "".
         for folder in ["", ".", "sub", "/nowhere"].map(Path::new) {
             assert_eq!(shown(&input, folder), "a.bez", "{folder:?}");
         }

@@ -19,7 +19,7 @@ use crate::{Diagnostic, Forecast, Outcome, Reader, Reading, Settings, Silent};
 /// A reader that reads objects with a function and cannot compare pictures.
 pub(crate) struct Objects<F>(F);
 
-/// Creates the reader from a closure. The bound lets the compiler infer the types of its parameters.
+/// Creates the reader from a closure. The trait bound lets the compiler infer the types of the closure's parameters.
 pub(crate) fn objects<F>(read: F) -> Objects<F>
 where
     F: Fn(&Path, &Files) -> Result<Vec<Object>, String> + Sync,

@@ -16,13 +16,13 @@ const BOOLEANS: &[&str] = &[
     "union",
 ];
 
-/// Returns the help text of an error about an unknown operation. The text suggests at most three operations: first
-/// operations with a similar name, then operations whose list of words contains a word of the name. If there are
-/// operations of the second kind, only one operation with a similar name is suggested. If there are operations of
-/// neither kind, the text suggests operations whose names share a word with the name. If there are no such operations
-/// either, the text names the command that lists all operations.
+/// Returns the help text of an error about the unknown operation `name`. The text suggests at most three operations:
+/// first operations with a similar name, then other operations whose [`words`](op::Entry::words) contain a word of
+/// `name`. If there are operations of the second kind, only the operation with the most similar name is suggested
+/// before them. If there are operations of neither kind, the text suggests operations whose names share a word with
+/// `name`. If there are no such operations either, the text names the command that lists all operations.
 ///
-/// If the name contains a word for a boolean operation, the text instead says that there are no boolean operations, and
+/// If `name` contains a word for a boolean operation, the text instead says that there are no boolean operations, and
 /// names other operations that may help.
 pub fn suggest_operations(name: &str, registry: &Registry) -> String {
     let entries = registry.entries();

@@ -99,8 +99,8 @@ pub fn update(recipe: &Recipe, outcome: &Outcome) -> Update {
     }
 }
 
-/// Returns the expectations of the text that do not hold. For each expectation, the result contains a list with one
-/// entry for each repetition of its step. The entry is `None` if the expectation holds in that repetition.
+/// For each written expectation that does not hold in at least one repetition of its step, returns a list with one
+/// entry for each repetition. The entry is `None` if the expectation holds in that repetition.
 fn unmet_in_text<'o>(
     recipe: &Recipe,
     outcome: &'o Outcome,

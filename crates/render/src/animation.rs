@@ -48,8 +48,8 @@ pub fn to_apng(
 
 /// Encodes images as a GIF file, with one [`Palette`] for all images.
 ///
-/// Pixels that are less than half opaque become transparent, all others opaque. `comment` is a string that is stored
-/// in the file, for example to record its provenance.
+/// Pixels that are less than half opaque become transparent, all others opaque. `comment` is a string that is stored in
+/// the file, for example to record its provenance.
 ///
 /// # Errors
 ///

@@ -43,8 +43,8 @@ pub enum Camera {
         /// The axis that points upwards.
         #[serde(default)]
         up: Up,
-        /// The projection. With `Orthographic`, the picture is as high, in scene units, as a perspective picture of 30
-        /// degrees at the distance of `to`.
+        /// The projection. With `Orthographic`, the picture shows the same height, in scene units, that a perspective
+        /// picture with a field of view of 30 degrees shows at the distance of `to`.
         #[serde(default)]
         projection: Projection,
     },
@@ -64,8 +64,8 @@ impl Default for Camera {
 
 impl Camera {
     /// Returns the camera rotated about the upward axis through the point that the camera looks at. A positive angle
-    /// moves the camera to the right. [`Self::Fit`] also becomes [steady](Self::Fit::steady). `points` are the points of
-    /// the scene, which determine the upward axis if it is [`Up::Auto`].
+    /// moves the camera to the right. [`Self::Fit`] also becomes [steady](Self::Fit::steady). `points` are the points
+    /// of the scene, which determine the upward axis if it is [`Up::Auto`].
     #[must_use]
     pub fn turned(mut self, degrees: f64, points: &impl Fn(&mut dyn FnMut(DVec3))) -> Self {
         match &mut self {
@@ -144,8 +144,8 @@ fn margin() -> f64 {
     0.05
 }
 
-/// The side from which the camera looks. If y points upwards, the front is the side of large z, as in glTF. If z points
-/// upwards, the front is the side of small y, as on a map.
+/// The side from which the camera looks. If y points upwards, the front is the side where z is large, as in glTF. If z
+/// points upwards, the front is the side where y is small, as on a map.
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Side {
@@ -153,9 +153,9 @@ pub enum Side {
     Front,
     /// From the back.
     Back,
-    /// From the side of small x.
+    /// From the side where x is small.
     Left,
-    /// From the side of large x.
+    /// From the side where x is large.
     Right,
     /// From above. The front is at the bottom of the picture.
     Top,
@@ -391,8 +391,8 @@ impl View {
     /// Returns a number that is at least 0 if the point `v`, in [camera coordinates](Self::camera_space), is inside of
     /// a clipping plane. The number is linear in `v`.
     ///
-    /// Plane 0 is the near plane. The other four planes are `far` pixels to the left, to the right, above and below the
-    /// upper left corner of the picture.
+    /// Plane 0 is the near plane. The other four planes are at a distance of `far` pixels from the upper left corner of
+    /// the picture: to the left, to the right, above and below.
     pub(crate) fn clip_distance(&self, plane: usize, far: f64, v: DVec3) -> f64 {
         let distance = if self.is_perspective { v.z } else { 1.0 };
         let (x, y) = (self.scale * v.x, -self.scale * v.y);

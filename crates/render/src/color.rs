@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 #[serde(try_from = "String", into = "String")]
 pub struct Color(pub [u8; 4]);
 
-/// The named colors. Most color-blind people can distinguish those from `orange` to `pink`: Okabe and Ito, "Color
+/// The named colors. Most color-blind people can distinguish the colors from `orange` to `pink`: Okabe and Ito, "Color
 /// Universal Design", 2008.
 pub const NAMES: [(&str, [u8; 3]); 11] = [
     ("black", [0, 0, 0]),

@@ -88,7 +88,7 @@ impl ColorMap {
         mix(from, to, narrow(position - below as f64)).map(|c| byte(c / 255.0))
     }
 
-    /// Returns the sRGB color of a whole number in [`Classes`](Self::Classes). The colors repeat after eight.
+    /// Returns the sRGB color of a whole number in [`Classes`](Self::Classes). The colors repeat after eight numbers.
     pub fn class(self, class: f64) -> [u8; 3] {
         // The small offset prevents rounding from selecting the color of the previous class.
         self.srgb(class.floor().rem_euclid(8.0) / 7.0 + 1e-9)

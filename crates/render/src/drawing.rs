@@ -45,7 +45,7 @@ pub struct Part<'a> {
     pub materials: Vec<Surface>,
     /// The index in `materials` for each face. The list is empty if all faces have the first material.
     pub material_of_face: Vec<u32>,
-    /// Sets of texture coordinates of corners, with v upwards, for the textures of the materials.
+    /// The sets of texture coordinates of the corners, with v upwards, for the textures of the materials.
     pub uvs: Vec<Cow<'a, [DVec2]>>,
     /// The color of the back of faces. If `None`, the back of a face has the color of the front.
     pub back: Option<[f32; 3]>,
@@ -56,13 +56,13 @@ pub struct Part<'a> {
 pub struct Surface {
     /// Linear red, green, blue and alpha, from 0 to 1. Alpha is the fraction of the samples that the surface covers.
     pub color: [f32; 4],
-    /// Multiplies the color, including alpha.
+    /// The texture. The color, including alpha, is multiplied by the texture.
     pub texture: Option<Arc<Texture>>,
     /// The index in [`Part::uvs`] of the texture coordinates.
     pub uv_set: usize,
     /// Whether the color is shown without lighting.
     pub unlit: bool,
-    /// The width of highlights, from 0 (a mirror) to 1 (matte).
+    /// The width of specular highlights, from 0 (a mirror) to 1 (matte).
     pub roughness: f32,
     /// Linear red, green and blue of the emitted light.
     pub emissive: [f32; 3],

@@ -28,7 +28,7 @@ pub enum PictureError {
         /// The memory budget of the picture, in bytes.
         budget: u64,
     },
-    /// A parameter of the camera is out of range, or its direction is undefined.
+    /// A parameter of the camera is out of range, or the direction of the camera is undefined.
     #[error("{0}")]
     Camera(String),
     /// A number of the style is out of range, or the style or an overlay does not match the scene.

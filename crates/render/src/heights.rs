@@ -18,8 +18,8 @@ impl Heights {
     /// The maximum number of bytes for each pixel while an image is decoded.
     pub const DECODING_BYTES: u64 = 12;
 
-    /// Decodes a PNG or JPEG file. A height is the mean of red, green and blue as they are stored in the file; alpha has no
-    /// effect. Gray PNG files with 16 bits keep their precision.
+    /// Decodes a PNG or JPEG file. A height is the mean of red, green and blue as they are stored in the file; alpha
+    /// has no effect. Gray PNG files with 16 bits keep their precision.
     ///
     /// # Errors
     ///
@@ -50,8 +50,8 @@ impl Heights {
     }
 
     /// Returns the height at texture coordinates with v upwards, interpolated between the centers of the four nearest
-    /// pixels. The image is repeated outside of 0 to 1, but not interpolated across its border. Returns 0 for coordinates
-    /// that are not finite.
+    /// pixels. The image is repeated outside of 0 to 1, but not interpolated across its border. Returns 0 for
+    /// coordinates that are not finite.
     pub fn at(&self, uv: DVec2) -> f64 {
         if !uv.is_finite() {
             return 0.0;
@@ -82,8 +82,8 @@ fn pixels(at: f64, n: usize) -> (usize, usize, f64) {
     (first, last.min(first + 1), at - first as f64)
 }
 
-/// Returns the samples of a gray PNG file with 16 bits: gray and alpha, with the high byte first. Returns `None` for all
-/// other files, including broken ones.
+/// Returns the samples of a gray PNG file with 16 bits: gray and alpha, with the high byte first. Returns `None` for
+/// all other files, including broken ones.
 fn gray_16(bytes: &[u8]) -> Option<(png::OutputInfo, Vec<u8>)> {
     let output = decoder(bytes).read_info().ok()?.output_color_type();
     let is_gray_16 = output == (png::ColorType::GrayscaleAlpha, png::BitDepth::Sixteen);

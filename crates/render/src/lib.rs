@@ -10,7 +10,7 @@
 //! ```
 //!
 //! [`picture`] runs all of these stages. [`build()`] converts a scene to a [`Drawing`] of triangles, lines and points.
-//! [`render`] finds the visible triangle for 16 samples per pixel, and shades in linear light.
+//! [`render`] finds the triangle that is visible at each of 16 samples per pixel, and computes colors in linear light.
 //!
 //! [`figure`] draws in the plane: constructions of curves, legends and labels. [`animation`] encodes a sequence of
 //! images.
@@ -81,8 +81,9 @@ pub use texture::{Alpha, Texture, TextureCache};
 ///
 /// # Errors
 ///
-/// [`PictureError::Budget`] if the budget is too small for the pixels, which is checked first, for the drawing and its
-/// textures (see [`build_within`]), or for rendering; and the errors of [`build()`], [`View::new`] and [`render`].
+/// [`PictureError::Budget`] if the budget is too small for the pixels, for the drawing and its textures (see
+/// [`build_within`]), or for rendering. The pixels are checked first. Also the errors of [`build()`], [`View::new`] and
+/// [`render`].
 pub fn picture(
     scene: &scene::Scene,
     camera: &Camera,

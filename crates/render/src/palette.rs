@@ -6,9 +6,9 @@ use crate::Image;
 
 /// A palette of at most 256 colors for several images.
 ///
-/// If the images have at most 256 colors, where all transparent pixels count as one color, the palette has exactly
-/// these colors. Otherwise, the colors are quantized (Dekker, "Kohonen neural networks for optimal colour
-/// quantization", 1994), and only the color that is most frequent in a sample of the pixels is always exact.
+/// All transparent pixels count as one color. If the images have at most 256 colors, the palette has exactly these
+/// colors. Otherwise, the colors are quantized (Dekker, "Kohonen neural networks for optimal colour quantization",
+/// 1994), and only the color that is most frequent in a sample of the pixels is always exact.
 #[derive(Clone, Debug)]
 pub struct Palette {
     colors: Vec<[u8; 3]>,
@@ -43,7 +43,7 @@ impl Palette {
         }
     }
 
-    /// Returns the entries, with black for the transparent one.
+    /// Returns the colors of the entries. The transparent entry is black.
     pub fn colors(&self) -> &[[u8; 3]] {
         &self.colors
     }

@@ -17,7 +17,7 @@ pub enum Shading {
     /// normals are used.
     #[default]
     Smooth,
-    /// Like `Smooth`, with highlights.
+    /// Like `Smooth`, with specular highlights.
     Phong,
     /// Like clay in a studio: the shade depends only on the direction of the normal as seen from the camera.
     Matcap,

@@ -1,7 +1,7 @@
 //! Textures with mipmaps.
 //!
-//! Where colors are averaged, transparent pixels have less weight, so that the color of invisible pixels hardly bleeds
-//! into visible ones. If alpha is ignored, all pixels have the same weight.
+//! Where colors are averaged, transparent pixels have less weight than opaque ones, so that the color of invisible
+//! pixels hardly bleeds into visible ones. If alpha is ignored, all pixels have the same weight.
 
 use std::sync::Arc;
 
@@ -23,7 +23,7 @@ pub struct Texture {
     alpha: Alpha,
 }
 
-/// A cache of decoded textures, so that a texture is decoded once for several drawings.
+/// A cache of decoded textures, so that a texture in several drawings is decoded only once.
 #[derive(Clone, Debug, Default)]
 pub struct TextureCache(Vec<(scene::Texture, Alpha, Arc<Texture>)>);
 
@@ -150,15 +150,16 @@ impl Texture {
         [self.levels[0].width, self.levels[0].height].map(side)
     }
 
-    /// Returns the position in the image of texture coordinates with v upwards. The image reaches from 0 to 1 in both
+    /// Converts texture coordinates with v upwards to a position in the image. The image reaches from 0 to 1 in both
     /// axes, and the second axis points downwards.
     pub fn position(&self, uv: DVec2) -> DVec2 {
         self.scale_and_rotate(DVec2::new(uv.x, 1.0 - uv.y)) + DVec2::from(self.transform.offset)
     }
 
-    /// Returns the image with its width and height divided by 2 to the power of `level` and rounded down, but at least 1,
-    /// as graphics cards store it. Alpha is the fraction of a pixel that the surface covers. The colors are multiplied by
-    /// alpha, so that the color of invisible pixels hardly bleeds into visible ones when pixels are interpolated.
+    /// Returns a mipmap level as graphics cards store it: the image with its width and height divided by 2 to the power
+    /// of `level` and rounded down, but at least 1. Alpha is the fraction of a pixel that the surface covers. The
+    /// colors are multiplied by alpha, so that the color of invisible pixels hardly bleeds into visible ones when
+    /// pixels are interpolated.
     pub fn level(&self, level: u32) -> Image {
         let [width, height] = self
             .size()
@@ -201,8 +202,8 @@ impl Texture {
         [r, g, b].map(|c| c / weight)
     }
 
-    /// Returns linear red, green and blue, multiplied by their weight, and the weight: the coverage of the surface, but never
-    /// 0.
+    /// Returns linear red, green and blue, multiplied by a weight, and then the weight. The weight is the coverage of
+    /// the surface, but is never 0.
     fn weighted(&self, footprint: &Footprint) -> [f32; 4] {
         footprint.interpolate(|level| {
             self.at_level(level, footprint, |[r, g, b, a]| {

@@ -1,4 +1,4 @@
-//! Tests with several drawings that rendering needs no more memory than `bytes_needed` returns.
+//! Tests that rendering needs no more memory than `bytes_needed` returns, for several drawings.
 //!
 //! This binary has only one test, because the allocations of other tests that run at the same time would also be
 //! counted.

@@ -174,8 +174,7 @@ impl Parser<'_> {
             self.value_after_colon(|| format!("`{}`", name.text))
         };
         if contents.fields.is_empty() {
-            // Most steps have one parameter. The default capacity of 4 would waste memory in recipes with millions of
-            // steps.
+            // Most steps have one parameter. The default capacity of 4 would waste memory in recipes with many steps.
             contents.fields.reserve_exact(1);
         }
         contents.fields.push(Field { name, value });

@@ -14,8 +14,7 @@ use serde_json::{Map, Value as Json};
 /// ```
 ///
 /// `(x)` without a name is a tuple with one item. Whole numbers that do not fit in 64 bits become floating-point
-/// numbers. Keys of maps that are not strings are written as in the recipe. Values that could not be read become
-/// null.
+/// numbers. Map keys that are not strings are written as in the recipe. Values that could not be read become null.
 pub fn to_json(value: &Value) -> Json {
     match &value.kind {
         ValueKind::Bool(value) => Json::Bool(*value),

@@ -5,12 +5,13 @@
 //! the same order, bit by bit, apart from removed elements of meshes.
 //!
 //! If the scene has a graph, the graph follows the objects. A scene without a graph has the same form as in the
-//! first version, which had no graphs.
+//! first version of the canonical form, which had no graphs.
 //!
-//! A material is written as its name, base color, metalness, roughness and the path of its base color texture. If other
-//! properties of the material differ from their defaults, they follow a marker ([`MORE`]), each with its name. A
-//! material without such properties has the same form as in the first version of the canonical form. Extras of a
-//! material and names of a texture follow another marker, also only if they are present.
+//! A material is written as its name, base color, metalness, roughness and the path of its base color texture. Other
+//! properties are written only if they differ from their defaults: first a marker ([`MORE`]), then each property with
+//! its name. A material whose other properties all have their defaults has the same form as in the first version of
+//! the canonical form. Extras of a material and names of a texture are also written only if they are present, after
+//! another marker.
 
 use std::fmt;
 
@@ -116,11 +117,11 @@ pub(crate) const FORM: &str = "meshwright scene 1";
 /// the length of a string. No string has this length, so the marker cannot be mistaken for a string.
 pub(crate) const MORE: u64 = u64::MAX;
 
-/// The name of a texture in the canonical form, and a function that returns its field of a material.
+/// The name of a texture in the canonical form, and a function that returns the field of a material for this texture.
 type NamedTexture = (&'static str, fn(&mut Material) -> &mut Option<Texture>);
 
 /// The textures of a material, with their names in the canonical form. The base color texture is in this list because
-/// it can have other properties than its path.
+/// it can have properties in addition to its path.
 pub(crate) const TEXTURES: [NamedTexture; 5] = [
     ("base color texture", |m| &mut m.base_color_texture),
     ("metallic roughness texture", |m| {

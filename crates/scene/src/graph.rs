@@ -69,7 +69,7 @@ pub struct Node {
     pub extras: Option<String>,
 }
 
-/// Properties of a mesh in a file that do not fit in the fields of an object.
+/// Properties that a file stores for a mesh, but that have no field in [`Object`](crate::Object).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeshLabel {
     /// The name of the mesh, which can differ from the name of the object.

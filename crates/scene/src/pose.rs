@@ -87,8 +87,8 @@ impl Pose {
 
     /// Returns the normals of the mesh and of its morph targets in this pose, before joints move them. These columns
     /// replace the columns of the same names in `attributes`. The list is empty if no normals change. If one of the old
-    /// columns is of corners, all new columns are of corners; otherwise, all are of vertices. `vertex_of` returns the
-    /// vertex of a corner.
+    /// columns has values for corners, all new columns have values for corners; otherwise, all have values for
+    /// vertices. `vertex_of` returns the vertex of a corner.
     ///
     /// The new normal is the normalized sum of the old normal and the weighted differences between the normals of the
     /// morph targets and the old normal, as in glTF 2.0, section 3.7.2.2. The differences themselves do not change. If

@@ -26,11 +26,11 @@
 //! closes the face of the vertex. The twin of join(h) is on the boundary, between along(prev(h)) and along(h).
 //! The edges of these half-edges come after all other edges, in order of h.
 //!
-//! Face f keeps its id, edge e becomes face F + e, and the faces of vertices follow in order of the
-//! vertices. Isolated vertices have no faces. They are kept; their ids follow those of all other vertices. An
-//! inner vertex of valence 2 also has no face, because the face would have two corners. The two outgoing
-//! half-edges h and k of such a vertex share one new edge: across(h) if h is lower than k, and across(k) is its
-//! twin. So each of these vertices lowers the ids of all later edges by one.
+//! Face f keeps its id, edge e becomes face F + e, and the faces of vertices follow in order of the vertices. Isolated
+//! vertices have no faces. They are kept; their ids follow those of all other vertices. An inner vertex of valence 2
+//! also has no face, because the face would have two corners. The two outgoing half-edges h and k of such a vertex
+//! share one new edge. If h is lower than k, the first half of this edge is across(h), and across(k) is the twin of
+//! across(h). So each of these vertices lowers the ids of all later edges by one.
 
 use mesh::{Connectivity, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 use progress::{Cancelled, Meter};

@@ -11,7 +11,7 @@ pub(crate) trait Topology: Sync {
     /// Computes the connectivity of the next level.
     fn connectivity(&self, meter: &Meter) -> Result<Connectivity, Cancelled>;
 
-    /// Returns the location in the old mesh of the corner of half-edge `i` of the next level.
+    /// Half-edge `i` of the next level represents a corner. Returns the location of this corner in the old mesh.
     fn corner(&self, finer: &Connectivity, i: usize) -> Place;
 
     /// Returns the old vertex that vertex `i` of the next level comes from, if any. The default returns `i`, because

@@ -27,7 +27,7 @@ const EXPECTED: Color = Color::rgb(0x1b, 0x8e, 0x3d);
 const HALO: Color = Color([255, 255, 255, 220]);
 /// The opacity of hidden marks.
 const HIDDEN: f64 = 0.4;
-/// The maximum number of locations at which small locations get dots in the overview.
+/// If there are more locations than this, the overview shows no dots at small locations.
 const MAX_DOTTED: usize = 200;
 /// The maximum number of names in the close-up.
 const MAX_NAMES: usize = 24;
@@ -303,8 +303,8 @@ fn angles(direction: DVec3) -> (f64, f64) {
     (azimuth, elevation)
 }
 
-/// Returns marks of the locations: lines of the width `width` and dots of the diameter `dot`, in pixels. Locations
-/// that are smaller than `dot_limit`, in scene units, also get a dot.
+/// Returns marks of the locations: lines of the width `width` and dots of the diameter `dot`, in pixels. Locations that
+/// are smaller than `dot_limit`, in scene units, also get a dot.
 fn marks(
     locations: &[ErrorLocation],
     surroundings: &Surroundings,
@@ -363,7 +363,7 @@ fn label_offset(direction: DVec3, distance: f64) -> DVec3 {
     pixel * (22.0 * right + 18.0 * up + 30.0 * direction)
 }
 
-/// Returns labels with the names of the first locations.
+/// Returns labels with the names of the first [`MAX_NAMES`] locations that have a name.
 fn labels(locations: &[ErrorLocation], offset: DVec3) -> Vec<Label> {
     let named = locations
         .iter()
@@ -380,7 +380,7 @@ fn labels(locations: &[ErrorLocation], offset: DVec3) -> Vec<Label> {
     named.take(MAX_NAMES).map(label).collect()
 }
 
-/// Returns the names of the first locations, and the number of the remaining locations.
+/// Returns the names of the first locations, and the number of further names.
 fn names(locations: &[ErrorLocation]) -> String {
     const MAX_LISTED: usize = 8;
     let names = locations.iter().map(|location| location.name.as_str());

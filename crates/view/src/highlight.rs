@@ -10,8 +10,9 @@ const EDGE_WIDTH: f64 = 4.0;
 /// The diameter of highlighted vertices in a picture whose shorter side has 960 pixels.
 const VERTEX_DIAMETER: f64 = 13.0;
 
-/// The exponent for smaller pictures: the width of edges is proportional to the shorter side raised to this exponent.
-/// If the width were proportional to the shorter side itself, edges in small pictures would be too thin to see.
+/// The exponent for pictures whose shorter side has less than 960 pixels. The width of edges is proportional to the
+/// shorter side raised to this exponent. If the width were proportional to the shorter side itself, edges in small
+/// pictures would be too thin to see.
 const EDGE_POWER: f64 = 0.25;
 /// The exponent for the diameter of vertices, which is used like `EDGE_POWER` for the width of edges.
 const VERTEX_POWER: f64 = 0.4;
@@ -21,8 +22,9 @@ const HIDDEN_EDGES: f64 = 0.3;
 /// The opacity of the rings of hidden vertices.
 const HIDDEN_VERTICES: f64 = 0.75;
 
-/// Converts a length in a picture whose shorter side has 960 pixels to a length in a picture of this size. In smaller
-/// pictures, the length is proportional to the shorter side raised to `power`.
+/// Converts a length in a picture whose shorter side has 960 pixels to a length in a picture of this size. If the
+/// picture is smaller, the length is proportional to the shorter side raised to `power`. If the picture is larger, the
+/// length is proportional to the shorter side, but at most 8 times the original length.
 fn scaled(length: f64, power: f64, size: [u32; 2]) -> f64 {
     let scale = f64::from(size[0].min(size[1])) / 960.0;
     if scale < 1.0 {

@@ -1,4 +1,4 @@
-//! Numbers of mesh elements that are shown as colors.
+//! Quantities of mesh elements, such as areas and curvatures, as numbers that are shown as colors.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -11,17 +11,18 @@ use scene::Scene;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Shows numbers as colors of the surface, with a legend.
+/// Shows a quantity as colors of the surface, with a legend.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct ColorBy {
-    /// The numbers.
+    /// The quantity that the colors show.
     pub of: Quantity,
     /// The color map. If omitted, `Classes` for valences, `Diverging` for curvatures, else `Viridis`.
     #[serde(default)]
     pub map: Option<ColorMap>,
-    /// The numbers of the first and the last color, as in `(0, 60)`. If omitted, the range is chosen from the numbers;
-    /// for curvatures, without the lowest and the highest 2 %.
+    /// The values that the first and the last color represent, as in `(0, 60)`. If omitted, the range depends on the
+    /// values of the quantity. For curvatures, the range is symmetric about 0 and leaves out the lowest and the highest
+    /// eighth of the values, or fewer values if the others are all 0.
     #[serde(default)]
     pub range: Option<[f64; 2]>,
     /// Whether a legend in a corner explains the colors.
@@ -33,7 +34,7 @@ fn yes() -> bool {
     true
 }
 
-/// Numbers of mesh elements.
+/// A quantity of mesh elements: one number for each vertex, edge, face or corner.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Quantity {
@@ -52,8 +53,8 @@ pub enum Quantity {
     MeanCurvature,
     /// The Gaussian curvature at each vertex, in 1 / scene unit²: negative at saddles.
     GaussianCurvature,
-    /// An attribute. If several domains have an attribute of this name, the first of vertices, faces, corners and edges
-    /// is used.
+    /// An attribute. If several domains have an attribute of this name, the first of these domains that has it is used:
+    /// vertices, faces, corners, edges.
     Attribute {
         /// The name of the attribute.
         name: String,
@@ -67,7 +68,7 @@ pub enum Quantity {
     DistanceTo(String),
 }
 
-/// The numbers of a scene.
+/// The values of a quantity for the meshes of a scene.
 pub struct Numbers {
     /// The numbers of the elements of each mesh.
     pub colorings: Vec<Coloring>,
@@ -105,12 +106,12 @@ impl ColorBy {
         }
     }
 
-    /// Computes the numbers of all meshes of a scene, with a common range. `targets` are the meshes to which
-    /// [`Quantity::DistanceTo`] measures distances.
+    /// Computes the values of the quantity for all meshes of a scene, with a common range. `targets` are the meshes to
+    /// which [`Quantity::DistanceTo`] measures distances.
     ///
     /// # Errors
     ///
-    /// [`PictureError::Style`] if no mesh has these numbers.
+    /// [`PictureError::Style`] if no mesh has this quantity.
     pub fn numbers(&self, scene: &Scene, targets: &[Mesh]) -> Result<Numbers, PictureError> {
         let mut numbers = Vec::new();
         for object in scene.objects() {
@@ -252,7 +253,8 @@ impl Quantity {
         }
     }
 
-    /// Returns the default range for these values: the numbers that the first and the last color represent.
+    /// Returns the default range for these values of the quantity: the numbers that the first and the last color
+    /// represent.
     fn range(&self, mut values: Vec<f64>) -> [f64; 2] {
         values.retain(|x| x.is_finite());
         values.sort_unstable_by(f64::total_cmp);
@@ -263,9 +265,10 @@ impl Quantity {
             Self::MinAngle => [0.0, if high > 60.0 { 90.0 } else { 60.0 }],
             Self::DihedralAngle => [0.0, if high > 90.0 { 180.0 } else { 90.0 }],
             Self::DistanceTo(_) => [0.0, high],
-            // The range is symmetric about 0 and excludes the largest values, because curvatures are very large at a
-            // few sharp corners and rims, which often have the most vertices. On a flat surface with sharp edges, the
-            // curvature is 0 almost everywhere; then fewer values are excluded.
+            // The range is symmetric about 0. It excludes the lowest and the highest eighth of the values, because
+            // curvatures are very large at a few sharp corners and rims, where meshes often have many vertices. If all
+            // remaining values are 0, as on a flat surface with sharp edges, only 2 % at each end are excluded. If the
+            // values that then remain are all 0 too, no values are excluded.
             Self::MeanCurvature | Self::GaussianCurvature => {
                 let max = [8, 50, usize::MAX].map(|part| {
                     let n_outliers = values.len() / part;

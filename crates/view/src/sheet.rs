@@ -62,8 +62,8 @@ impl Default for SheetStyle {
 }
 
 impl SheetStyle {
-    /// Returns the style with larger captions and gaps if the images are larger than 560 pixels, so that captions are as
-    /// readable as the images when a sheet is scaled down.
+    /// Returns the style for images of this size. If the shorter side of the images is longer than 560 pixels, the
+    /// captions and gaps are larger, so that the captions stay as readable as the images when the sheet is scaled down.
     #[must_use]
     pub fn scaled_to(self, [width, height]: [u32; 2]) -> Self {
         let side = width.min(height);
@@ -142,8 +142,8 @@ impl Layout {
 ///
 /// # Errors
 ///
-/// [`PictureError::Size`] if a side is longer than [`LARGEST_SIDE`](render::LARGEST_SIDE), or there are no images
-/// and no gap.
+/// [`PictureError::Size`] if a side is longer than [`LARGEST_SIDE`](render::LARGEST_SIDE), or there are no images and
+/// no gap.
 pub fn sheet_size(
     cells: &[Cell],
     headings: Headings,
@@ -340,7 +340,7 @@ mod tests {
         assert_eq!(count([0, 0, 200, 255]), 2 * 24);
         assert_eq!(count(WHITE), image.pixels.len() - 248);
         assert_eq!(at(&image, 3, 3), RED);
-        // The second cell has 20 x 10 pixels, from (26, 3).
+        // The second cell has 20 x 10 pixels, and its top left corner is at (26, 3).
         assert_eq!(at(&image, 26 + 8, 3 + 2), [0, 0, 200, 255]);
         assert_eq!(at(&image, 26 + 7, 3 + 2), WHITE);
     }

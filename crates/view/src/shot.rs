@@ -82,8 +82,8 @@ impl<'s> Subject<'s> {
 
 /// The view and the color range that a scene needs.
 ///
-/// With the [joined](Self::join) extents of several scenes, each scene can be [drawn](Shot::draw) separately, and the
-/// pictures have the same view and scale, and the same numbers have the same colors.
+/// With the [joined](Self::join) extents of several scenes, each scene can be [drawn](Shot::draw) separately. The
+/// pictures then have the same view and scale, and equal numbers have equal colors.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Extent {
     /// The points that determine the view of each camera.
@@ -120,7 +120,8 @@ impl Shot<'_> {
         width * height * self.cameras.len() as u64 * u64::from(self.frames)
     }
 
-    /// Checks the budget for the pixels of all images of this number of scenes, before the scenes are prepared.
+    /// Checks whether the budget is enough for the pixels of all images of this number of scenes. The scenes need not
+    /// be prepared for this check.
     ///
     /// # Errors
     ///
@@ -135,8 +136,8 @@ impl Shot<'_> {
         (4 * self.n_pixels()).saturating_mul(n_scenes as u64)
     }
 
-    /// Returns the extent of a scene. With the joined extents of several scenes, the scenes can be drawn alike although
-    /// only one of them is in memory at a time.
+    /// Returns the extent of a scene. With the joined extents of several scenes, all scenes can be drawn at the same
+    /// scale, although only one of them is in memory at a time.
     ///
     /// # Errors
     ///

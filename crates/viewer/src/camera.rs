@@ -106,7 +106,7 @@ impl Default for Camera {
     }
 }
 
-/// Half of the tangent of the field of view.
+/// The tangent of half of the field of view.
 fn tangent() -> f64 {
     libm::tan(0.5 * FIELD_OF_VIEW.to_radians())
 }
@@ -271,7 +271,7 @@ fn orthographic(x: f64, y: f64, near: f64, far: f64) -> DMat4 {
 }
 
 fn sin_cos(degrees: f64) -> (f64, f64) {
-    // Exact for the numbered views.
+    // The result is exact for multiples of 90 degrees, as in the views that the number keys select.
     let quarter = degrees / 90.0;
     if quarter.fract() == 0.0 {
         return match quarter.rem_euclid(4.0) {

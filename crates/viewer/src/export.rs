@@ -1,4 +1,5 @@
-//! Exports the edits of the player as an animation: draws one image in each frame of the window, and encodes them in a thread.
+//! Exports the edits of the player as an animation: draws one image in each frame of the window, and encodes them in a
+//! thread.
 
 use std::path::{Path, PathBuf};
 use std::thread::JoinHandle;
@@ -85,7 +86,7 @@ impl Parts {
     }
 }
 
-/// Returns the duration of an image at a number of edits per second.
+/// Returns the duration of an image at a speed in edits per second.
 fn timing(speed: f64) -> Timing {
     #[expect(
         clippy::cast_possible_truncation,

@@ -8,7 +8,7 @@ use eframe::egui::{
 
 use crate::theme::Colors;
 
-/// A parameter with what its widget needs.
+/// A parameter, with the values that its widget needs.
 pub(crate) struct Field<'a> {
     pub(crate) of: &'a PanelField,
     /// The value while a slider is dragged, as RON.
@@ -167,7 +167,7 @@ fn use_picked(ui: &mut Ui, field: &Field, change: &mut Option<Change>) {
     }
 }
 
-/// The widget of a value with a form.
+/// The widget of a parameter, if the widget is on the same line as the name of the parameter.
 fn widget(ui: &mut Ui, field: &Field) -> Option<Change> {
     let of = field.of;
     let current = match field.live {
@@ -408,7 +408,7 @@ fn text(ui: &mut Ui, field: &Field) -> Option<Change> {
 
 /// A line of text. Returns the new text when Enter is pressed or the line loses the focus.
 pub(crate) fn line(ui: &mut Ui, name: &str, current: &str, hint: &str, id: Id) -> Option<String> {
-    // In the frame in which Tab moves the focus, the text is still there.
+    // In the frame in which Tab moves the focus away, the text is not yet lost.
     let has_focus = ui.memory(|memory| memory.has_focus(id) || memory.had_focus_last_frame(id));
     let mut buffer = ui
         .data_mut(|data| data.get_temp::<String>(id))

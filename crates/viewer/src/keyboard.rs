@@ -6,7 +6,7 @@ use eframe::egui::{Context, Event, Id, Key, Modifiers};
 /// Removes the keys with an action from the input, and returns the actions.
 ///
 /// While a text is edited, only F1, Escape and keys with Ctrl have an action, and only if the action is about the
-/// window or the file. While another widget than the view has the focus, Space and Enter belong to the widget.
+/// window or the file. While a widget other than the view has the focus, Space and Enter belong to that widget.
 pub(crate) fn actions(ctx: &Context, keys: &Keys, is_modal: bool, view: Option<Id>) -> Vec<Action> {
     let is_text = ctx.text_edit_focused();
     let has_focus = ctx.memory(|memory| memory.focused().is_some_and(|id| Some(id) != view));
@@ -42,7 +42,7 @@ pub(crate) fn actions(ctx: &Context, keys: &Keys, is_modal: bool, view: Option<I
     actions
 }
 
-/// Whether an action is about the window or the file, so that it does not disturb the text that is being edited.
+/// Whether an action is about the window or the file, and therefore does not disturb the text that is being edited.
 fn is_for_window(action: Action) -> bool {
     matches!(
         action,

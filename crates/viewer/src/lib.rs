@@ -101,7 +101,7 @@ pub fn run(registry: Registry, arguments: &[String]) -> ExitCode {
     if let Some(reason) = loss.get().and_then(Loss::reason) {
         eprintln!(
             "error: the graphics adapter was lost: {reason}\n\
-             help: start the editor again; it offers the text of the recipe if it was not saved"
+             help: start the editor again; it offers the unsaved text of the recipe"
         );
         return ExitCode::FAILURE;
     }

@@ -9,7 +9,7 @@ use mesh_io::Format;
 use crate::app::{Parts, Pending};
 use crate::{files, help};
 
-/// A dialog that ends sooner was not shown. This happens on Linux without a desktop portal.
+/// A dialog that ends in less than this time was not shown. This happens on Linux without a desktop portal.
 const SHORTEST_DIALOG: Duration = Duration::from_millis(200);
 
 /// Why the user is asked for the path of a file.
@@ -41,7 +41,7 @@ impl Purpose {
     }
 }
 
-/// A path that is being written in the window.
+/// A path that the user is typing in the window.
 pub(crate) struct Prompt {
     purpose: Purpose,
     path: String,

@@ -24,7 +24,7 @@ pub(crate) struct Player {
     step: usize,
     /// The version of the text that the edits belong to.
     version: u64,
-    /// The scene before the step. The mesh of the object is replaced.
+    /// The scene before the step, in which the object has the mesh of this moment.
     scene: Arc<Scene>,
     /// The number of edits per second.
     speed: f64,
@@ -38,14 +38,14 @@ impl Player {
         &self.scene
     }
 
-    /// Returns the object and the edge of the edit that was done last or, before the first edit, is done next. `None` if the
-    /// edit has removed the edge.
+    /// Returns the object and the edge of the edit that was done last or, before the first edit, of the next edit.
+    /// `None` if the edit has removed the edge.
     pub(crate) fn edge(&self) -> Option<(&str, EdgeId)> {
         let edge = self.shown()?.edge?;
         (self.play.mesh().has_edge(edge)).then_some((self.object.as_str(), edge))
     }
 
-    /// Returns the edit that was done last or, before the first edit, is done next.
+    /// Returns the edit that was done last or, before the first edit, the next edit.
     fn shown(&self) -> Option<&PlayedEdit> {
         self.play
             .edits()

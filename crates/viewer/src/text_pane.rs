@@ -26,7 +26,7 @@ pub(crate) struct TextPane {
     cursor: Option<usize>,
     /// The index of the chosen completion.
     chosen: usize,
-    /// Whether the completion was closed for the word at this byte.
+    /// The first byte of the word for which the user has closed the completion.
     closed_at: Option<usize>,
 }
 
@@ -255,8 +255,8 @@ fn completions(parts: &Parts, ui: &Ui, id: Id) -> Words {
     }
 }
 
-/// Returns the variants of the parameter whose value contains a byte of the text. Selections inside of a selection have the
-/// same variants. Empty outside of the parameters of a step.
+/// Returns the variants of the parameter whose value contains a byte of the text. Selections inside of a selection have
+/// the same variants. Empty outside of the parameters of a step.
 fn variants_at(editor: &editor::Editor, at: usize) -> Vec<recipe::VariantDoc> {
     let outline = editor.outline();
     let field = outline.step_at(at).and_then(|step| {

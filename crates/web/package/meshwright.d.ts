@@ -149,10 +149,10 @@ export class Session {
     /** Checks a recipe without running it. */
     check(recipe: string, options?: Options): Checked;
     /**
-     * Checks and runs a recipe. Steps at the start that are the same as in the previous run, up to the first step that
-     * writes a file, do not run again, unless a file was written or removed after that run. Blocks until the run ends,
-     * so a page runs it in a worker. Throws `RuntimeError` if memory is exhausted. The engine cannot be used
-     * afterwards, so a page then starts a new worker.
+     * Checks and runs a recipe. The steps before the first step that has changed since the previous run usually do not
+     * run again. A step that writes a file counts as changed. If a file was written or removed after the previous run,
+     * all steps run. Blocks until the run ends, so a page should call this method in a worker. Throws `RuntimeError` if
+     * memory is exhausted. The engine cannot be used afterwards, so the page must then start a new worker.
      */
     run(recipe: string, options?: RunOptions): Result;
     /**

@@ -8,8 +8,8 @@ const LIGHT = Uint16Array.from({ length: 256 }, (_, i) => {
     return Math.round(65535 * (s <= 0.04045 ? s / 12.92 : ((s + 0.055) / 1.055) ** 2.4));
 });
 
-/// Colors a group of a surface and its lines. `found` has the colors: `{ per: "vertex" | "corner" | "edge", colors }`.
-/// Without `found`, the surface gets its own color again.
+/// Colors a group, which consists of a surface and its lines. `found` has the colors: `{ per: "vertex" | "corner" |
+/// "edge", colors }`. Without `found`, the surface gets its own color again.
 export function paint(group, found) {
     const [surface, lines] = group.children;
     const plain = (group.userData.plain ??= { surface: surface.geometry, color: surface.material.color.clone(), lines: lines.geometry,
@@ -29,7 +29,7 @@ export function paint(group, found) {
     lines.material.opacity = per === "edge" ? 1 : plain.opacity;
     lines.material.needsUpdate = true;
     if (per === "edge") {
-        // Both ends of an edge have its color.
+        // Both ends of an edge get the color of the edge.
         lines.geometry = plain.lines.toNonIndexed();
         lines.geometry.setAttribute("color", attribute(found.colors, 2));
         lines.material.color.set(0xffffff);
@@ -45,7 +45,7 @@ export function paint(group, found) {
     }
 }
 
-/// Returns sRGB colors as an attribute, in which each color is repeated.
+/// Returns sRGB colors as an attribute, in which each color is repeated `times` times.
 function attribute(colors, times) {
     const light = new Uint16Array(times * colors.length);
     for (let i = 0; i < light.length; i += 1) {

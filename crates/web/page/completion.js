@@ -2,7 +2,7 @@
 import { snippetCompletion, startCompletion } from "@codemirror/autocomplete";
 import { around } from "./ron.js";
 
-/// The schema of recipes, and what can be written at a position.
+/// Finds what can be written at a position of a recipe, from the schema of recipes.
 export class Completions {
     #schema;
     #examples;
@@ -54,7 +54,7 @@ export class Completions {
         return [found?.detail, found?.info].filter(Boolean).join("\n") || null;
     }
 
-    /// Follows references and choices to the alternatives of a node.
+    /// Returns the alternatives that a node of the schema stands for. Follows references and choices.
     #alternatives(node) {
         if (!node || typeof node !== "object") {
             return [];

@@ -48,7 +48,7 @@ export function download(name, content, type = "application/octet-stream") {
     setTimeout(() => URL.revokeObjectURL(url), 10_000);
 }
 
-/// Shows a message in the status bar, with buttons for what can be done about it: `{ label: action, .. }`.
+/// Shows a message in the status bar, with a button for each action that is offered: `{ label: action, .. }`.
 export function notify(text, actions = {}) {
     const bar = byId("notice");
     const buttons = Object.entries(actions).map(([label, action]) =>

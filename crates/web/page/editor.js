@@ -110,7 +110,7 @@ export class Editor {
         }
         const comma = place.comma || place.empty ? "" : ",";
         const { text } = this.#view.state.doc.lineAt(place.end);
-        // The line of the last step, or the line that opens the list.
+        // This is the line of the last step. If there are no steps, it is the line that opens the list of steps.
         const indent = text.match(/^ */)[0] + (/\bsteps\s*:/.test(text) ? "    " : "");
         const insert = `${comma}\n${indent}${step},`;
         const anchor = place.end + insert.length;

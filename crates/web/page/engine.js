@@ -11,7 +11,7 @@ export class Engine {
     #folder = "";
     #worker;
     #threads = [];
-    /// Settled once the worker and its threads can be used.
+    /// A promise that is settled once the worker and its threads can be used.
     #ready;
     #waiting = new Map();
     #last = 0;
@@ -49,7 +49,8 @@ export class Engine {
         return new Worker(new URL(this.#folder + script, import.meta.url), { type: "module" });
     }
 
-    /// Starts a thread for each further processor. The page starts them, since the worker cannot while it waits for them.
+    /// Starts one thread fewer than there are processors, but at most `MAX_THREADS` - 1, because the worker is a
+    /// thread, too. The page starts the threads, because the worker is blocked while it waits for them.
     async #startThreads() {
         const memory = await this.#send("memory");
         const count = Math.min(navigator.hardwareConcurrency, MAX_THREADS) - 1;
@@ -58,7 +59,7 @@ export class Engine {
         await Promise.all(threads.map((thread) => new Promise((resolve, reject) => {
             thread.onerror = (event) => reject(new Error(event.message || "a thread could not be started"));
             thread.onmessage = () => {
-                // Without the thread, the worker would wait forever.
+                // If a thread stopped, the worker would wait for it forever.
                 thread.onerror = (event) => this.#threads === threads && this.#stopped(event.message);
                 resolve();
             };
@@ -118,7 +119,8 @@ export class Engine {
         });
     }
 
-    /// Ends the worker at once, and starts another. Calls that wait fail with `Ended`. Outputs are lost, files are kept.
+    /// Ends the worker at once, and starts another. Calls that have no answer yet fail with `Ended`. Outputs are lost,
+    /// files are kept.
     restart() {
         this.#end(new Ended("canceled"));
         return this.#start();

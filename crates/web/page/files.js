@@ -10,14 +10,14 @@ const MAX_SIZE = 2 ** 30;
 /// The maximum number of files in a folder.
 const MAX_FILES = 2000;
 
-/// Returns a path below the folder of the recipe, without control characters, and without parts such as `..`; `null` if nothing
-/// is left.
+/// Returns a path as a path below the folder of the recipe: without control characters, and without parts such as `..`.
+/// Returns `null` if nothing is left.
 export function safePath(path) {
     const parts = path.split(/[/\\]/).map((part) => part.replace(/[\u0000-\u001f\u007f]/g, "").trim());
     return parts.filter((part) => !/^\.*$/.test(part)).join("/") || null;
 }
 
-/// Returns the files of a drop, also those in folders, as `[path, file]`.
+/// Returns the files that were dropped on the page, including those in folders, as `[path, file]`.
 async function dropped(transfer) {
     // The items must be read before the event ends.
     const items = [...transfer.items].filter((item) => item.kind === "file")
@@ -74,7 +74,7 @@ export class Files {
         this.show();
     }
 
-    /// Writes files, given as `[path, file]`, and offers what can be done with them.
+    /// Writes files, given as `[path, file]`, and offers to open a recipe or to add a step that loads a model.
     async add(list) {
         if (list.length > MAX_FILES) {
             notify(`The folder was not opened: it has more than ${counted(MAX_FILES, "file")}.`);

@@ -29,7 +29,7 @@ let up = "auto";
 let foreign = false;
 /// The text and the values of the last run. Its problems and steps are shown until the text or a value changes.
 let lastRun;
-/// Settled once the files of a shared recipe are written.
+/// A promise that is settled once the files of a shared recipe are written.
 let arriving = Promise.resolve();
 let completions;
 
@@ -75,7 +75,8 @@ engine.onEvent = (event) => {
     }
 };
 
-/// Checks the recipe once no recipe runs. With `keepSteps`, the steps of the last run stay.
+/// Checks the recipe. If a recipe is running, the check starts after that run. With `keepSteps`, the steps of the last
+/// run stay.
 async function check(keepSteps = false) {
     if (running) {
         checkAgain = true;
@@ -110,7 +111,7 @@ async function checkText(keepSteps) {
     }
 }
 
-/// Runs the recipe. While a recipe runs, another run waits for its end.
+/// Runs the recipe. If a recipe is already running, the new run starts after that run has ended.
 async function run() {
     if (running) {
         runAgain = true;
@@ -261,7 +262,7 @@ function copy(text, button) {
     }, () => notify("The browser does not allow copying. Select the text and copy it yourself."));
 }
 
-/// Keeps the text for the next visit, if the browser allows it. A recipe of a link replaces that text once it is edited.
+/// Keeps the text for the next visit, if the browser allows it. The recipe of a link is kept only once it is edited.
 function edited() {
     if (foreign) {
         return;
@@ -299,7 +300,7 @@ function listen() {
     byId("open-help").addEventListener("click", () => byId("help").showModal());
     for (const dialog of document.querySelectorAll("dialog")) {
         dialog.querySelector(".heading button").addEventListener("click", () => dialog.close());
-        // A click beside the dialog.
+        // A click beside the dialog closes it.
         dialog.addEventListener("click", (event) => event.target === dialog && dialog.close());
     }
     byId("copy-link").addEventListener("click", ({ target }) => copy(byId("link").value, target));

@@ -15,7 +15,7 @@ export class Marks {
     #face = new THREE.MeshBasicMaterial({ color: COLOR, side: THREE.DoubleSide, transparent: true, opacity: 0.65,
         polygonOffset: true, polygonOffsetFactor: -1, polygonOffsetUnits: -1 });
 
-    /// Marks elements. `places` returns the maps of the instances of a mesh to the view.
+    /// Marks elements. `places` returns, for each instance of a mesh, the map from the mesh to the view.
     show(picks, places) {
         this.clear();
         for (const pick of picks) {

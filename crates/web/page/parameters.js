@@ -109,7 +109,7 @@ function written(type, value) {
     return type === "Int" || type === "Float" ? String(Number(value)) : value;
 }
 
-/// Returns a round step of a slider with 100 to 1000 positions.
+/// Returns a round number as the step of a slider. The slider then has 100 to 1000 positions.
 function step(min, max) {
     return 10 ** Math.floor(Math.log10((max - min) / 100)) || "any";
 }

@@ -1,7 +1,8 @@
 // Finds the element of a mesh that is nearest to a click.
 
-/// Returns the element of a kind ("vertex", "edge" or "face") at a triangle of a mesh that is nearest to a point of the page:
-/// `{ kind, number, vertices }`. `place` returns where a vertex is on the page.
+/// Returns the element of a kind ("vertex", "edge" or "face") that is nearest to the point `at` of the page, among the
+/// elements of the face that has this triangle: `{ kind, number, vertices }`. `place` returns where a vertex is on the
+/// page.
 export function nearest(mesh, triangle, kind, at, place) {
     const face = mesh.faces[triangle];
     const corners = faceCorners(mesh, face, triangle);
@@ -18,7 +19,7 @@ export function nearest(mesh, triangle, kind, at, place) {
     return { kind, number, vertices: ends(mesh, number) };
 }
 
-/// Returns an element by its number, as `nearest`; `null` if the mesh has no such element.
+/// Returns an element by its number, in the form that `nearest` returns; `null` if the mesh has no such element.
 export function numbered(mesh, kind, number) {
     if (kind === "face") {
         const triangle = mesh.faces.indexOf(number);
@@ -28,7 +29,7 @@ export function numbered(mesh, kind, number) {
     return number < count ? { kind, number, vertices: kind === "edge" ? ends(mesh, number) : [number] } : null;
 }
 
-/// Returns the triangles of a face, as indices. The triangles of a face follow each other.
+/// Returns the triangles of a face, as indices. These indices are consecutive.
 export function faceTriangles(mesh, face, inside = mesh.faces.indexOf(face)) {
     let first = inside;
     while (mesh.faces[first - 1] === face) {

@@ -29,9 +29,9 @@ export function* tokens(text) {
     }
 }
 
-/// Returns the brackets around a position, from the outside in: `{ open, name, start, field, index, fields }`. `name` is the
-/// name before a parenthesis, `field` the field that the position belongs to, `index` the number of the element, and `fields`
-/// has all fields that are written before. Returns `null` inside a string or a comment.
+/// Returns the brackets around a position, from the outside in: `{ open, name, start, field, index, fields }`. `name`
+/// is the name before a parenthesis, `field` the field that the position belongs to, `index` the number of the element,
+/// and `fields` has the names of all fields before the position. Returns `null` inside a string or a comment.
 export function around(text, position) {
     const stack = [{ open: "", name: null, start: 0, field: null, index: 0, fields: [] }];
     let before = null;

@@ -110,8 +110,7 @@ export class Stage {
         }
     }
 
-    /// Disables the choice of other colors and of other pictures after the engine has lost the scene. What is shown
-    /// stays.
+    /// Disables the controls that need the engine, after the engine has lost the scene. The current picture stays.
     detach() {
         this.#enable(false);
     }
@@ -124,7 +123,7 @@ export class Stage {
         }
     }
 
-    /// Says that the picture is that of an earlier run.
+    /// Shows a note that the picture is from an earlier run.
     keep() {
         this.detach();
         byId("stage-note").textContent = "This is the scene of the last run without errors in the recipe.";

@@ -30,7 +30,8 @@ export class View {
     #radius = 1;
     #style = { smooth: false, edges: true, up: "y" };
     #waiting = false;
-    /// Receives `{ mesh, kind, number, vertices }` for a click, and whether Shift is pressed; `null` beside the meshes.
+    /// Receives `{ mesh, kind, number, vertices }` for a click, and whether Shift is pressed. Receives `null` for a
+    /// click beside the meshes.
     onPick = () => {};
     kind = "face";
     /// Whether a click adds to the selection without Shift.
@@ -54,9 +55,9 @@ export class View {
         this.#resize();
     }
 
-    /// Shows meshes: `{ name, center, positions, triangles, faces, edges, placements }`. The camera stays if `keep` is true and the
-    /// size of the scene is similar. `up` is the axis that points upwards: "y", "z", or "auto" for that of the pictures of
-    /// recipes. Returns the axis.
+    /// Shows meshes: `{ name, center, positions, triangles, faces, edges, placements }`. The camera stays if `keep` is
+    /// true and the size of the scene is similar. `up` is the axis that points upwards: "y", "z", or "auto" for the
+    /// axis that pictures of recipes use. Returns the axis.
     show(meshes, keep, up) {
         const before = this.#radius;
         const sawAll = this.#seesAll();
@@ -192,7 +193,8 @@ export class View {
         this.fit(this.#camera.position.clone().sub(this.#controls.target));
     }
 
-    /// Moves the camera so that all meshes are in the view, if they were before a change but are not now.
+    /// Moves the camera so that all meshes are in the view, if all of them were in the view before a change but are not
+    /// now.
     #keepAll(sawAll) {
         if (sawAll && !this.#seesAll()) {
             this.#refit();
@@ -323,7 +325,8 @@ export class View {
         });
     }
 
-    /// Turns the camera by steps of 10 degrees about the target, and multiplies its distance.
+    /// Turns the camera by steps of 10 degrees about the target, and multiplies the distance from the target by
+    /// `distance`.
     #turn(across, down, distance) {
         const { target } = this.#controls;
         const toY = new THREE.Quaternion().setFromUnitVectors(this.#camera.up, new THREE.Vector3(0, 1, 0));
@@ -343,7 +346,7 @@ function placement(mesh, instance) {
     return new THREE.Matrix4().fromArray(mesh.placements, 16 * instance);
 }
 
-/// Returns whether a scene stands on the plane z = 0 and not on y = 0, as the pictures of recipes decide.
+/// Returns whether a scene stands on the plane z = 0 and not on y = 0. Pictures of recipes use the same rule.
 function stands(box, center) {
     const tolerance = 1e-3 * Math.max(...box.getSize(new THREE.Vector3()));
     const on = (axis, k) => Math.abs(box.min[axis] + center[k]) <= tolerance && box.max[axis] + center[k] > tolerance;

@@ -3,13 +3,13 @@
 use geometry::triangulate::Cutter;
 use mesh::{DVec3, FaceId, HalfEdgeId, Mesh};
 
-/// The arrays of a mesh. Numbers of vertices and faces are those of recipes.
+/// The arrays of a mesh. Vertices and faces have the numbers that recipes use.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Arrays {
     /// The center of the bounding box of the vertices, in scene units.
     pub center: [f64; 3],
-    /// The position of each vertex relative to the center: x, y and z, one vertex after another. Numbers of 32 bits are
-    /// precise near the center.
+    /// The position of each vertex relative to the center: x, y and z, one vertex after another. The positions are
+    /// relative because 32-bit numbers are precise only near 0.
     pub positions: Vec<f32>,
     /// The vertices of each triangle, counter-clockwise. A polygon has several triangles.
     pub triangles: Vec<u32>,
@@ -87,7 +87,7 @@ mod tests {
         assert_eq!(arrays.edges.len(), 2 * 12);
     }
 
-    /// The signed volume of the triangles is the volume of the mesh: no triangle is missing or turned over.
+    /// The signed volume of the triangles is the volume of the mesh: no triangle is missing or reversed.
     #[test]
     fn the_triangles_enclose_the_volume_of_the_mesh() {
         for mesh in [shapes::cube(), shapes::cylinder(7, true)] {

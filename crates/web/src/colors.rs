@@ -151,7 +151,8 @@ mod tests {
         }
     }
 
-    /// The two sizes of faces of a box have the first and the last color of the legend.
+    /// In a box with faces of two sizes, the smaller faces have the first color of the legend, and the larger faces the
+    /// last.
     #[test]
     fn the_colors_are_those_of_the_legend() {
         let mut mesh = shapes::cube();

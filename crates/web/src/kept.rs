@@ -75,8 +75,8 @@ impl Kept {
         }
     }
 
-    /// Keeps the reports of a run. `checked` is the number of expectations that were checked by this run or hold since an
-    /// earlier one.
+    /// Keeps the reports of a run. `checked` is the number of expectations that this run has checked, or that hold
+    /// since an earlier run.
     pub(crate) fn add(&mut self, keys: &StepKeys, outcome: &Outcome, checked: usize) {
         let keyed = keys.steps.iter().skip(outcome.first).zip(&outcome.steps);
         self.steps
@@ -95,7 +95,7 @@ impl Kept {
 }
 
 impl Scenes {
-    /// Keeps only the last scenes that fit into this number of bytes.
+    /// Drops the earliest scenes until the kept scenes need at most this number of bytes.
     fn keep_last(&mut self, limit: u64) {
         let mut memory = SceneMemory::default();
         let fits = |scene: &&Option<Scene>| scene.as_ref().is_none_or(|s| memory.add(s) <= limit);

@@ -6,7 +6,7 @@
 //! describe.rs problems, expectations, parameters and objects as JSON
 //! arrays.rs   the arrays of a mesh that a view needs
 //! colors.rs   the colors of quantities for these arrays
-//! bindings.rs the same for JavaScript, through `wasm-bindgen`; only in WebAssembly
+//! bindings.rs the same functions for JavaScript, through `wasm-bindgen`; only in WebAssembly
 //! threads.rs  Web Workers as threads; only in a build with atomic operations
 //! ```
 //!

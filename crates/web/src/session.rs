@@ -67,7 +67,7 @@ impl Session {
     ///
     /// [`StoreError`] if the path is the path of a folder, or a part of the path is a file.
     pub fn write(&mut self, path: &str, bytes: &[u8]) -> Result<(), StoreError> {
-        // Steps can read files that their keys do not contain, such as the materials of a model.
+        // Steps can read files that their keys do not contain, such as the materials of a model. So no result is kept.
         self.kept = Kept::default();
         self.store.write(path.as_ref(), bytes)
     }
@@ -90,11 +90,15 @@ impl Session {
     /// Checks a recipe without running it. `path` is the path of the recipe, which other paths are relative to. The
     /// paths in `values` are relative to the root.
     ///
-    /// Returns `problems`, each with `severity`, `file`, `line`, `column`, `message`, `help` and `range` (the start and
-    /// the exclusive end in UTF-16 code units); `parameters` with `name`, `type`, `value`, `doc`, the limits `min` and
-    /// `max`, and the allowed names `of`, each `null` if there is none; `presets`, the names of the presets; `steps`
-    /// with `label`, `operation` and `line` (`null` if the step is in a called recipe); `peak_bytes`, the largest
-    /// memory of all meshes after any step, `null` if unknown.
+    /// Returns an object with these fields:
+    ///
+    /// - `problems`, each with `severity`, `file`, `line`, `column`, `message`, `help` and `range` (the start and the
+    ///   exclusive end in UTF-16 code units)
+    /// - `parameters`, each with `name`, `type`, `value`, `doc`, the limits `min` and `max`, and the allowed names
+    ///   `of`; a value that does not exist is `null`
+    /// - `presets`, the names of the presets
+    /// - `steps`, each with `label`, `operation` and `line` (`null` if the step is in a called recipe)
+    /// - `peak_bytes`, the largest memory of all meshes after any step; `null` if unknown
     pub fn check(&self, path: &str, text: &str, values: Values) -> Json {
         let loaded = self.load(path, text, values);
         let parameters = loaded.recipe.parameters().iter().map(parameter);
@@ -114,18 +118,23 @@ impl Session {
         })
     }
 
-    /// Checks and runs a recipe. Calls `listen` with the events `step`, `progress` (at most ten times
-    /// per second) and `done` of `meshwright run --format json`. If `listen` returns false for an event `progress`, the run is
+    /// Checks and runs a recipe. Calls `listen` with the events `step`, `progress` (at most ten times per second) and
+    /// `done` of `meshwright run --format json`. If `listen` returns false for an event `progress`, the run is
     /// canceled.
     ///
-    /// The run starts at the first step that differs from the last run, or at the first step that writes a file. The
-    /// run starts earlier if the scene before this step was not kept, or if an expectation must be checked again. The
-    /// first run after a file was written or removed starts at the first step. The reports of steps that do not run
-    /// again have `cached`.
+    /// The run starts at the first step that differs from the last run or that writes a file. The run starts earlier if
+    /// the scene before this step was not kept, or if an expectation must be checked again. The first run after a file
+    /// was written or removed starts at the first step. The reports of steps that do not run again have `cached`.
     ///
-    /// Returns `succeeded`, `cancelled`, `problems` as [`check`](Self::check), `steps` with the events `done`,
-    /// `expectations` with `line`, `text` and `met` for each checked expectation, `digest` (`null` if the recipe has errors),
-    /// the paths of the written `files`, and `objects` with `name`, `kind`, `vertices`, `edges` and `faces`.
+    /// Returns an object with these fields:
+    ///
+    /// - `succeeded` and `cancelled`
+    /// - `problems`, as in [`check`](Self::check)
+    /// - `steps`, the events `done`
+    /// - `expectations`, each checked expectation with `line`, `text` and `met`
+    /// - `digest`, `null` if the recipe has errors
+    /// - `files`, the paths of the written files
+    /// - `objects`, each with `name`, `kind`, `vertices`, `edges` and `faces`
     ///
     /// Afterwards, [`picture`](Self::picture) and [`arrays`](Self::arrays) show the scene at the end, even if the run
     /// failed.
@@ -201,8 +210,8 @@ impl Session {
         self.scene = outcome.scene.unwrap_or_default();
     }
 
-    /// Renders a picture of the scene of the last run, as the bytes of a PNG file. `size` is in pixels. `up` is the axis that
-    /// points upwards.
+    /// Renders a picture of the scene of the last run, as the bytes of a PNG file. `size` is in pixels. `up` is the
+    /// axis that points upwards.
     ///
     /// # Errors
     ///
@@ -240,8 +249,8 @@ impl Session {
         Some(Arrays::new(mesh))
     }
 
-    /// Returns the placements of a mesh of the last run: for each of its instances, the map from the space of the mesh to the
-    /// scene, as 16 numbers column by column. A skinned mesh has the placement of its first joint.
+    /// Returns the placements of a mesh of the last run: for each of its instances, the map from the space of the mesh
+    /// to the scene, as 16 numbers column by column. A skinned mesh has the placement of its first joint.
     pub fn placements(&self, object: &str) -> Vec<f64> {
         let instances = self.scene.instances().into_iter();
         let own = instances.filter(|instance| instance.object.name == object);
@@ -249,8 +258,8 @@ impl Session {
             .collect()
     }
 
-    /// Returns the quantities of the meshes of the last run that [`colors`](Self::colors) can show: the `title` and the
-    /// `quantity` of each, as recipes write it.
+    /// Returns the quantities of the meshes of the last run that [`colors`](Self::colors) can show. Each has a `title`,
+    /// and the `quantity` as recipes write it.
     pub fn quantities(&self) -> Json {
         let quantities = Quantity::of_scene(&self.scene).into_iter();
         quantities

@@ -6,7 +6,8 @@
 //!   start_threads(n)  <-------------  after all are ready               run_thread(), which never returns
 //! ```
 //!
-//! Only in a build with atomic operations, which browsers run only if the page is isolated from other origins.
+//! This module is only in a build with atomic operations. Browsers run such a build only if the page is isolated from
+//! other origins.
 
 #![expect(unreachable_pub, reason = "wasm-bindgen exports only public functions")]
 

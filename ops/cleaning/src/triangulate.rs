@@ -24,17 +24,17 @@ use op::prelude::*;
 /// Cuts polygons into triangles.
 ///
 /// A quadrilateral is cut along its shorter diagonal. If both diagonals have the same length (the relative difference
-/// of their squared lengths is at most 1e-12), it is cut along the diagonal at its vertex with the lowest id. A
-/// diagonal that gives a zero-area triangle, or a triangle that is turned over relative to the normal of the face, is
-/// avoided, unless the other diagonal has the same problem. A quadrilateral with a reflex corner is therefore cut at
-/// that corner. If a diagonal would join two vertices that are already joined by an edge or another diagonal, the other
-/// diagonal is chosen where possible. The report counts the duplicate diagonals that remain.
+/// of their squared lengths is at most 1e-12), the quadrilateral is cut along the diagonal at its vertex with the
+/// lowest id. A diagonal is avoided if it gives a zero-area triangle or a triangle that is turned over relative to the
+/// normal of the face, unless the other diagonal has the same problem. A quadrilateral with a reflex corner is
+/// therefore cut at that corner. If a diagonal would join two vertices that are already joined by an edge or another
+/// diagonal, the other diagonal is chosen where possible. The report counts the duplicate diagonals that remain.
 ///
-/// A face with more than four corners is projected along its normal and cut by ear clipping or, with more than 4096
-/// corners, into monotone pieces. Then diagonals are flipped until the triangulation is a constrained Delaunay
-/// triangulation. A face that cannot be triangulated in this way, because it has zero area, its sides cross, or it has
-/// more than ten million corners, becomes a triangle fan around its vertex with the lowest id. The report counts these
-/// faces.
+/// A face with more than four corners is projected along its normal. It is then cut by ear clipping, or into monotone
+/// pieces if it has more than 4096 corners. Then diagonals are flipped until the triangulation is a constrained
+/// Delaunay triangulation. Some faces cannot be triangulated in this way, because they have zero area, their sides
+/// cross, or they have more than ten million corners. Each of these faces becomes a triangle fan around its vertex with
+/// the lowest id. The report counts them.
 ///
 /// The triangles of a face take its place in the order of the faces and have its values. Vertices and edges keep their
 /// ids. The corners of the triangles have the values of the corners of the face at the same vertices.
@@ -95,7 +95,8 @@ impl MeshOperation for Triangulate {
         cx.advance("triangulate", 1, 3)?;
         let duplicates = duplicates::avoid(mesh, &mut cuts);
         cx.advance("triangulate", 2, 3)?;
-        // Half-edges have three ids and a source, and each of these arrays is extended once.
+        // For each half-edge, the mesh stores three ids, and a list stores the half-edge from which its values are
+        // copied. Each of these arrays is extended once.
         let n_half_edges = mesh.n_half_edges() + 2 * diagonals;
         mesh::require_memory(24 * n_half_edges + 24 * mesh.n_vertices());
         mesh.replace(assemble::assemble(mesh, &cuts, diagonals));

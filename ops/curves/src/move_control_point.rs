@@ -15,8 +15,8 @@ use scene::Geometry;
 
 /// Moves one control point of curves.
 ///
-/// The other control points do not move. The point of the curve at a parameter t moves by the offset of the control
-/// point, multiplied by the value at t of the Bernstein polynomial of the control point.
+/// The other control points do not move. The point of the curve at a parameter t moves by B(t) times the offset of the
+/// control point, where B is the Bernstein polynomial of the control point.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct MoveControlPoint {

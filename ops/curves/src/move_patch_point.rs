@@ -20,8 +20,8 @@ use scene::Geometry;
 ///
 /// Acts on all objects that consist of patches, or on the objects in `on`. Control points of the same object that are
 /// at the same position move together, so that patches with a common side stay joined. The point of a patch at the
-/// parameters (u, v) moves by the offset of the control point, multiplied by the values at u and v of the Bernstein
-/// polynomials of the control point. The report counts the objects.
+/// parameters (u, v) moves by B(u) C(v) times the offset of the control point, where B and C are the Bernstein
+/// polynomials of its column and its row. The report counts the objects.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct MovePatchPoint {

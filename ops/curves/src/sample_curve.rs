@@ -13,8 +13,9 @@ use scene::Geometry;
 
 /// Replaces curves with polylines whose points lie on the curves.
 ///
-/// Each curve becomes one polyline with `segments` + 1 points in the plane z = 0, at the parameters 0, 1 /
-/// segments, 2 / segments and so on, up to 1. The first and the last point are exactly the end control points.
+/// Each curve becomes one polyline with `segments` + 1 points in the plane z = 0, at the parameters 0, 1 / segments,
+/// 2 / segments and so on, up to 1. The first and the last point are exactly the first and the last control point of
+/// the curve.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct SampleCurve {

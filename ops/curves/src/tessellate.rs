@@ -23,10 +23,10 @@ use scene::Geometry;
 ///
 /// Acts on all objects that consist of patches, or on the objects in `on`. Each object becomes one mesh of the same
 /// name. Every patch is divided into `segments` x `segments` cells. The ids of elements follow the order of the
-/// patches. Patches share no vertices, but if they have the same control points on a common side, the positions of
-/// their vertices there are identical bit for bit, so that `Weld(distance: 0)` joins them. A side whose points
-/// coincide, as at the pole of a teapot's lid, becomes one vertex. Zero-area patches give no faces. The report counts
-/// these patches. The mesh has UVs and normals only if they are requested.
+/// patches. Patches share no vertices. If two patches have the same control points on a common side, their vertices on
+/// this side have bitwise equal positions, so that `Weld(distance: 0)` joins the patches. A side whose points coincide,
+/// as at the pole of a teapot's lid, becomes one vertex. Zero-area patches give no faces. The report counts these
+/// patches. The mesh has UVs and normals only if they are requested.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tessellate {

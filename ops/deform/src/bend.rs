@@ -16,7 +16,7 @@ use crate::moved::{Stretch, moved, next};
 
 /// Bends a mesh, so that an axis becomes an arc of a circle.
 ///
-/// Vertices at or below `from` do not move. Between `from` and `to`, the axis becomes an arc that keeps its length and
+/// Vertices at or below `from` do not move. Between `from` and `to`, the axis becomes an arc of the same length, which
 /// turns by `angle` in total. Vertices above `to` move rigidly. Vertices between the axis and the center of the circle
 /// move closer together, and vertices on the other side of the axis move apart. The distance between the center and the
 /// axis is (to - from) / angle, with the angle in radians. Parts of the mesh beyond the center turn inside out. Source:
@@ -29,7 +29,7 @@ use crate::moved::{Stretch, moved, next};
 pub struct Bend {
     /// The axis that becomes an arc.
     pub axis: Axis,
-    /// The angle between the ends of the axis, in degrees. A negative angle bends to the other side.
+    /// The angle by which the axis turns from `from` to `to`, in degrees. A negative angle bends to the other side.
     pub angle: Angle,
     /// The axis towards which the upper end bends. If omitted, the axis after `axis` in the order x, y, z, x.
     #[serde(default)]

@@ -63,8 +63,9 @@ pub enum DisplaceBy {
     },
     /// The brightness of an image (a height map), from 0 (black) to 1 (white), at the texture coordinates of the
     /// vertex. Brightness is the mean of red, green and blue as they are stored in the file. The step interpolates
-    /// between the pixels. Outside of 0 to 1, the image is repeated. A vertex on a seam moves by the mean of the values
-    /// at its corners. Gray PNG files with 16 bits per pixel give smoother surfaces than files with 8 bits.
+    /// between the pixels. Where the texture coordinates are less than 0 or more than 1, the image is repeated. A
+    /// vertex on a seam moves by the mean of the values at its corners. Gray PNG files with 16 bits per pixel give
+    /// smoother surfaces than files with 8 bits.
     Image {
         /// The PNG or JPEG file. A relative path is relative to the folder of the recipe.
         path: String,

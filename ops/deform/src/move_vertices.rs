@@ -46,7 +46,7 @@ pub enum MoveBy {
     Offset(Vector),
     /// By this distance along the normal of each vertex, in scene units. A negative distance moves vertices inwards.
     Distance(Distance),
-    /// By one offset for all selected vertices. The offset moves the mean of the selected vertices to this point.
+    /// By one common offset, so that the mean of the selected vertices arrives at this point.
     To(Vector),
     /// By a rotation around an axis through the mean of the selected vertices.
     Rotate {
@@ -200,8 +200,8 @@ mod tests {
             let text = format!("(vertices: Nearest(to: (0, 0, 0)), by: {by}, falloff: 0.5)");
             applied_as_planned(&parse(&text), &half)
         };
-        // The selected vertex is the center of the scaling and does not move. With the factor 3, a vertex at the
-        // distance d from it, which is less than 0.5, moves by at most 2 d.
+        // The selected vertex is the center of the scaling and does not move. With the factor 3, a vertex at a distance
+        // d of less than 0.5 from the selected vertex moves by at most 2 d.
         let after = with("Scale((3, 3, 3))");
         let moved = half.positions().iter().zip(after.positions());
         assert!(

@@ -35,7 +35,7 @@ pub(crate) fn moved(
     Ok(Report::changed(moved))
 }
 
-/// The part of an axis along which a deformation changes.
+/// The part of an axis on which a deformation changes from its start to its full amount.
 #[derive(Clone, Copy)]
 pub(crate) struct Stretch {
     axis: Axis,

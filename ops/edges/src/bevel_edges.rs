@@ -15,17 +15,17 @@ use op::{Refusal, readable};
 
 /// Replaces edges with faces of constant width.
 ///
-/// A selected edge and both of its ends are removed, and a new face replaces the edge. In both faces beside the edge,
-/// the new face ends at the distance `width` from the old edge. An edge that is not selected, but shares an end with a
-/// selected edge, is cut near this end. If the two edges are neighboring sides of a face, the cut is where the distance
-/// from the selected edge is `width`, but at most four times `width` from the end. Otherwise, the cut is at the
-/// distance `width` from the end. Where two selected edges are neighboring sides of a face, the new vertex lies inside
-/// this face. If three or more new vertices surround an old vertex, another new face joins them. All edges are beveled
-/// together, so a cube that is beveled at all edges keeps all of its symmetries.
+/// A selected edge and both of its ends are removed, and a new face replaces the edge. The new face extends into both
+/// faces beside the old edge, up to the distance `width` from this edge. An edge that is not selected, but shares an
+/// end with a selected edge, is cut near this end. If the two edges are neighboring sides of a face, the cut is where
+/// the distance from the selected edge is `width`, but at most four times `width` from the end. Otherwise, the cut is
+/// at the distance `width` from the end. Where two selected edges are neighboring sides of a face, the new vertex lies
+/// inside this face. If three or more new vertices surround an old vertex, another new face joins them. All edges are
+/// beveled together, so a cube that is beveled at all edges keeps all of its symmetries.
 ///
-/// The ends of the edges are removed, so the ids of later vertices change. New vertices get the highest ids. Faces
-/// keep their ids. New faces get the highest ids: first the faces of edges, in order of the edges, then the faces of
-/// vertices. Edges get new ids.
+/// The ends of the edges are removed, so the ids of the vertices after them change. New vertices get the highest ids.
+/// Faces keep their ids. New faces get the highest ids: first the faces of edges, in order of the edges, then the faces
+/// of vertices. Edges get new ids.
 ///
 /// A new vertex has the values of the old face at its position, so textures do not change. A new face has the values
 /// (material, tags) of one of the old faces beside it. Which face is not specified, but the choice is the same in every
@@ -39,8 +39,8 @@ use op::{Refusal, readable};
 pub struct BevelEdges {
     /// The edges to bevel.
     pub edges: EdgeSelection,
-    /// The distance between the beveled edge and the new edges in each of its two faces, in scene units. Either `width`
-    /// or `fraction` must be given.
+    /// The distance from the beveled edge to the new edge in each of the two faces beside it, in scene units. Either
+    /// `width` or `fraction` must be given.
     #[serde(default)]
     pub width: Option<PositiveLength>,
     /// The width as a fraction of the length of the shortest edge at the ends of the selected edges. From 0 to 1,

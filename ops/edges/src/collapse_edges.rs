@@ -12,10 +12,10 @@ use op::prelude::*;
 
 /// Collapses edges, so that the two ends of each edge become one vertex.
 ///
-/// In a mesh of triangles, a collapse removes 1 vertex, 3 edges and 2 faces or, on the boundary, 1 vertex, 2 edges and
-/// 1 face. If a face beside the edge has more than three corners, the face is not removed and only loses a corner. Of
-/// the two ends, the vertex with the lower id is kept. Edges are collapsed in order of their ids. An edge that an
-/// earlier collapse removed counts as refused.
+/// In a mesh of triangles, a collapse removes 1 vertex, 3 edges and 2 faces. A collapse of a boundary edge removes 1
+/// vertex, 2 edges and 1 face. If a face beside the edge has more than three corners, the face is not removed and only
+/// loses a corner. Of the two ends, the vertex with the lower id is kept. Edges are collapsed in order of their ids. An
+/// edge that an earlier collapse removed counts as refused.
 ///
 /// A collapse is refused if it would change the topology of the surface or make elements coincide:
 ///
@@ -29,9 +29,9 @@ use op::prelude::*;
 /// - `SameFace`: the same face is on both sides of the edge, or would be on both sides of another edge.
 /// - `SameOpposite`: the two triangles beside the edge share another edge.
 ///
-/// Values at the remaining vertex and its corners are interpolated between the ends, on each side of a seam separately.
-/// When two edges become one, the remaining edge has the larger of the two creases, and the tags of both. Normals are
-/// dropped.
+/// Values at the remaining vertex and its corners are interpolated between the ends of the edge, on each side of a seam
+/// separately. When two edges become one, the remaining edge has the larger of the two creases, and the tags of both.
+/// Normals are dropped.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct CollapseEdges {

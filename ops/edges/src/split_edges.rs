@@ -12,11 +12,11 @@ use op::prelude::*;
 
 /// Inserts a vertex on each edge and joins it to the opposite corners of the triangles beside the edge.
 ///
-/// In a mesh of triangles, a split adds 1 vertex, 3 edges and 2 faces, or 1 vertex, 2 edges and 1 face on the boundary.
-/// If a face beside the edge has more than three corners, the face is not cut and only gains the new vertex as a
-/// corner. Edges are split in order of their ids; new edges are not split again. New vertices get the highest ids, in
-/// the order of the splits. Values at the new vertex and its corners are interpolated between the ends, on each side of
-/// a seam separately.
+/// In a mesh of triangles, a split adds 1 vertex, 3 edges and 2 faces. A split of a boundary edge adds 1 vertex, 2
+/// edges and 1 face. If a face beside the edge has more than three corners, the face is not cut and only gains the new
+/// vertex as a corner. Edges are split in order of their ids; new edges are not split again. New vertices get the
+/// highest ids, in the order of the splits. Values at the new vertex and its corners are interpolated between the ends
+/// of the edge, on each side of a seam separately.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct SplitEdges {

@@ -26,8 +26,8 @@ use op::prelude::*;
 pub struct BevelFaces {
     /// The faces to bevel.
     pub faces: FaceSelection,
-    /// The position of the corners of the inner face on the lines from the old corners to the center of the face. From
-    /// 0 (the corner) to 1 (the center), exclusive.
+    /// The position of each corner of the inner face on the line from the old corner to the center of the face. From 0
+    /// (the old corner) to 1 (the center), exclusive.
     #[serde(alias = "inset")]
     #[schemars(extend("aliases" = ["inset"]))]
     pub fraction: Fraction,

@@ -37,10 +37,10 @@ use region::Region;
 /// corner. New vertices are in the same order. Each new vertex is a copy of the first vertex of its side face.
 ///
 /// A side face has the values of the adjacent moved face (material, tags). The corners of a side face have the values
-/// of the corners of the moved face, so textures have no seam there. Each side face, however, shows only one line of
-/// the texture (the line along its edge), stretched over the face. The new edges of the rim have the values of the old
-/// ones (creases, tags), and the edges between the old and the new rim have zero values (no crease, no tags). Normals
-/// are dropped.
+/// of the corners of the moved face, so textures have no seam between the two faces. However, a side face shows only
+/// the line of the texture along the edge of the moved face, stretched over the side face. The new edges of the rim
+/// have the values of the old ones (creases, tags), and the edges between the old and the new rim have zero values (no
+/// crease, no tags). Normals are dropped.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExtrudeFaces {
@@ -99,7 +99,7 @@ impl MeshOperation for ExtrudeFaces {
     const WORDS: &'static [&'static str] = &["offset", "thicken"];
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        // The rims have at most as many edges as the faces have sides, and contain each edge at most once.
+        // The number of edges of all rims is at most the number of sides of the selected faces. No edge is on two rims.
         let sides = self.faces.count(plan).times(plan.degrees);
         let rim = sides.capped(plan.edges.max).or_less();
         plan.grow(rim, rim.by(2), rim);
@@ -166,7 +166,7 @@ fn transform(mesh: &mut Mesh, region: &Region, linear: DMat3) -> Result<(), OpEr
     Ok(())
 }
 
-/// Marks faces. Extends the marks if a face was added after they were created.
+/// Marks faces. Extends the list of marks if a face was added after the list was created.
 fn mark(marks: &mut Vec<bool>, faces: &[FaceId]) {
     for f in faces {
         marks.resize(marks.len().max(f.index() + 1), false);

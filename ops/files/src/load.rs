@@ -49,7 +49,7 @@ pub struct Load {
     #[serde(default)]
     pub isolated: CleanupPolicy,
     /// What to do with the nodes of a glTF or `.mws` file. If the nodes are kept, steps change a mesh in its own space,
-    /// once for all nodes that reference the mesh.
+    /// and each change applies to all nodes that reference the mesh.
     #[serde(default)]
     pub placements: Placements,
     /// If true, the step fails if anything in the file would be left out.
@@ -177,7 +177,7 @@ impl Load {
     }
 }
 
-/// Returns the possible loss of faces that contain a vertex twice, if the faces of the file were examined.
+/// If the faces of the file were examined, returns the possible loss of faces that contain a vertex twice.
 fn dropped_faces(peek: &Peek, path: &Path) -> Option<Loss> {
     let count = |object: &PeekObject| match object.geometry {
         PeekGeometry::Mesh(mesh) if mesh.keeps_vertices || mesh.simple_faces > 0 => {

@@ -19,12 +19,12 @@ use crate::save_plan;
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Save {
-    /// The file. The path is relative to the output folder. `{name.stem}` is replaced by the name, without
-    /// extension, of the file in the recipe parameter `name`.
+    /// The file. The path is relative to the output folder. If `name` is a recipe parameter whose value is a file,
+    /// `{name.stem}` is replaced by the name of this file without its extension.
     pub path: String,
     /// What to do with the images of materials. If omitted, images are embedded in `.glb` files. For `.gltf` and
     /// `.obj`, images in the folder of the source model are copied to the folder of the output file. OBJ cannot embed
-    /// images, so embedded images are also written to files.
+    /// images, so images that are embedded in the source model are also written to files.
     #[serde(default)]
     pub images: Option<Images>,
     /// How to compress the geometry of `.glb` and `.gltf` files without loss. If omitted, the geometry is not
@@ -37,11 +37,10 @@ pub struct Save {
     #[serde(default)]
     pub quantize: Option<Quantization>,
     /// For `.gltf` and `.glb`, the number of sets of four joints that are written for each vertex of a skinned mesh. If
-    /// omitted, the number of sets in the file that the mesh comes from, or 1 if the mesh does not come from such a
-    /// file.
+    /// omitted, the number of sets in the file from which the mesh was read, or 1 if this number is not known.
     #[serde(default)]
     pub weight_sets: Option<Count<1, 8>>,
-    /// For `.csv`, the elements that the rows list. If omitted, vertices.
+    /// For `.csv`, the kind of elements that the rows list. If omitted, vertices.
     #[serde(default)]
     pub rows: Option<Rows>,
 }

@@ -187,7 +187,7 @@ impl Writing<'_> {
         let most = 4 * sets as usize;
         if self.format.packs() && joints.len() > most {
             let what = format!("joints beyond the {most} largest weights of each vertex");
-            let reason = "`weight_sets` sets how many are written";
+            let reason = "`weight_sets` determines the number of joints that are written";
             losses.add(false, Loss::part(object, "influences", what, reason));
         }
         if mesh.has_unlisted_attributes && !matches!(self.format, Format::Mws | Format::Npz) {

@@ -17,10 +17,10 @@ use op::prelude::*;
 /// boundary loop; use `around` or `max_edges` to exclude it. No vertices are added, and existing elements keep their
 /// ids. A hole with n edges gets 1 face with n corners, or n - 2 triangles and n - 3 edges.
 ///
-/// For holes with up to 500 edges, the triangles have the smallest possible total area. Larger holes are filled by
-/// cutting off one corner after the other, in each case the corner whose two neighbors are closest to each other;
-/// straight and reflex corners come last. If the hole is far from convex, the triangles may overlap. Two vertices that
-/// are already joined by an edge are not joined again. If no triangulation without such a second edge is found, the
+/// For holes with up to 500 edges, the triangles have the smallest possible total area. In larger holes, a triangle is
+/// added at one corner after the other, each time at the corner whose two neighbors are closest to each other. Straight
+/// and reflex corners come last. If the hole is far from convex, the triangles may overlap. Two vertices that are
+/// already joined by an edge are not joined by a second edge. If no triangulation without second edges is found, the
 /// hole cannot be filled (`DuplicateEdge`). A hole with two edges cannot be filled either (`WrongPlace`); `Stitch`
 /// closes it.
 ///

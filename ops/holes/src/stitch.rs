@@ -19,13 +19,13 @@ use pairs::Pairs;
 /// Joins boundary edges that coincide.
 ///
 /// Two boundary edges coincide if both pairs of corresponding ends are at most `distance` apart. Two edges that
-/// coincide only with each other form a pair. Choose a distance below the lengths of the edges. An edge that coincides
-/// with several edges cannot be joined (`NonManifold`), and none of these edges are joined. Unlike `Weld`, this
-/// operation never merges vertices inside the surface or vertices whose edges do not coincide.
+/// coincide only with each other form a pair. Choose a distance below the lengths of the edges. If an edge coincides
+/// with several edges, neither this edge nor the others are joined (`NonManifold`). Unlike `Weld`, this operation never
+/// merges vertices inside the surface or vertices whose edges do not coincide.
 ///
 /// Of each pair of vertices or edges, the one with the lower id keeps its position and its values. The other vertex or
-/// edge is removed, so the ids of later elements change. Faces and corners do not change, so an edge whose sides have
-/// different UVs becomes a seam. Remaining holes with two edges are also closed.
+/// edge is removed, so the ids of the vertices or edges after it change. Faces and corners do not change, so an edge
+/// whose sides have different UVs becomes a seam. Remaining holes with two edges are also closed.
 ///
 /// A pair cannot be joined if both edges belong to the same face (`SameFace`), if the ends of an edge would become one
 /// vertex or a face would contain a vertex twice (`WrongPlace`), or if two edges would join the same vertices

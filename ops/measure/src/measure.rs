@@ -1,4 +1,4 @@
-//! Measure: stores a quantity of vertices or faces as an attribute.
+//! Measure: stores a quantity, such as a curvature or a distance, as an attribute of vertices or faces.
 //!
 //! ```text
 //!      .-""-.                  .2""2.
@@ -17,10 +17,10 @@ use crate::MeasureOf;
 
 /// Stores a quantity, such as a curvature or a distance, as an attribute of vertices or faces.
 ///
-/// Later steps can select elements by the attribute with `Where`, `Displace` vertices by it, show it in a `Picture`,
-/// and save it to files. The attribute is not updated when the mesh changes. Positions and other attributes do not
-/// change. Quantities are computed in the space of the mesh, without the transforms of nodes. The report states the
-/// lowest, the mean and the highest value of each object.
+/// Later steps can select elements by the attribute (`Where`), move vertices by it (`Displace`), show it in a picture
+/// (`Picture`), and save it to files (`Save`). The attribute is not updated when the mesh changes. Positions and other
+/// attributes do not change. Quantities are computed in the space of the mesh, without the transforms of nodes. The
+/// report states the lowest, the mean and the highest value of each object.
 ///
 /// An attribute of the same name is replaced if it belongs to the same elements (vertices or faces) and has one
 /// floating-point number for each element. Otherwise the step fails.
@@ -56,7 +56,7 @@ impl Measure {
 impl Operation for Measure {
     const NAME: &'static str = "Measure";
     const SUMMARY: &'static str =
-        "Store a quantity of vertices or faces, such as a curvature or a distance, as an attribute";
+        "Store a quantity, such as a curvature or a distance, as an attribute of vertices or faces";
     const EXAMPLE: &'static str = "Measure(of: MeanCurvature)";
     const WORDS: &'static [&'static str] = &[
         "curvature",

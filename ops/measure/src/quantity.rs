@@ -11,7 +11,7 @@ use op::{Operation, named_object};
 
 use crate::Measure;
 
-/// A quantity of vertices or faces.
+/// A quantity that each vertex or each face has.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum MeasureOf {
@@ -52,7 +52,7 @@ pub enum MeasureOf {
     /// surfaces, the mean error is below 1 %. A vertex that no path of edges joins to a selected vertex has no
     /// distance.
     Geodesic {
-        /// The vertices to start from.
+        /// The vertices from which distances are measured.
         from: VertexSelection,
     },
     /// The thickness of the solid at each vertex, in scene units. For each face of the vertex, a ray starts at the
@@ -196,7 +196,7 @@ impl MeasureOf {
     }
 }
 
-/// Returns quantities of a scaled mesh in scene units.
+/// Converts quantities of a scaled mesh to scene units.
 ///
 /// # Errors
 ///

@@ -25,10 +25,10 @@ use crate::join::skin::{KeptSkin, LostSkin};
 /// Each mesh becomes a part of the result. The ids of vertices, edges and faces follow the parts, in the order of the
 /// list. The parts are not connected, even where they touch. The result replaces the first mesh of the list in the
 /// scene; the other meshes are removed. If nodes place a part, the result contains a copy of the part for each node,
-/// with the transform of the node applied to its points. If there are skinned parts, and all skinned parts have the
-/// same skin and one node each, the result keeps this skin and one node, and the parts without a skin follow the first
-/// joint. In all other cases, no node places the result. The names and default weights of morph targets are kept if
-/// they are the same for all parts with morph targets.
+/// with the transform of the node applied to its points. If there are skinned parts, and they all have the same skin
+/// and one node each, the result keeps this skin and one of these nodes. The parts without a skin then follow the first
+/// joint of the skin. In all other cases, no node places the result. The names and default weights of morph targets are
+/// kept if they are the same for all parts with morph targets.
 ///
 /// If a part lacks an attribute that another part has, the elements of this part get the value zero, or -1 (no
 /// material) for material indices. Normals are dropped and reported as lost unless all parts have them. If an attribute

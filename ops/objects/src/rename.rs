@@ -9,8 +9,8 @@ use op::{Operation, named_object};
 
 /// Renames an object.
 ///
-/// The order of the objects does not change. If a node or mesh of the object has the same name as the object, it also
-/// gets the new name.
+/// The order of the objects does not change. If a node or mesh of the object has the same name as the object, this node
+/// or mesh also gets the new name.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Rename {

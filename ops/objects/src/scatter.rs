@@ -14,7 +14,7 @@ use scene::{Geometry, Node, Object, Placement, transformed};
 
 /// Places copies of an object on a surface, at random and evenly spread.
 ///
-/// Exactly `count` points are chosen so that they keep their distance from each other (Yuksel, "Sample Elimination for
+/// Exactly `count` points are chosen so that no two of them are close together (Yuksel, "Sample Elimination for
 /// Generating Poisson Disk Sample Sets", 2015). Each copy is a node that references the object (an instance), so copies
 /// need almost no memory, and almost no space in `.gltf`, `.glb` and `.mws` files. The node moves the origin of the
 /// object to the point. To make one mesh of all copies, use `Join` afterwards. If no node placed the object before the

@@ -20,11 +20,11 @@ use scene::{Geometry, Graph, Object};
 /// parts are added after all other objects. Elements keep their order and their values, and every part has all
 /// materials. Vertices without a face are dropped. The report counts them. The step fails if the mesh has no faces.
 ///
-/// If nodes place the object, they place the first part after the step. Each of these nodes gets children that place
-/// the other parts.
+/// Nodes that placed the object place the first part instead. Each of these nodes gets children that place the other
+/// parts.
 ///
-/// If parts of one component are separated, the edges and vertices between them are copied to both parts. If the faces
-/// of a part around a vertex form several fans, each fan gets a separate copy of the vertex.
+/// If parts of one component are separated, the edges and vertices between two parts are copied, so that each part has
+/// its own. If the faces of a part around a vertex form several fans, each fan gets a separate copy of the vertex.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Separate {

@@ -54,12 +54,12 @@ pub struct Transform {
     /// The fixed point of scaling and rotation.
     #[serde(default)]
     pub about: About,
-    /// The coordinates in which objects move.
+    /// The coordinate system in which objects are scaled, rotated and moved.
     #[serde(default)]
     pub space: Space,
 }
 
-/// The coordinates in which objects move.
+/// The coordinate system in which objects are scaled, rotated and moved.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Space {
@@ -82,8 +82,9 @@ pub enum About {
     /// The origin.
     #[default]
     Origin,
-    /// The center of the bounding box of each object. The box contains the vertices, control points or points of
-    /// polylines and, with `space: Scene`, those of all instances of the object.
+    /// The center of the bounding box of each object. The box contains the vertices of a mesh, the control points of
+    /// patches or curves, or the points of polylines. With `space: Scene`, it contains these points of all instances of
+    /// the object.
     Center,
     /// A point with the coordinates x, y, z.
     Point(f64, f64, f64),

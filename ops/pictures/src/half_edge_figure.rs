@@ -20,8 +20,8 @@ use crate::figure_file;
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct HalfEdgeFigure {
-    /// The file. The path is relative to the output folder. `{name.stem}` is replaced by the name, without extension,
-    /// of the file in the recipe parameter `name`.
+    /// The file. The path is relative to the output folder. If `name` is a recipe parameter whose value is a file,
+    /// `{name.stem}` is replaced by the name of this file without its extension.
     pub path: String,
     /// The faces to draw, at most 200.
     #[serde(default)]

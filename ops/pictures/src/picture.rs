@@ -31,8 +31,8 @@ use view::{ColorBy, Extent, HIGHLIGHT_COLOR, Shot, Subject, highlight};
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Picture {
-    /// The file. The path is relative to the output folder. `{name.stem}` is replaced by the name, without extension,
-    /// of the file in the recipe parameter `name`.
+    /// The file. The path is relative to the output folder. If `name` is a recipe parameter whose value is a file,
+    /// `{name.stem}` is replaced by the name of this file without its extension.
     pub path: String,
     /// The width and the height of each view in pixels.
     #[serde(default = "size")]
@@ -193,8 +193,8 @@ impl Picture {
     /// Draws scenes side by side at the same scale. Each scene has a caption, which can be empty. Returns one image, or
     /// the images of a turntable, and notes on parts that are not drawn.
     ///
-    /// If `within` is given, [`Camera::Fit`] shows all of this extent, and the colors of quantities use its range. The
-    /// images then have no legend, because the scenes have a [common legend](Extent::legend).
+    /// If `within` is given, [`Camera::Fit`] shows all of this extent, and the colors of quantities use the color range
+    /// of the extent. The images then have no legend, because the scenes have a [common legend](Extent::legend).
     ///
     /// # Errors
     ///

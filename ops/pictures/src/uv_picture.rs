@@ -11,14 +11,14 @@ use crate::figure_file;
 /// Draws the charts of the texture coordinates of a mesh into an image file.
 ///
 /// A gray frame shows the page of the texture, where u and v are from 0 to 1; v points upwards. Thick lines are the
-/// borders of charts, and thin lines are the other edges. Coordinates outside the page are also drawn, so the figure
-/// becomes higher or its scale becomes smaller. The extension of the file determines the format: `.svg` or `.png`. The
-/// file is written only if the whole recipe succeeds. The scene does not change.
+/// borders of charts, and thin lines are the other edges. Coordinates outside the page are also drawn. To make room for
+/// them, the figure becomes higher or its scale becomes smaller. The extension of the file determines the format:
+/// `.svg` or `.png`. The file is written only if the whole recipe succeeds. The scene does not change.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct UvPicture {
-    /// The file. The path is relative to the output folder. `{name.stem}` is replaced by the name, without extension,
-    /// of the file in the recipe parameter `name`.
+    /// The file. The path is relative to the output folder. If `name` is a recipe parameter whose value is a file,
+    /// `{name.stem}` is replaced by the name of this file without its extension.
     pub path: String,
     /// The name of the texture coordinates. Defaults to `uv`.
     #[serde(default = "uv")]

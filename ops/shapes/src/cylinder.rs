@@ -27,7 +27,7 @@ pub struct Cylinder {
     /// The number of sides. At least 3. Defaults to 32.
     #[serde(default = "crate::thirty_two")]
     pub around: Count<3>,
-    /// The distance from the axis to the edges along z, in scene units. More than 0.
+    /// The distance from the axis to the vertices, in scene units. More than 0.
     #[serde(default = "crate::one")]
     pub radius: PositiveLength,
     /// The height along z, in scene units. More than 0.

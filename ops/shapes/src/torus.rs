@@ -15,8 +15,8 @@ use op::prelude::*;
 
 /// Creates a torus of quadrilaterals around the z axis.
 ///
-/// The vertices form `around` rings across the tube, and each ring has `across` vertices. Vertex j of ring i has the id
-/// `i * across + j`. Ring 0 is in the direction +x, and its vertex 0 is farthest from the axis.
+/// The vertices form `around` rings, one for each cross section of the tube. Each ring has `across` vertices. Vertex j
+/// of ring i has the id `i * across + j`. Ring 0 is in the direction +x, and its vertex 0 is farthest from the axis.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Torus {

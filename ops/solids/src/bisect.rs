@@ -16,8 +16,8 @@ use op::prelude::*;
 /// Every edge that crosses the plane gets a vertex on the plane. Every face that crosses the plane is cut along it. A
 /// concave face can be cut several times. A vertex counts as on the plane if its distance from the plane is at most
 /// 1e-9 times the largest extent of the mesh, or at most 1e-14 times the largest absolute coordinate. Such a vertex is
-/// not moved. When an edge is cut, the part at the start of its first half-edge keeps the id of the edge. When a face is cut,
-/// the part with the first corner keeps the id of the face. New elements get the highest ids. Attributes are
+/// not moved. When an edge is cut, the part at the start of its first half-edge keeps the id of the edge. When a face
+/// is cut, the part with the first corner keeps the id of the face. New elements get the highest ids. Attributes are
 /// interpolated at the crossings, separately on each side of a seam.
 ///
 /// With `keep: Front` or `keep: Back`, the other side of the plane is removed. A face in the plane belongs to the back

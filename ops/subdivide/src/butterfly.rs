@@ -15,7 +15,7 @@
 //! Each level adds a vertex on every edge and connects the three new vertices of each triangle. Old vertices do not
 //! move, so the surface passes through all of them. An inner vertex is extraordinary if its valence n is not 6. In the
 //! mask for a new vertex on an edge of an extraordinary vertex, neighbor j of the extraordinary vertex has the weight
-//! (1/4 + cos(2πj/n) + cos(4πj/n)/2)/n; for n = 3 and n = 4, the weights are different. If both ends of an edge are
+//! (1/4 + cos(2πj/n) + cos(4πj/n)/2)/n; for n = 3 and n = 4, special weights are used. If both ends of an edge are
 //! extraordinary, the new vertex is the mean of the results of both masks. The scheme is the modified butterfly scheme
 //! of Zorin, Schröder and Sweldens, "Interpolating Subdivision for Meshes with Arbitrary Topology", 1996, which extends
 //! the scheme of Dyn, Levin and Gregory, "A Butterfly Subdivision Scheme for Surface Interpolation with Tension
@@ -36,8 +36,8 @@ use crate::step::{Step, Until};
 /// edges 2e and 2e + 1, and face f becomes faces 4f to 4f + 3. All faces must be triangles.
 ///
 /// Vertex attributes are interpolated with the weights of the positions, and corner values are interpolated linearly
-/// within one old triangle. Parts of an edge or a triangle copy the values of the old edge or triangle. Normals are
-/// dropped, because they would be wrong. Sharpness has no effect and is copied unchanged.
+/// within each old triangle separately. Parts of an edge or a triangle copy the values of the old edge or triangle.
+/// Normals are dropped, because they would be wrong. Sharpness has no effect and is copied unchanged.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Butterfly {

@@ -10,8 +10,8 @@
 //!    a ----------- b          a ---- e ---- b
 //! ```
 //!
-//! The new vertex in a face is the mean of its corners. All other vertices are weighted means of old vertices
-//! and of the new vertices in faces:
+//! The new vertex in a face is the mean of the corners of the face. All other vertices are weighted means of old
+//! vertices and of the new vertices in faces:
 //!
 //! ```text
 //!          f: 1/4            1/n²     1/n²     1/n²

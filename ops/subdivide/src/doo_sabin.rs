@@ -21,11 +21,12 @@
 //!     9/16 ---- 3/16
 //! ```
 //!
-//! In a face with n corners, the vertex of a corner has the weight (n + 5)/(4n) at that corner and (3 + 2
-//! cos(2πj/n))/(4n) at the j-th corner after it. Source: Doo and Sabin, "Behaviour of recursive division surfaces
-//! near extraordinary points", 1978. On a grid of quads the limit surface is the biquadratic B-spline of the vertices.
-//! The limit surface touches every face at the mean of its corners and has a continuous tangent plane. The boundary is
-//! a quadratic B-spline curve (Chaikin, "An algorithm for high-speed curve generation", 1974).
+//! In a face with n corners, the new vertex of a corner is a weighted mean of all corners of the face. The corner
+//! itself has the weight (n + 5)/(4n), and the j-th corner after it has the weight (3 + 2 cos(2πj/n))/(4n). Source: Doo
+//! and Sabin, "Behaviour of recursive division surfaces near extraordinary points", 1978. On a grid of quads the limit
+//! surface is the biquadratic B-spline of the vertices. The limit surface touches every face at the mean of its corners
+//! and has a continuous tangent plane. The boundary is a quadratic B-spline curve (Chaikin, "An algorithm for
+//! high-speed curve generation", 1974).
 //!
 //! The crate `subdivision` implements all schemes.
 
@@ -42,11 +43,11 @@ use crate::step::{Step, Until};
 /// follow. Isolated vertices are kept. Their ids follow the ids of all other vertices. Isolated vertices and inner
 /// vertices of valence 2 do not become faces.
 ///
-/// Vertex attributes are smoothed with the weights of the positions. Corner values are smoothed within one old face.
-/// The new faces at edges and vertices mix corner values of several old faces. At a seam, this distorts textures. A
-/// face inside an old face copies the values of the old face; the face of an edge or a vertex copies the values of an
-/// adjacent face. The two edges along an old edge copy its values; other edges have zero values (no crease, no tags).
-/// Normals are dropped, because they would be wrong.
+/// Vertex attributes are smoothed with the weights of the positions. Corner values are smoothed within each old face
+/// separately. The new faces at edges and vertices mix corner values of several old faces. At a seam, this distorts
+/// textures. A face inside an old face copies the values of the old face; the face of an edge or a vertex copies the
+/// values of an adjacent face. The two edges along an old edge copy its values; other edges have zero values (no
+/// crease, no tags). Normals are dropped, because they would be wrong.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct DooSabin {

@@ -31,8 +31,8 @@ use crate::step::{Step, Until};
 /// 2e + 1. Triangle f becomes faces 4f to 4f + 3. The ids of quads follow the order of the faces, and the vertex at the
 /// center of face f has the id V + E + f.
 ///
-/// Vertex attributes are interpolated. Corner values are interpolated within one old face. Parts of an edge or a face
-/// copy the values of the old edge or face, including sharpness. Normals are dropped.
+/// Vertex attributes are interpolated. Corner values are interpolated within each old face separately. Parts of an edge
+/// or a face copy the values of the old edge or face, including sharpness. Normals are dropped.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Midpoint {

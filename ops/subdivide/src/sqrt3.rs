@@ -12,8 +12,8 @@
 //!            d                        d
 //! ```
 //!
-//! A new vertex is the mean of its triangle, and an old vertex moves to a weighted mean of itself and its
-//! neighbors:
+//! A new vertex is the mean of the corners of its triangle, and an old vertex moves to a weighted mean of itself and
+//! its neighbors:
 //!
 //! ```text
 //!          1/3                 a/n   a/n
@@ -25,9 +25,9 @@
 //!      in a face          old, inside, valence n    old, boundary            new, boundary
 //! ```
 //!
-//! Here a = (4 - 2 cos(2π/n))/9. A boundary changes only on every second level of a step, which cuts each
-//! boundary edge in three. Boundary edges are never flipped. Two levels cut every edge in three and replace each
-//! triangle with nine triangles; two levels of Loop subdivision replace it with sixteen. Source: Kobbelt,
+//! Here a = (4 - 2 cos(2π/n))/9. A boundary changes only on every second level of a step, which cuts each boundary edge
+//! in three. Boundary edges are never flipped. Two levels cut every edge in three and replace each triangle with nine
+//! triangles. Two levels of Loop subdivision replace each triangle with sixteen triangles. Source: Kobbelt,
 //! "√3-Subdivision", 2000. The limit surface has continuous curvature except at old vertices whose valence is not 6.
 //!
 //! The crate `subdivision` implements all schemes.
@@ -45,11 +45,11 @@ use crate::step::{Step, Until};
 /// must be triangles. Levels are counted from the start of the step. One step of two levels therefore cuts the
 /// boundary edges, but two steps of one level leave the boundary unchanged.
 ///
-/// Vertex attributes are smoothed with the weights of the positions. Corner values are interpolated linearly within one
-/// old triangle. A triangle next to a flipped edge covers parts of two old triangles. If the old edge was a seam, the
-/// triangle mixes texture coordinates of both sides, which distorts textures. New triangles copy the values of their
-/// old triangle. Parts of a boundary edge copy the values of the edge; other edges have zero values (no crease, no
-/// tags). Normals are dropped, because they would be wrong.
+/// Vertex attributes are smoothed with the weights of the positions. Corner values are interpolated linearly within
+/// each old triangle separately. A triangle next to a flipped edge covers parts of two old triangles. If the old edge
+/// was a seam, the triangle mixes texture coordinates of both sides, which distorts textures. New triangles copy the
+/// values of their old triangle. Parts of a boundary edge copy the values of the edge; other edges have zero values (no
+/// crease, no tags). Normals are dropped, because they would be wrong.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sqrt3 {

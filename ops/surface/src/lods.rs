@@ -1,4 +1,4 @@
-//! Lods: a chain of simplified copies of an object, its levels of detail.
+//! Lods: makes levels of detail, a chain of simplified copies of an object.
 //!
 //! ```text
 //!   "rock" (1000 faces)   --->   "rock", "rock_lod1" (500), "rock_lod2" (250), "rock_lod3" (100)
@@ -13,7 +13,7 @@ use scene::{Geometry, Object};
 
 use crate::simplify::{error, note_overlaps, part, plan_goal, triangles_problem, unreached};
 
-/// Makes simplified copies of an object, its levels of detail.
+/// Makes levels of detail: simplified copies of an object.
 ///
 /// The copies are named after the object, for example `rock_lod1`, `rock_lod2` and so on. Each copy is made from the
 /// previous copy in the same way as with `Simplify`, and keeps the same attributes, materials and lines. If nodes place
@@ -26,7 +26,7 @@ pub struct Lods {
     /// The number of faces of each copy, as a fraction of the number of faces of the object. Each fraction must be
     /// smaller than the previous one.
     pub ratios: Vec<Fraction>,
-    /// The text before the number in the names of the copies. If omitted, the name of the object and `_lod`.
+    /// The text before the number in the names of the copies. If omitted, the name of the object followed by `_lod`.
     #[serde(default)]
     pub to: Option<String>,
     /// Edges to keep as lines, in addition to the lines that `Simplify` always keeps. For example, `Sharp(above: 30)`.
@@ -62,7 +62,7 @@ impl Lods {
 impl Operation for Lods {
     const NAME: &'static str = "Lods";
     const VERSION: u32 = 2;
-    const SUMMARY: &'static str = "Make simplified copies of an object, its levels of detail";
+    const SUMMARY: &'static str = "Make levels of detail: simplified copies of an object";
     const EXAMPLE: &'static str = r#"Lods(from: "mesh", ratios: [0.5, 0.25])"#;
     const WORDS: &'static [&'static str] = &["lod", "level of detail"];
 

@@ -31,7 +31,8 @@ use op::prelude::*;
 /// - Attributes: changes of texture coordinates, normals, colors and other numbers count as changes of the surface
 ///   (Hoppe, 1999), and new vertices get the values that fit best. Values are never mixed across a line, and no
 ///   triangle is turned over in the texture. Normals are kept, so that a simplified mesh is shaded like the original.
-/// - Vertex tags: vertices with different tags, whole numbers or sharpness are not merged.
+/// - Vertex tags: vertices with different tags, different sharpness, or different values of a whole-number attribute
+///   are not merged.
 ///
 /// In a texture, the border of a chart is also simplified, and can then cross a chart that is close to it. The report
 /// counts the faces that overlap. To leave more space between charts, use `PackUvs` with a larger `padding` before this
@@ -320,8 +321,8 @@ mod tests {
 
     #[test]
     fn new_overlaps_in_the_texture_are_counted() {
-        // The texture of half a ring closely surrounds the texture of a smaller one. With few vertices, the inner border
-        // of the larger ring cuts through the smaller ring.
+        // The texture of half a ring closely surrounds the texture of a smaller half ring. With few vertices, the inner
+        // border of the larger ring cuts through the smaller ring.
         let (mut positions, mut faces) = (Vec::new(), Vec::<[u32; 3]>::new());
         for (inner, outer, n) in [(0.5, 1.0, 32), (1.005, 2.0, 27)] {
             let first = u32::try_from(positions.len()).unwrap();

@@ -102,7 +102,7 @@ pub enum SmoothWeights {
     /// All vertices that share an edge with the vertex have the same weight. The lengths of edges become more equal.
     #[default]
     Uniform,
-    /// The weights follow the shape of the faces. Vertices hardly slide along the surface.
+    /// The weights depend on the angles of the faces (cotangent weights). Vertices hardly slide along the surface.
     Cotangent,
 }
 

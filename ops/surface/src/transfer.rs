@@ -21,11 +21,11 @@ use origins::{Origin, Source};
 /// Copies attributes from the nearest points of another object.
 ///
 /// An attribute of vertices, corners or faces of the object `from` becomes an attribute of the same kind of elements of
-/// the changed mesh. Numbers and vectors of vertices and corners are interpolated inside the face of the nearest point.
-/// Whole numbers, tags, and attributes that edits do not interpolate are copied from the nearest corner of this face.
-/// Values of faces are copied from the face of the nearest point. If the attribute already exists with the same type of
-/// values, it is overwritten. If its type is different, the step fails. Without `on`, the step acts on all meshes
-/// except `from`.
+/// the changed mesh. Numbers and vectors of vertices and corners are interpolated inside the face that contains the
+/// nearest point. Whole numbers, tags, and attributes that edits do not interpolate are copied from the nearest corner
+/// of this face. Values of faces are copied from the face that contains the nearest point. If the attribute already
+/// exists with the same type of values, it is overwritten. If its type is different, the step fails. Without `on`, the
+/// step acts on all meshes except `from`.
 ///
 /// All corners of a face take their values from one side of each seam, so no triangle is stretched across a seam of
 /// texture coordinates. Usually this is the side at the center of the face. Seams divide the source into charts. If the
@@ -33,8 +33,8 @@ use origins::{Origin, Source};
 /// corner are used. This happens where parts of the source intersect.
 ///
 /// Elements whose distance from the source exceeds `within` keep their values, or get zeros if the attribute is new. If
-/// the distance of a corner or of the center of a face exceeds `within`, this applies to all corners of the face. The
-/// report counts these elements.
+/// the distance of a corner or of the center of a face exceeds `within`, all corners of the face keep their values or
+/// get zeros. The report counts these elements.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Transfer {
@@ -220,8 +220,8 @@ const fn plural(domain: Domain) -> &'static str {
     }
 }
 
-/// Returns the new column of the target: values of `column` at the origins, and the values of `old`, or zeros,
-/// elsewhere.
+/// Returns the new column of the target. An element with an origin gets the value of `column` at its origin. Other
+/// elements keep their values of `old`, or get zeros if there are none.
 fn transferred(column: &Column, old: Option<&Column>, origins: &[Origin]) -> Column {
     let mut values = column.values.clone();
     let n = values.len();

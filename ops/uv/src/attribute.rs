@@ -86,7 +86,7 @@ pub(crate) fn error(error: &UvError) -> OpError {
     }
 }
 
-/// Returns a message with the part of the page that charts cover.
+/// Returns a message with the percentage of the page that charts cover.
 pub(crate) fn coverage(part: f64) -> String {
     format!("the charts cover {:.1} % of the page", 100.0 * part)
 }

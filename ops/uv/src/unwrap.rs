@@ -41,7 +41,8 @@ pub struct Unwrap {
     #[serde(default = "max_angle")]
     #[schemars(range(min = 1.0, max = 89.0))]
     pub max_angle: f64,
-    /// The largest ratio between the area scale of a triangle and the area scale of its whole chart.
+    /// The largest ratio between the area scale of a triangle and the area scale of its whole chart. The area scale is
+    /// the area in the texture divided by the area on the surface.
     #[serde(default = "max_stretch")]
     #[schemars(range(min = 1.0, max = 1000.0))]
     pub max_stretch: f64,

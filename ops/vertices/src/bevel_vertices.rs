@@ -17,9 +17,9 @@ use op::prelude::*;
 /// the cuts. The new face has as many corners as the vertex had edges. If both ends of an edge are selected, the
 /// fraction must be below 0.5. For example, a fraction of 0.25 turns a cube into a truncated cube.
 ///
-/// The selected vertices are removed, so the ids of later vertices change. New vertices get the highest ids, in order
-/// of the selected vertices and clockwise around each vertex. Faces keep their ids; new faces get the highest ids, in
-/// order of the vertices.
+/// The selected vertices are removed, so the ids of the vertices after them change. New vertices get the highest ids,
+/// in order of the selected vertices and clockwise around each vertex. Faces keep their ids; new faces get the highest
+/// ids, in order of the vertices.
 ///
 /// Values at the cuts are interpolated between the ends of the edge, so textures do not change. A new face has the
 /// values (material, tags) of one of the faces at the vertex. Which of the faces is not specified, but the choice is

@@ -57,7 +57,7 @@ fn damage_to_any_file_is_noticed() {
         |path, others| fs::write(path, &others[0]).unwrap(),
         |path, others| fs::write(path, others.last().unwrap()).unwrap(),
     ];
-    // Editing the last step makes the scene before it necessary.
+    // After the last step is edited, a run needs the scene before this step.
     let edited = text.replace("Lift(by: 2)", "Lift(by: 3)");
     let plain = [&text, &edited].map(|text| place.run_with(text, None, "plain"));
     for damage in damages {
@@ -102,7 +102,7 @@ fn an_edited_record_is_rejected_even_with_a_new_digest() {
     }
 }
 
-/// Runs the recipe again after each file of the cache has been removed and `replace` has been called with its path.
+/// Runs the recipe, removes each file of the cache and calls `replace` with its path. Then runs the recipe again.
 fn run_with_replaced_files(replace: impl Fn(&Path)) -> Place {
     let place = Place::new();
     place.run(&recipe());

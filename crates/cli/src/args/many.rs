@@ -88,9 +88,9 @@ pub(crate) struct TestArgs {
   meshwright batch clean.ron --inputs 'models/*' --out clean --shard 1/3 --report one.json
   meshwright batch --merge one.json two.json three.json --report all.csv
 
-Running an interrupted or crashed batch again resumes it: finished files that have not changed are not
-processed again, also with a different number of parts. The state is kept in DIR/batch.jsonl, or in
-DIR/batch-I-of-N.jsonl with --shard I/N, where DIR is the folder given by --out.")]
+If a batch was interrupted or has crashed, run it again to resume it: finished files that have not changed
+are not processed again, even if the number of parts is different. The state is kept in DIR/batch.jsonl, or
+in DIR/batch-I-of-N.jsonl with --shard I/N, where DIR is the folder given by --out.")]
 pub(crate) struct BatchArgs {
     /// The recipe
     #[arg(required_unless_present = "merge")]
@@ -197,9 +197,9 @@ of the sweep. In the table, the row of a failed cell contains its error.
   meshwright sweep levels.sweep.ron --sheet levels.png --wireframe --from Front
 
 draws the final scene of each cell. If exactly two parameters vary (all lists under `zip` count as one), the
-values of the first label the rows and the values of the second label the columns; otherwise the values of
-a cell are shown below it. All cells share one camera, one scale and one color range. A failed cell shows
-its error instead of a scene."
+rows are labeled with the values of the first parameter, and the columns with the values of the second.
+Otherwise, the parameter values of each cell are shown below the cell. All cells share one camera, one scale
+and one color range. A failed cell shows its error instead of a scene."
 )]
 #[command(mut_group("DrawArgs", |group| group.requires("sheet")))]
 pub(crate) struct SweepArgs {
@@ -221,7 +221,7 @@ pub(crate) struct SweepArgs {
     /// Draw the scenes of all cells in one image (.png); the values of `keep` are shown where they fit
     #[arg(long, value_name = "FILE", help_heading = SHEET)]
     pub(crate) sheet: Option<PathBuf>,
-    /// Number of cells in a row; the parameter values of each cell are then shown below it
+    /// Number of cells in a row; with this option, the parameter values of each cell are shown below the cell
     #[arg(
         long,
         value_name = "N",

@@ -103,7 +103,7 @@ pub(crate) enum Command {
 
 #[derive(Debug, ClapArgs)]
 pub(crate) struct EditArgs {
-    /// A recipe, or a model for a new recipe to load
+    /// A recipe, or a model that a new recipe loads
     pub(crate) file: Option<PathBuf>,
 }
 
@@ -119,7 +119,7 @@ pub(crate) struct WebArgs {
 
 #[derive(Debug, ClapArgs)]
 pub(crate) struct NewArgs {
-    /// The name of the recipe, or of a model for the recipe to load: `part` and `part.obj` both write `part.ron`
+    /// The name of the recipe, or of a model that the recipe loads: `part` and `part.obj` both write `part.ron`
     pub(crate) name: PathBuf,
 }
 

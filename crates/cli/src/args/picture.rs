@@ -79,9 +79,9 @@ pub(crate) struct PictureErrorsArgs {
   meshwright picture scenes/cube.ron --change split --color-by Valence
   meshwright picture 'models/**/*.obj' --sheet --columns 6
 
-`meshwright ops Picture` describes all parameters of a picture. Pass parameters that have no option of
-their own with --with, written as in recipes: --with 'style: (occlusion: 0, ids: Vertices)'. Paths in these
-parameters are relative to the working directory.")]
+`meshwright ops Picture` describes all parameters of a picture. If a parameter has no option of its own,
+use --with and write the parameter as in recipes: --with 'style: (occlusion: 0, ids: Vertices)'. Paths in
+these parameters are relative to the working directory.")]
 pub(crate) struct PictureArgs {
     /// Mesh, patch or curve files, or recipes (*.ron); patterns such as 'models/*.obj' are allowed
     #[arg(required = true, value_name = "FILES")]

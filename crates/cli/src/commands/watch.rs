@@ -147,7 +147,7 @@ impl FolderWatcher {
         Ok(())
     }
 
-    /// Follows the folders of all files that were read, such as the materials of a model.
+    /// Starts to watch the folders of all files that were read, such as the material files of a model.
     fn follow_files(&mut self) {
         let is_temporary = |path: &Path| {
             let mut parts = path.components();

@@ -9,7 +9,7 @@ use std::time::Duration;
 use crate::folder::{Ended, Folder, PROGRAM};
 use crate::run::TORUS;
 
-/// The events `done`, `problem` and `end` of a run, without times and the use of the cache.
+/// The events `done`, `problem` and `end` of a run, without the fields about the time and the cache.
 fn comparable_events(stdout: &[u8]) -> Vec<serde_json::Value> {
     let mut events = Vec::new();
     for line in std::str::from_utf8(stdout).unwrap().lines() {

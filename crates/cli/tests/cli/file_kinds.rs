@@ -1,4 +1,4 @@
-//! A file of the wrong kind, a selection of the wrong kind, and names in another case.
+//! A file of the wrong kind, a selection of the wrong kind, and names in a different letter case.
 
 use crate::folder::Folder;
 

@@ -17,7 +17,7 @@ fn blocks<'t>(text: &'t str, kind: &str) -> Vec<&'t str> {
     text.split(&opening).skip(1).map(ends).collect()
 }
 
-/// The lines with single spaces, without the column of times.
+/// The lines with all spaces reduced to single spaces, and without the column of times.
 fn without_times(text: &str) -> Vec<String> {
     let words = |line: &str| {
         line.split_whitespace()

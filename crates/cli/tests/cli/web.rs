@@ -6,7 +6,7 @@ use std::process::{Child, Command, Stdio};
 
 use crate::folder::{Folder, PROGRAM};
 
-/// A running server, which ends with this value.
+/// A running server, which is killed when this value is dropped.
 struct Server {
     child: Child,
     address: String,

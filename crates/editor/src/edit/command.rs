@@ -18,8 +18,8 @@ pub struct Command {
     pub parameters: Vec<(String, String)>,
     /// The selection for the first parameter that selects elements, if that parameter has no value.
     pub selection: Option<SelectionText>,
-    /// The object that the step acts on. If `None`, the object of the selection if the scene has several meshes, and
-    /// otherwise all objects.
+    /// The object that the step acts on. If `None`, the step acts on the object of the selection if the scene has
+    /// several meshes, and on all objects otherwise.
     pub on: Option<String>,
 }
 
@@ -30,7 +30,7 @@ pub struct SelectionText {
     pub kind: ElementKind,
     /// The selection as RON.
     pub text: String,
-    /// A step that must come first because the selection uses its tag.
+    /// A step that must come first, because it adds the tag that the selection uses.
     pub before: Option<String>,
     /// The name of the object.
     pub object: String,
@@ -55,7 +55,7 @@ pub enum CommandError {
     Parameter {
         /// The operation.
         operation: String,
-        /// The name of the parameter; empty if the problem is not about one.
+        /// The name of the parameter; empty if the problem is not about a parameter.
         field: String,
         /// The problem.
         message: String,
@@ -276,8 +276,8 @@ impl Editor {
         patches.map(|object| object.name.as_str()).collect()
     }
 
-    /// Inserts steps after the cursor that turn all Bezier patches of the scene into meshes, whose elements can be picked:
-    /// `Tessellate` and `Weld`.
+    /// Inserts steps after the cursor that turn all Bezier patches of the scene into meshes, whose elements can be
+    /// picked: `Tessellate` and `Weld`.
     ///
     /// # Errors
     ///
@@ -313,8 +313,8 @@ impl Editor {
     }
 }
 
-/// Returns the first parameter that selects elements, and the kind of elements that it selects. A command gives it the
-/// selection of the picked elements. `None` if the parameter already has a value.
+/// Returns the first parameter that selects elements, and the kind of elements that it selects. A command sets this
+/// parameter to the selection of the picked elements. `None` if the parameter already has a value.
 fn unset_selection(panel: &Panel) -> Option<(&PanelField, Option<ElementKind>)> {
     let first = panel
         .fields
@@ -327,15 +327,15 @@ fn unset_selection(panel: &Panel) -> Option<(&PanelField, Option<ElementKind>)> 
 }
 
 impl Panel {
-    /// Returns the parameter to which a command with this selection gives the picked elements, and its value as RON. `None`
-    /// if the operation has no such parameter, or if the picked elements do not fit.
+    /// Returns the parameter that a command with this selection sets, and the value that it gets as RON. `None` if the
+    /// operation has no such parameter, or if the picked elements do not fit.
     pub fn picked_value(&self, selection: &SelectionText) -> Option<(String, String)> {
         let (field, kind) = unset_selection(self)?;
         Some((field.name.clone(), converted(selection, kind)?))
     }
 }
 
-/// Returns a selection of the wanted kind: the selection itself, or the elements at the selected ones.
+/// Returns a selection of the wanted kind: the selection itself, or its conversion to this kind, such as `EdgesWithin`.
 fn converted(selection: &SelectionText, wanted: Option<ElementKind>) -> Option<String> {
     let text = &selection.text;
     match wanted {

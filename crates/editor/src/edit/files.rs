@@ -96,8 +96,8 @@ impl Editor {
         Ok(())
     }
 
-    /// Saves the recipe to a file, which becomes the file of the document. The relative paths of its inputs are rewritten if
-    /// the file is in another folder.
+    /// Saves the recipe to a file, which becomes the file of the document. The relative paths of its inputs are
+    /// rewritten if the file is in another folder.
     ///
     /// # Errors
     ///

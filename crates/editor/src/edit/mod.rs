@@ -35,10 +35,10 @@ pub struct Settings {
     pub out: PathBuf,
     /// The memory budget for the meshes of a run, in bytes. Defaults to [`engine::BUDGET`].
     pub budget: u64,
-    /// The memory for the scenes after steps, in bytes. Defaults to 4 GiB.
+    /// The maximum memory for the scenes that are kept after steps have run, in bytes. Defaults to 4 GiB.
     pub memory: u64,
-    /// The folder of journals, for the recovery of unsaved texts after a crash. If `None`, which is the default, no journal
-    /// is written.
+    /// The folder of journals, for the recovery of unsaved texts after a crash. If `None`, which is the default, no
+    /// journal is written.
     pub journals: Option<PathBuf>,
 }
 
@@ -110,7 +110,7 @@ pub enum OpenError {
 /// What changed since the last poll.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Update {
-    /// Whether the scene at the cursor may be a different one.
+    /// Whether the scene at the cursor may have changed.
     pub scene: bool,
     /// Whether the state of the run changed.
     pub run: bool,
@@ -123,8 +123,8 @@ pub struct Update {
 pub struct View {
     /// The scene.
     pub scene: Arc<Scene>,
-    /// Whether it is the scene after the step at the cursor. If not, it is the last scene that was known: the run has
-    /// not ended or has failed.
+    /// Whether `scene` is the scene after the step at the cursor. If not, `scene` is the last scene that was known: the
+    /// run has not ended or has failed.
     pub is_current: bool,
 }
 
@@ -192,7 +192,7 @@ impl Editor {
         self.indexes.on_ready(wake);
     }
 
-    /// Replaces the text, as typing does. Changes that follow each other are one step of the history.
+    /// Replaces the text, as typing does. Consecutive changes of this kind are one entry of the history.
     pub fn set_text(&mut self, text: &str) {
         self.change(text, "type", true);
     }
@@ -263,7 +263,7 @@ impl Editor {
         self.request(true);
     }
 
-    /// Takes what the engine thread has sent. Returns what changed, or `None` if nothing did.
+    /// Receives the messages of the engine thread. Returns what changed, or `None` if nothing did.
     pub fn poll(&mut self) -> Option<Update> {
         let mut update = Update::default();
         for event in self.runner.events() {
@@ -340,8 +340,8 @@ impl Editor {
         }
     }
 
-    /// Returns the step cursor: the number of steps of the text before it. The view shows the scene after these steps, and
-    /// new steps come after them.
+    /// Returns the step cursor: the number of steps of the text before the cursor. The view shows the scene after these
+    /// steps, and new steps come after them.
     pub fn cursor(&self) -> usize {
         self.cursor
     }
@@ -363,15 +363,16 @@ impl Editor {
         }
     }
 
-    /// Returns the steps of the newest run that belong to a step of the text, as a range of indices. A preview can have more
-    /// steps than the text.
+    /// Returns the steps of the newest run that belong to a step of the text, as a range of indices. A preview can have
+    /// more steps than the text.
     pub fn steps_of_item(&self, item: usize) -> std::ops::Range<usize> {
         let is_after = item >= self.cursor;
         let new = if is_after { self.preview_steps } else { 0 };
         self.run.steps_of(item + new)
     }
 
-    /// Returns the last known result of the steps before the cursor, and whether it is the result of all these steps.
+    /// Returns the last known result of the steps before the cursor, and whether it is the result of the last of these
+    /// steps.
     fn result(&self) -> (Option<&Snapshot>, bool) {
         let n = self.cursor + self.preview_steps;
         let (last, is_known) = self.run.result_after(n);
@@ -407,7 +408,7 @@ impl Editor {
         }
     }
 
-    /// Replaces the text and runs it. Returns whether it is different.
+    /// Replaces the text and runs it. Returns whether the text has changed.
     fn change(&mut self, text: &str, label: &str, merges: bool) -> bool {
         let changed = self.document.replace(text, label, merges);
         if changed {
@@ -416,7 +417,8 @@ impl Editor {
         changed
     }
 
-    /// Reads the outline of the changed text and runs it. The cursor keeps its place between the steps, unless it is given.
+    /// Reads the outline of the changed text and runs it. If `cursor` is `None`, the cursor keeps its place between the
+    /// steps.
     fn text_changed(&mut self, cursor: Option<usize>) {
         let new = Outline::of(self.document.text());
         let (old_n, new_n) = (self.outline.steps.len(), new.steps.len());

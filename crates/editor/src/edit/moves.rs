@@ -13,8 +13,8 @@ use crate::panel::number;
 pub enum Movement {
     /// By an offset in scene units, along the axes of the scene.
     Offset(DVec3),
-    /// Around an axis through their center: the index of the axis, and the angle in degrees, counter-clockwise when the axis
-    /// points towards the viewer.
+    /// Around an axis through their center: the index of the axis, and the angle in degrees, counter-clockwise when the
+    /// axis points towards the viewer.
     Rotate(usize, f64),
     /// By factors along the axes, about their center.
     Scale(DVec3),
@@ -91,7 +91,7 @@ impl By {
     }
 
     fn to_ron(self) -> String {
-        // Rounded, so that a sum such as 0.1 + 0.2 is written as 0.3.
+        // The numbers are rounded, so that a sum such as 0.1 + 0.2 is written as 0.3.
         let vector = |v: [f64; 3]| {
             let [x, y, z] = v.map(|x| number(rounded(x)));
             format!("(({x}, {y}, {z}))")
@@ -117,8 +117,8 @@ impl Editor {
         Some(self.placed(&picked.object).transform_point3(center))
     }
 
-    /// Returns the axes of the object with the picked elements, as unit vectors of the scene. If nothing is picked, the axes
-    /// of the scene.
+    /// Returns the axes of the object with the picked elements, as unit vectors of the scene. If nothing is picked, the
+    /// axes of the scene.
     pub fn picked_axes(&self) -> [DVec3; 3] {
         let object = self.picked().map(|picked| self.placed(&picked.object));
         let map = object.unwrap_or_default().matrix3;
@@ -135,9 +135,9 @@ impl Editor {
         found.map_or(DAffine3::IDENTITY, |instance| instance.to_scene)
     }
 
-    /// Moves the picked elements by a step `MoveVertices`. If the step before the cursor moves the same elements in the same
-    /// way, its parameter is changed, so that dragging several times gives one step. With `is_preview`, the text stays as it
-    /// is.
+    /// Moves the picked elements with a step `MoveVertices`. If the step before the cursor moves the same elements in
+    /// the same way, the parameter `by` of that step is changed, so that dragging several times gives one step. With
+    /// `is_preview`, the text stays as it is.
     ///
     /// # Errors
     ///

@@ -26,7 +26,8 @@ pub(super) enum Proposals {
 }
 
 impl Editor {
-    /// Returns the picked elements, which exist in the scene that the view shows. `None` while a preview lacks some of them.
+    /// Returns the picked elements, which exist in the scene that the view shows. `None` while a preview lacks some of
+    /// them.
     pub fn picked(&self) -> Option<&Picked> {
         self.picked.as_ref().filter(|_| self.has_picked)
     }
@@ -99,7 +100,7 @@ impl Editor {
     }
 
     /// Whether another selection may describe the picked elements. All selections are computed only when they are
-    /// requested, because this takes long for a large mesh.
+    /// requested, because their computation takes long in a large mesh.
     pub fn may_have_other_proposal(&self) -> bool {
         match &self.proposals {
             Proposals::Known(proposals) => proposals.len() > 1,
@@ -122,8 +123,8 @@ impl Editor {
     }
 
     /// Picks the elements that a selection of a recipe selects. Commands then use this text. The selection is of the
-    /// given kind or, if the text does not fit this kind, of another one. The object is that of the picked elements, or
-    /// else the first mesh.
+    /// given kind or, if the text does not fit this kind, of another kind. The object is that of the picked elements,
+    /// or else the first mesh.
     ///
     /// # Errors
     ///
@@ -148,7 +149,7 @@ impl Editor {
             None => "this is not a selection".to_owned(),
         })?;
         if picked.is_empty() {
-            return Err("the selection means no elements".to_owned());
+            return Err("the selection selects no elements".to_owned());
         }
         let half_edge = self.picked.as_ref().and_then(|picked| picked.half_edge);
         picked.half_edge = half_edge.filter(|&h| picked.contains(Element::HalfEdge(h)));

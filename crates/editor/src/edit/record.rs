@@ -10,13 +10,14 @@ use super::{CommandError, Editor};
 use crate::text::{self, Outline};
 
 impl Editor {
-    /// Adds expectations about the scene at the cursor: its counts, that it is manifold if it is, and that it is closed
-    /// if it is. If the cursor is before the end, the step before the cursor gets an id, and the expectations are
-    /// checked after this step. Returns the expectations.
+    /// Adds expectations about the scene at the cursor: its counts, and `Manifold` and `Closed` if they hold. If the
+    /// cursor is before the end, the step before the cursor gets an id, and the expectations are checked after this
+    /// step. Returns the expectations.
     ///
     /// # Errors
     ///
-    /// [`CommandError::Text`] if the text has errors. [`CommandError::NoScene`] if the scene at the cursor is not known.
+    /// [`CommandError::Text`] if the text has errors. [`CommandError::NoScene`] if the scene at the cursor is not
+    /// known.
     pub fn record_test(&mut self) -> Result<Vec<String>, CommandError> {
         let view = self.view();
         if !view.is_current {

@@ -61,8 +61,8 @@ impl Editor {
         Panel::of_step(self.registry(), self.outline.run_of(step)?, self.text())
     }
 
-    /// Sets a parameter of a step, given by its path: `["edges", "Random", "count"]`. `None` removes it, so that it gets its
-    /// default. Comments and layout stay.
+    /// Sets a parameter of a step, given by its path: `["edges", "Random", "count"]`. `None` removes it, so that it
+    /// gets its default. Comments and layout stay.
     ///
     /// # Errors
     ///

@@ -1,4 +1,4 @@
-//! The kinds of fields, read from JSON schemas, and values in the form of their widgets.
+//! The kinds of fields, which are read from JSON schemas, and the values that widgets show.
 
 use op::ElementKind;
 use ron_tree::{Number, Value, ValueKind, parse, string_literal};
@@ -28,7 +28,7 @@ pub enum FieldKind {
     Struct(Vec<PanelField>),
     /// A selection of elements. If `None`, a selection of elements of any kind.
     Selection(Option<ElementKind>),
-    /// Any other type: a text field for RON that is checked.
+    /// Any other type. Its widget is a text field for RON, which is checked.
     Other,
     /// A value of this kind, or none.
     Optional(Box<FieldKind>),
@@ -59,7 +59,7 @@ impl Limits {
         low && high && value.is_finite()
     }
 
-    /// Returns a number in the range: 1 if it is in the range.
+    /// Returns a number in the range: 1, if 1 is in the range.
     fn first(&self) -> f64 {
         match (self.min, self.max) {
             _ if self.allows(1.0) => 1.0,
@@ -234,7 +234,7 @@ fn vector(json: &Json) -> Option<usize> {
     (2..=3).contains(&n).then_some(n)
 }
 
-/// A value in the form of its widget.
+/// A value, as its widget shows it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FieldValue {
     /// A number.
@@ -273,7 +273,7 @@ impl FieldValue {
         }
     }
 
-    /// Reads a value of a kind from RON. `None` if the text does not have the form of the kind.
+    /// Reads a value of a kind from RON. `None` if the text is not a value of this kind.
     pub fn read(kind: &FieldKind, text: &str) -> Option<Self> {
         let parsed = parse(text);
         if !parsed.diagnostics.is_empty() {

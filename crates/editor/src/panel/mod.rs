@@ -1,5 +1,5 @@
-//! The panel of an operation: a list of fields, generated from the schema of its parameters. A panel writes the text of a
-//! step.
+//! The panel of an operation: a list of fields, generated from the schema of its parameters. A panel writes the text of
+//! a step.
 
 mod kind;
 mod parts;
@@ -63,8 +63,8 @@ impl PanelField {
         self.value.as_deref().or(self.default.as_deref())
     }
 
-    /// Returns the current value in the form of the widget; `None` if it is missing or does not have this form, such as
-    /// `arg(..)`.
+    /// Returns the current value, as the widget shows it. `None` if the value is missing, or if the widget cannot show
+    /// it, as with `arg(..)`.
     pub fn typed(&self) -> Option<FieldValue> {
         FieldValue::read(&self.kind, self.current()?)
     }
@@ -85,8 +85,8 @@ impl Panel {
         }
     }
 
-    /// Creates the panel of a step `Name(..)` with the values of the step. `text` is the text that the spans of `run` refer
-    /// to. `None` if the registry does not have the operation.
+    /// Creates the panel of a step `Name(..)` with the values of the step. `text` is the text that the spans of `run`
+    /// refer to. `None` if the registry does not have the operation.
     pub fn of_step(registry: &Registry, run: &Value, text: &str) -> Option<Self> {
         let entry = registry.get(run.name()?.0)?;
         let mut panel = Self::new(entry);
@@ -102,8 +102,8 @@ impl Panel {
         self.fields.iter().find(|field| field.name == name)
     }
 
-    /// Sets the value of a parameter as RON, or removes it if `value` is `None`. A name that the operation does not have is
-    /// ignored.
+    /// Sets the value of a parameter as RON, or removes it if `value` is `None`. A name that the operation does not
+    /// have is ignored.
     pub fn set(&mut self, name: &str, value: Option<&str>) {
         let Some(field) = self.fields.iter_mut().find(|field| field.name == name) else {
             return;
@@ -124,8 +124,8 @@ impl Panel {
         format!("{}({})", self.operation, fields.join(", "))
     }
 
-    /// Returns the problems of the values: missing parameters, wrong types, values out of range. Each has the name of its
-    /// field; empty for a problem of the whole step. A value `arg(..)` has no problem here.
+    /// Returns the problems of the values: missing parameters, wrong types, values out of range. Each problem has the
+    /// name of its field; the name is empty for a problem of the whole step. A value `arg(..)` has no problem here.
     pub fn problems(&self) -> Vec<(String, Diagnostic)> {
         let text = self.step_text();
         let parsed = parse(&text);

@@ -1,4 +1,5 @@
-//! Values with parts: structs, and variants of enumerations with content. Each part has a field of its own in the panel.
+//! Values with parts: structs, and variants of enumerations with content. Each part has a field of its own in the
+//! panel.
 
 use ron_tree::{Value, ValueKind, parse};
 use serde_json::Value as Json;
@@ -35,7 +36,7 @@ enum Content {
 pub struct Part {
     /// The part as a field with its value.
     pub field: PanelField,
-    /// Where the part is in the whole value. Empty for the numbers of `Name(x, y, z)`.
+    /// The path of the part in the whole value. Empty for the numbers of `Name(x, y, z)`.
     path: Vec<String>,
 }
 
@@ -107,8 +108,8 @@ pub(super) fn first_fields(fields: &[PanelField]) -> String {
 }
 
 impl FieldKind {
-    /// Returns the name of the variant, if the kind is an enumeration, and the parts of a value of this kind. Empty for a
-    /// value without parts, or of another form.
+    /// Returns the name of the variant, if the kind is an enumeration, and the parts of a value of this kind. The list
+    /// of parts is empty for a value without parts, or a value of another kind.
     pub fn parts(&self, whole: &str) -> (Option<String>, Vec<Part>) {
         let parsed = parse(whole);
         let value = parsed.value.some().unwrap_or(&parsed.value);
@@ -185,7 +186,7 @@ fn parts_of(fields: &[PanelField], outer: &[String], value: &Value, whole: &str)
 
 impl Part {
     /// Returns the whole value as RON, with `new` as the value of this part. If `new` is `None`, the part is removed,
-    /// so that it gets its default. Returns `None` if the part cannot be written there.
+    /// so that it gets its default. Returns `None` if the part cannot be written into the whole value.
     pub fn in_whole(&self, whole: &str, new: Option<&str>) -> Option<String> {
         if self.path.is_empty() {
             return Some(format!("{}{}", self.field.name, new?));

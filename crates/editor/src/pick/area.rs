@@ -37,8 +37,8 @@ impl Area {
     }
 }
 
-/// Returns the elements of each mesh whose vertices all lie in the area, whether they are hidden or not. Meshes without such
-/// elements are left out.
+/// Returns, for each mesh, the elements whose vertices all lie in the area, whether the elements are hidden or not.
+/// Meshes without such elements are left out.
 pub fn pick_area(scene: &Scene, view: &Projection, area: &Area, kind: ElementKind) -> Vec<Picked> {
     let mut all: Vec<Picked> = Vec::new();
     for placed in scene.instances() {
@@ -62,7 +62,8 @@ pub fn pick_area(scene: &Scene, view: &Projection, area: &Area, kind: ElementKin
     all
 }
 
-/// Keeps the picked elements that nothing hides: vertices, middles of edges, and centers of faces.
+/// Keeps the picked elements that nothing hides. An edge is hidden if its middle is hidden, and a face if its center is
+/// hidden.
 pub fn keep_visible(scene: &Scene, indexes: &Indexes, view: &Projection, picked: &mut Vec<Picked>) {
     let targets = Target::all(scene, indexes, view);
     for set in &mut *picked {

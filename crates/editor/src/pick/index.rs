@@ -46,8 +46,8 @@ impl Indexes {
             .unwrap_or_else(PoisonError::into_inner) = Some(wake);
     }
 
-    /// Returns the index of a mesh. If it is not ready, returns `None` and builds it in the background. Also `None` for a
-    /// mesh without faces.
+    /// Returns the index of a mesh. If it is not ready, returns `None` and builds it in the background. Also `None` for
+    /// a mesh without faces.
     pub fn get(&self, mesh: &Arc<Mesh>) -> Option<Arc<SurfaceIndex>> {
         let weak = Arc::downgrade(mesh);
         {

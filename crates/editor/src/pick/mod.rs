@@ -1,4 +1,4 @@
-//! Picking: from a point, a box or a lasso of the view to elements of meshes.
+//! Picking: finds the elements of meshes at a point, in a box or in a lasso of the view.
 
 mod area;
 mod index;

@@ -33,7 +33,7 @@ pub enum PickMode {
     Vertex,
     /// An edge.
     Edge,
-    /// A half-edge: the side of the edge that is nearest to the pixel.
+    /// A half-edge: the half of the nearest edge that is on the side where the pixel is.
     HalfEdge,
     /// A face.
     Face,
@@ -59,12 +59,13 @@ pub struct Hit {
     pub instance: usize,
     /// The element. For [`PickMode::HalfEdge`], a half-edge.
     pub element: Element,
-    /// The half-edge of the element: the half of an edge that lies on the face under the cursor, or the half-edge of the
-    /// face whose edge is nearest. `None` for a vertex without edges.
+    /// The half-edge of the element: the half of an edge that lies on the face under the cursor, or the half-edge of
+    /// the face whose edge is nearest. `None` for a vertex without edges.
     pub half_edge: Option<HalfEdgeId>,
     /// The face under the cursor; `None` if the cursor is beside the surface.
     pub face: Option<FaceId>,
-    /// The picked point in scene space: the vertex, the nearest point of the edge, or the point of the face.
+    /// The picked point in scene space: the vertex, the nearest point of the edge, or the point of the face under the
+    /// cursor.
     pub point: DVec3,
 }
 
@@ -144,7 +145,7 @@ impl<'s> Target<'s> {
         self.index.triangle(hit.triangle).face
     }
 
-    /// Returns the half-edge of a face whose picture is nearest to a pixel.
+    /// Of the half-edges of a face, returns the one whose picture is nearest to a pixel.
     fn nearest_side(&self, face: FaceId, pixel: DVec2) -> Option<HalfEdgeId> {
         let sides = self
             .mesh
@@ -165,7 +166,7 @@ pub(super) fn first_hit(targets: &[Target], pixel: DVec2) -> Option<(usize, RayH
         let (origin, direction) = target.view.ray(pixel);
         Some((i, target.index.ray(origin, direction)?))
     });
-    // The rays have the same parameter in all spaces.
+    // The parameter of a hit along the ray is the same in the spaces of all objects.
     hits.min_by(|a, b| a.1.t.total_cmp(&b.1.t))
 }
 
@@ -235,8 +236,8 @@ impl Search<'_, '_> {
         }
     }
 
-    /// Adds the edge of a half-edge and its ends if they are near the pixel. Returns whether the edge is near the
-    /// pixel.
+    /// Adds the edge of a half-edge, and the ends of the edge, if they are near the pixel. Returns whether the edge is
+    /// near the pixel.
     fn add(&mut self, at: usize, h: HalfEdgeId) -> bool {
         let target = &self.targets[at];
         let Some((distance, point)) = target
@@ -288,7 +289,7 @@ impl Search<'_, '_> {
     /// Returns the best candidate that is visible. `under` is the face under the cursor.
     fn best(mut self, under: Option<FaceId>) -> Option<Hit> {
         let key = |c: &Candidate| (c.rank, c.distance);
-        // On the two sides of an edge, the half on the face under the cursor comes first, because it was added first.
+        // Of the two halves of an edge, the half on the face under the cursor comes first, because it was added first.
         self.found.sort_by(|a, b| {
             let ((ra, da), (rb, db)) = (key(a), key(b));
             ra.cmp(&rb).then(da.total_cmp(&db))

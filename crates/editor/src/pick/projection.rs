@@ -6,15 +6,16 @@ use mesh::{DVec2, DVec3};
 /// The map between the scene and the pixels of the view. Pixels count from the upper left corner, y down.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Projection {
-    /// The map from scene space to clip space, where x and y run from -1 to 1 and y points up, and z runs from 0 (near) to 1.
+    /// The map from scene space to clip space, where x and y run from -1 to 1 and y points up, and z runs from 0 (near)
+    /// to 1.
     to_clip: DMat4,
     from_clip: DMat4,
     size: DVec2,
 }
 
 impl Projection {
-    /// Creates a projection from a matrix to clip space and the size of the view in pixels. In clip space, x and y run from
-    /// -1 to 1, y points up, and z runs from 0 at the near plane to 1 at the far plane.
+    /// Creates a projection from a matrix to clip space and the size of the view in pixels. In clip space, x and y run
+    /// from -1 to 1, y points up, and z runs from 0 at the near plane to 1 at the far plane.
     pub fn new(to_clip: DMat4, size: DVec2) -> Self {
         Self {
             to_clip,
@@ -34,7 +35,8 @@ impl Projection {
         Self::new(self.to_clip * DMat4::from(placed), self.size)
     }
 
-    /// Returns the pixel of a point, and its depth from 0 (near) to 1; `None` if the point is not in front of the viewer.
+    /// Returns the pixel of a point, and its depth from 0 (near) to 1; `None` if the point is not in front of the
+    /// viewer.
     pub fn to_pixel(self, point: DVec3) -> Option<(DVec2, f64)> {
         let clip = self.to_clip * point.extend(1.0);
         let scene = clip.truncate() / clip.w;
@@ -49,8 +51,8 @@ impl Projection {
         (near, self.point_at(pixel, 1.0) - near)
     }
 
-    /// Returns the point at a pixel with this depth, from 0 (near) to 1. Points of the same depth lie in a plane that is
-    /// parallel to the picture.
+    /// Returns the point at a pixel with this depth, from 0 (near) to 1. Points of the same depth lie in a plane that
+    /// is parallel to the picture.
     pub fn point_at(&self, pixel: DVec2, depth: f64) -> DVec3 {
         let flat = DVec2::new(
             2.0 * pixel.x / self.size.x - 1.0,
@@ -84,7 +86,7 @@ impl Projection {
         } else {
             0.0
         };
-        // The parameter on the segment in space, where the parameter in the picture is s.
+        // The parameter, on the segment in space, of the point that has the parameter s in the picture.
         let t = if p.1 > 0.0 && q.1 > 0.0 {
             let w = s / q.1;
             w / (w + (1.0 - s) / p.1)
@@ -104,8 +106,8 @@ impl Projection {
         )
     }
 
-    /// Returns the box of pixels that contains the picture of a box in space; `None` if the box reaches behind the viewer,
-    /// so that its picture is not bounded.
+    /// Returns the box of pixels that contains the picture of a box in space; `None` if the box reaches behind the
+    /// viewer, so that its picture is not bounded.
     pub(crate) fn bounds(&self, min: DVec3, max: DVec3) -> Option<[DVec2; 2]> {
         let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
         for i in 0..8 {

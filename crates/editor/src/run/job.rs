@@ -153,7 +153,7 @@ impl Job<'_> {
                 first = first.min(after);
             }
         }
-        // Expectations about outputs need the steps that write them.
+        // Expectations about outputs need the steps that write the outputs.
         let mut expectations = loaded.recipe.expectations.iter().zip(&state.expectations);
         let needs_files = |that: &Expectation| match that {
             Expectation::Output { .. } => true,
@@ -170,7 +170,8 @@ impl Job<'_> {
     }
 }
 
-/// Adds what is known about the steps and expectations. Returns the number of steps at the start whose results are known.
+/// Adds what is known about the steps and expectations. Returns the number of steps at the start whose results are
+/// known.
 fn take_known(state: &mut RunState, keys: &StepKeys, snapshots: &mut Snapshots) -> usize {
     let mut known = 0;
     for (step, key) in state.steps.iter_mut().zip(&keys.steps) {
@@ -216,7 +217,7 @@ fn take_verdicts(
     }
 }
 
-/// Returns the end of a run with everything that is known. `failures` are those of steps and outputs.
+/// Returns the end of a run with everything that is known. `failures` are the failures of steps and outputs.
 fn end_of(
     state: &RunState,
     recipe: &Recipe,

@@ -17,7 +17,7 @@ pub struct Snapshot {
     pub done: Arc<StepDone>,
 }
 
-/// The maximum number of known digests, and of known results of expectations.
+/// The maximum number of digests, and of results of expectations, that are kept.
 const MAX_RESULTS: usize = 100_000;
 
 /// The known results. Scenes share their unchanged meshes.

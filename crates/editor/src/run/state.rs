@@ -56,7 +56,8 @@ pub enum Status {
 /// A step of the run.
 #[derive(Clone, Debug)]
 pub struct StepState {
-    /// The label: the id or, if the step has no id, the name of the operation, with the calls and repetitions around it.
+    /// The label: the id or, if the step has no id, the name of the operation, with the calls and repetitions around
+    /// it.
     pub label: String,
     /// The name of the operation.
     pub name: String,
@@ -181,7 +182,7 @@ pub(crate) struct End {
 }
 
 impl Event {
-    /// Returns the number of the request that the event is about, if it is about one.
+    /// Returns the number of the request that the event is about, if it is about a request.
     pub(crate) fn number(&self) -> Option<u64> {
         match self {
             Self::FilesChanged => None,

@@ -1,4 +1,4 @@
-//! Changes of the picked elements: grow, shrink, all, and selections in text.
+//! Changes of the picked elements: grow, shrink, pick all elements, and pick by a typed selection.
 
 use mesh::{Domain, Mesh, VertexId};
 use op::{ElementKind, Selected};
@@ -23,8 +23,8 @@ impl Picked {
     ///
     /// # Errors
     ///
-    /// The errors of the text with their spans, or an error without a span if the selection is refused or the object is not
-    /// a mesh.
+    /// The errors of the text with their spans, or an error without a span if the selection is refused or the object is
+    /// not a mesh.
     pub fn by_text(
         scene: &Scene,
         object: &str,

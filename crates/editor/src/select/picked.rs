@@ -84,8 +84,8 @@ impl Picked {
         self.half_edge = other.half_edge.or(self.half_edge);
     }
 
-    /// Adds the elements of another set, or removes them if all of them are in this set, as a click with Shift does. A set
-    /// of another object or kind replaces this one.
+    /// Adds the elements of another set, or removes them if all of them are in this set, as a click with Shift does. A
+    /// set of another object or kind replaces this one.
     pub fn toggle(&mut self, other: &Self) {
         let before = self.clone();
         self.add(other);

@@ -1,4 +1,4 @@
-//! From picked elements to selections of recipes that describe them.
+//! Finds the selections of recipes that describe the picked elements.
 //!
 //! A selection describes the picked elements if it selects exactly these elements. Candidates are tried in this order,
 //! the most meaningful first: tags, the boundary, materials, loops and paths, components, thresholds, numbers. For a
@@ -30,7 +30,8 @@ pub struct Proposal {
 /// numbers and `All` are written as `Expect(count: .., of: ..)`, so that a replay fails if the number of elements
 /// changes.
 ///
-/// `stream` is the label of the step, which seeds random choices. Empty if nothing is picked or the object is not a mesh.
+/// `stream` is the label of the step, which seeds random choices. Empty if nothing is picked or the object is not a
+/// mesh.
 pub fn propose(scene: &Scene, picked: &Picked, stream: &str) -> Vec<Proposal> {
     let Some(object) = scene.object(&picked.object) else {
         return Vec::new();
@@ -60,8 +61,8 @@ pub fn propose(scene: &Scene, picked: &Picked, stream: &str) -> Vec<Proposal> {
     proposals
 }
 
-/// Returns the first of the selections that [`propose`] returns for one picked element. Does not visit the other
-/// elements of the mesh, which would take long for a large mesh. `None` if several elements are picked.
+/// Returns the first of the selections that [`propose`] returns for one picked element. Visits no other elements of the
+/// mesh, because a visit of all elements takes long in a large mesh. `None` if several elements are picked.
 pub(crate) fn propose_one(scene: &Scene, picked: &Picked) -> Option<Proposal> {
     let object = scene.object(&picked.object)?;
     let mesh = object.as_mesh()?;
@@ -85,8 +86,8 @@ fn means(text: &str, scene: &Scene, object: &Object, picked: &Picked, stream: &s
 /// A selection that may select exactly the picked elements.
 struct Candidate {
     text: String,
-    /// Whether the selection needs no `Expect`: it fails without one if its elements do not exist, or it selects all
-    /// elements.
+    /// Whether the selection needs no `Expect`, because it fails by itself if its elements do not exist, or because it
+    /// selects all elements.
     is_closed: bool,
 }
 
@@ -294,7 +295,8 @@ fn by_new_tag(mesh: &Mesh, picked: &Picked) -> Proposal {
     }
 }
 
-/// Returns the ends of a path of edges: the two vertices that have one of the edges. `None` if the edges are not one path.
+/// Returns the ends of a path of edges: the two vertices at which exactly one of the edges ends. `None` if the edges
+/// are not one path.
 fn path_ends(mesh: &Mesh, list: &[EdgeId]) -> Option<(usize, usize)> {
     let mut ends: Vec<usize> = list
         .iter()
@@ -357,8 +359,8 @@ fn short_between(low: f64, high: f64) -> String {
     number(middle)
 }
 
-/// Returns an angle for `Expand` from the first picked face: above all angles between picked neighbors and below all angles
-/// at the border of the picked faces.
+/// Returns an angle for `Expand` from the first picked face: above all angles between picked neighbors and below all
+/// angles at the border of the picked faces.
 fn spread_angle(mesh: &Mesh, picked: &[bool]) -> Option<String> {
     let (mut inside, mut border) = (0.0_f64, f64::INFINITY);
     for e in mesh.edges() {

@@ -42,7 +42,7 @@ fn every_example_is_written_by_the_panel_of_its_operation() {
         assert_eq!(plain(&panel.step_text()), plain(entry.example));
         let again = Panel::of_step(&registry, &parsed.value, entry.example).unwrap();
         assert_eq!(again.step_text(), panel.step_text());
-        // Values of widgets are written as values that read back the same.
+        // The value of a widget is the same after it is written and read again.
         for field in &panel.fields {
             assert!(
                 !field.doc.is_empty() && !field.type_name.is_empty(),
@@ -141,7 +141,7 @@ fn the_kinds_of_fields_come_from_the_schema() {
     assert!(all.len() < 20, "{all:?}");
 }
 
-/// Returns a value with another value of one part. `path` has the names of the parts.
+/// Returns `whole` with another value of one part. `path` has the names of the parts.
 fn with_part(kind: &FieldKind, whole: &str, path: &[&str], new: Option<&str>) -> String {
     let (name, rest) = path.split_first().unwrap();
     let (_, parts) = kind.parts(whole);

@@ -16,8 +16,8 @@ pub(crate) fn field_value<'v>(value: &'v Value, path: &[String]) -> Option<&'v V
 
 /// Sets the value at a path to `new`, or removes the field if `new` is `None`, so that it gets its default.
 ///
-/// The path has the names of fields, variants and keys, and the indices of items: `["edges", "Random", "count"]`. Fields
-/// that the text does not have yet are added, with the fields around them.
+/// The path has the names of fields, variants and keys, and the indices of items: `["edges", "Random", "count"]`. A
+/// field that the text does not have yet is added, and so are the missing fields that contain it.
 ///
 /// # Errors
 ///
@@ -155,7 +155,7 @@ fn remove_field(text: &str, parent: &Value, name: &str) -> Option<Edits> {
     Some(remove_entry(text, &entry_spans(parent), at))
 }
 
-/// Returns the spans of the fields `name: value` of a value.
+/// Returns the spans of the fields of a value. A field is written `name: value`.
 pub(super) fn entry_spans(value: &Value) -> Vec<Span> {
     let fields = value.fields().iter();
     fields

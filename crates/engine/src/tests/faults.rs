@@ -8,7 +8,7 @@ use store::{Entry, NewFile, StoreError};
 
 use super::*;
 
-/// Files in memory. The call with the number `fails_at` fails, counted from 1. Removing temporary folders never fails,
+/// Files in memory. The call with the number `fails_at`, counted from 1, fails. Removing temporary folders never fails,
 /// because it is best effort.
 #[derive(Debug, Default)]
 struct Faulty {

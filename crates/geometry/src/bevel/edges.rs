@@ -21,7 +21,7 @@ const LEAST_SINE: f64 = 0.25;
 /// Why an edge cannot be beveled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum BevelRefusal {
-    /// The edge does not have a face on both sides.
+    /// One or both sides of the edge have no face.
     Boundary,
     /// The vertex at this end of the edge has too few other edges: fewer than two new vertices would replace it.
     FewEdges(VertexId),
@@ -42,12 +42,12 @@ pub struct Beveled {
 
 /// Replaces edges by faces of constant width.
 ///
-/// `width` is the distance, in scene units, between a beveled edge and the new edge in each of its two faces. Edges
+/// In each of its two faces, a beveled edge is replaced by a new edge at the distance `width`, in scene units. Edges
 /// that meet at a vertex are beveled together, so the result does not depend on their order. The result has the
 /// symmetries that the mesh and the set of edges have in common. The other edges at the ends of beveled edges are cut.
-/// If such an edge is next to a beveled edge, it is cut where its distance from the beveled edge is `width`; otherwise
-/// it is cut at the distance `width` from its end. A cut is at most four times the width away from the end of its edge,
-/// so the bevel is narrower next to an edge at a small angle.
+/// An edge that shares a face corner with a beveled edge is cut where its distance from the beveled edge is `width`.
+/// Any other edge is cut at the distance `width` from its end. A cut is at most four times the width away from the end
+/// of its edge. The bevel is therefore narrower next to an edge that forms a small angle with the beveled edge.
 ///
 /// The ends of beveled edges are removed. In the result, the remaining vertices come first, in their old order,
 /// followed by the new vertices. Faces keep their ids. They are followed by the new faces of edges, in the order of the
@@ -111,7 +111,7 @@ pub fn shortest_edge_at(mesh: &Mesh, edges: &[EdgeId]) -> f64 {
 #[derive(Clone, Copy)]
 struct Corner {
     vertex: u32,
-    /// The old corners whose values are mixed, all of one face.
+    /// The old corners whose values are mixed. All of them are corners of one face.
     values: Blend<HalfEdgeId>,
 }
 

@@ -7,9 +7,8 @@ use mesh::{EdgeId, FaceId, Mesh};
 
 pub use edges::{BevelRefusal, Beveled, bevel_edges, shortest_edge_at};
 
-/// The remaining lengths of edges that several bevels cut. A fraction of the original length of an edge is
-/// converted to a fraction of its current length, so the result does not depend on which end of an edge is cut
-/// first.
+/// The remaining lengths of edges that are cut by several bevels. A fraction of the original length of an edge is
+/// converted to a fraction of its current length, so the result does not depend on which end of an edge is cut first.
 ///
 /// ```text
 ///    a---+---------------+---b      both cuts at a quarter of a-b: the second cut is at a third
@@ -23,8 +22,9 @@ pub struct Cuts {
 }
 
 impl Cuts {
-    /// Converts `fraction` of the length that `e` had before all bevels to a fraction of its current length. The
-    /// result is 1 or more if the current length is too short for the cut.
+    /// Returns where a cut of the edge `e` lies, as a fraction of the current length of `e`. `fraction` is the position
+    /// of the cut as a fraction of the length of `e` before all bevels. The result is 1 or more if the current length
+    /// is too short for the cut.
     pub fn fraction(&self, e: EdgeId, fraction: f64) -> f64 {
         fraction / self.remaining.get(e.index()).unwrap_or(&1.0)
     }

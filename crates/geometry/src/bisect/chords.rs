@@ -244,7 +244,7 @@ mod tests {
             (-4., 4.),
             (-4., 0.),
         ];
-        // The hole is between -2 and 2. The slit has two sides, so the line crosses the slit twice at 3.
+        // The hole is between x = -2 and x = 2. The slit has two sides, so the line crosses the slit twice at x = 3.
         let chords = cut(&keyhole);
         assert_eq!(chords, [[2, 5], [8, 17], [11, 14]]);
     }

@@ -46,10 +46,10 @@ pub struct Bisection {
 /// not split. The side of a vertex is determined once, and is the same for all its edges and faces. A crossing point
 /// does not depend on the direction of its edge.
 ///
-/// Ids change as follows. When an edge is split, the part at the origin of its first half keeps the id of the
-/// edge. The other parts and the crossing points are new, and numbered in the order of the edges. The new edges
-/// on the plane are numbered after the parts of the split edges, face by face. When a face is cut, the part
-/// with its first corner keeps the id of the face; the other parts are new.
+/// Ids change as follows. When an edge is split, the part at the origin of its first half-edge keeps the id of the
+/// edge. The other parts and the crossing points are new, and numbered in the order of the edges. The new edges on the
+/// plane are numbered after the parts of the split edges, face by face. When a face is cut, the part with its first
+/// corner keeps the id of the face; the other parts are new.
 ///
 /// Values are interpolated at crossing points. Corner values are interpolated within their face, so that seams
 /// are preserved. Parts of an edge or a face copy its values, and new edges on the plane have zero values.

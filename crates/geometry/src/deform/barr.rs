@@ -33,8 +33,8 @@ impl Frame {
         self.origin + p.x * x + p.y * y + p.z * z
     }
 
-    /// Returns the part of the deformation that applies at a height, from 0 to 1. If `from` equals `to`, the
-    /// part jumps from 0 to 1 at this height.
+    /// Returns the fraction of the deformation that applies at a height, from 0 to 1. If `from` equals `to`, the
+    /// fraction jumps from 0 to 1 at this height.
     fn part(&self, height: f64) -> f64 {
         if height <= self.from {
             0.0
@@ -47,8 +47,8 @@ impl Frame {
 }
 
 /// Rotates points around the axis, by an angle that changes with the height. A point (x, y, z) moves to
-/// (x cos θ - y sin θ, x sin θ + y cos θ, z), where θ changes linearly from 0 at `from` to the angle at `to`. The
-/// twist preserves volume. The inverse of a twist is the twist by the opposite angle.
+/// (x cos θ - y sin θ, x sin θ + y cos θ, z), where θ changes linearly from 0 at the height `from` to `angle` at the
+/// height `to`. The twist preserves volume. The inverse of a twist is the twist by the opposite angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Twist {
     /// The coordinates.
@@ -68,7 +68,7 @@ impl Twist {
 }
 
 /// Scales points around the axis, by a factor that changes with the height. A point (x, y, z) moves to (s x, s y, z),
-/// where s changes linearly from 1 at `from` to the factor at `to`.
+/// where s changes linearly from 1 at the height `from` to `factor` at the height `to`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Taper {
     /// The coordinates.
@@ -96,8 +96,8 @@ impl Taper {
 /// Bends the axis into an arc of a circle, towards the first unit vector:
 ///
 /// ```text
-///     to    |                     .--  to      The axis keeps its length. With d = z - from, limited to the range, and
-///           |                   /              θ = angle d / (to - from), a point moves to
+///     to    |                     .--  to      The axis keeps its length. d is z - from, clamped to [0, to - from].
+///           |                   /              With θ = angle d / (to - from), a point moves to
 ///           |         -->      |                   x' = x cos θ + (1 - cos θ) / k + (z - from - d) sin θ
 ///     from  |                  |   from            z' = from - x sin θ + sin θ / k + (z - from - d) cos θ
 ///                                              where k = angle / (to - from) is the curvature, with the
@@ -110,8 +110,8 @@ impl Taper {
 pub struct Bend {
     /// The coordinates.
     pub frame: Frame,
-    /// The angle between the directions of the bent axis at its two ends, in degrees. A negative angle bends to
-    /// the other side.
+    /// The angle between the directions of the bent axis at its two ends, in degrees. A negative angle bends the axis
+    /// away from the first unit vector.
     pub angle: f64,
 }
 

@@ -47,8 +47,8 @@ pub struct OneSided {
     pub largest: f64,
     /// An upper bound of the distances of all points of this surface.
     pub at_most: f64,
-    /// The mean distance over the area, computed from samples at the corners and inside the triangles. If the
-    /// area of the surface is zero, this value is the mean over the vertices.
+    /// The distance averaged over the area of this surface, computed from samples at the corners and inside the
+    /// triangles. If the area of the surface is zero, this value is the mean over the vertices.
     pub mean: f64,
     /// The point of this surface with the largest distance.
     pub from: SurfacePoint,
@@ -162,7 +162,7 @@ impl std::fmt::Display for SurfacePoint {
     }
 }
 
-/// The approximate number of samples for the mean distance of a surface with few large triangles.
+/// The approximate number of samples for the mean distance of a surface that has only a few large triangles.
 const SAMPLES: f64 = 50_000.0;
 
 /// The number of faces in a block. One thread measures the faces of a block. The number does not depend on the number

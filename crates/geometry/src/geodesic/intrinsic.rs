@@ -1,4 +1,4 @@
-//! A triangulation that is defined only by the lengths of its sides, and edge flips in it.
+//! A triangulation that is defined only by the side lengths of its triangles, and flips of its edges.
 //!
 //! ```text
 //!          k                    k

@@ -179,8 +179,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Joins the sets of all points in the box of a tree that are within reach of each other, directly or through other
-    /// points.
+    /// Joins the sets of all points in the box of a tree that are connected by steps, directly or through other points.
     fn join_within(&self, tree: &Tree) -> Result<(), Cancelled> {
         if let (false, Some([a, b])) = (tree.is_cluster, tree.halves.as_deref()) {
             let (low, high) = run_both(
@@ -202,7 +201,7 @@ impl Search<'_> {
         self.meter.add(tree.points.len())
     }
 
-    /// Joins the sets of points of one box that are within reach of points of the other box.
+    /// Joins the sets of every two points, one in each box, that are at most one step apart.
     fn join_between(&self, a: &Tree, b: &Tree) {
         let gap = (b.min - a.max).max(a.min - b.max).max(DVec3::ZERO);
         if !self.reach.covers(gap) {
@@ -297,8 +296,8 @@ mod tests {
     fn a_million_close_points_become_one_cluster_quickly() {
         let equal = vec![DVec3::splat(0.1); 1_000_000];
         assert!(clustered(&equal, 0.0).iter().all(|&low| low == 0));
-        // There are two groups of points. In the first case the groups are nearer to each other than the
-        // distance, in the second case farther.
+        // There are two groups of points. In the first case, the gap between the groups is smaller than the given
+        // distance; in the second case, it is larger.
         for (apart, expected) in [(0.9, 1), (1.1, 2)] {
             let mut groups: Vec<DVec3> = noise(200_000).iter().map(|&p| p * 1e-3).collect();
             for p in &mut groups[100_000..] {

@@ -95,20 +95,19 @@ pub fn merge_vertices(
     Ok(merge_clusters(mesh, &lowest)?)
 }
 
-/// Merges each cluster of vertices into one vertex. `lowest` has for each vertex the lowest vertex of its
-/// cluster, as returned by [`clusters`]. The mesh must be [dense](mesh::Mesh::is_dense).
+/// Merges each cluster of vertices into one vertex. `lowest[v]` is the lowest vertex index in the cluster of vertex
+/// `v`, as returned by [`clusters`]. The mesh must be [dense](mesh::Mesh::is_dense).
 ///
 /// The merged vertex has the position and the values of the lowest vertex. The other vertices are removed, and ids are
-/// renumbered without gaps. Edges between the same two vertices become one edge, with the values of the edge with the
-/// lowest id.
-/// Faces keep their order and values, and corners keep their values, so that seams are preserved. Columns with
-/// [`Rule::Drop`](mesh::Rule::Drop) are removed.
+/// renumbered without gaps. Edges between the same two vertices become one edge, which has the values of the edge with
+/// the lowest id. Faces keep their order and values, and corners keep their values, so that seams are preserved.
+/// Columns with [`Rule::Drop`](mesh::Rule::Drop) are removed.
 ///
-/// A face loses each corner that merges with the next corner of the face. The face is dropped if fewer than
-/// three corners are left or if it would contain a vertex twice. If connected faces then have opposite orientations,
-/// and reversing some of them makes all orientations agree, [`build()`] reverses the smaller group of faces, and
-/// normals are dropped. If the result is still not a manifold, `build` splits edges and vertices. For example, the
-/// third face at an edge gets a copy of the edge.
+/// A face loses each corner that merges with the next corner of the face. The face is dropped if fewer than three
+/// corners are left or if it would contain a vertex twice. After this, connected faces can have opposite orientations.
+/// If all orientations can be made to agree, [`build()`] reverses the smaller group of faces, and normals are dropped.
+/// If the result is still not a manifold, `build` splits edges and vertices. For example, the third face at an edge
+/// gets a copy of the edge.
 ///
 /// # Errors
 ///
@@ -155,8 +154,8 @@ struct Polygons {
 }
 
 impl Polygons {
-    /// Replaces the vertices of the faces by the merged vertices. `lowest` has for each vertex the lowest
-    /// vertex of its cluster.
+    /// Replaces the vertices of the faces by the merged vertices. `lowest[v]` is the lowest vertex index in the cluster
+    /// of vertex `v`.
     fn of(mesh: &Mesh, lowest: &[u32]) -> Self {
         let mut kept = Vec::new();
         let mut number = vec![0; lowest.len()];

@@ -1,4 +1,4 @@
-//! A union-find structure that several threads can join concurrently.
+//! A union-find structure in which several threads can join sets concurrently.
 
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 

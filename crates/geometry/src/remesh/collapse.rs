@@ -16,7 +16,7 @@ const QUALITY: f64 = 0.3;
 
 /// A collapse is refused if an end of the edge would be further from the new triangles than this fraction of the target
 /// length. Without this limit, tips are cut off: on the bunny of `scenes/assets`, the limit reduces the largest
-/// distance from 2.9 % of the diagonal to 1.6 %.
+/// distance from 2.9 % to 1.6 % of the diagonal of the bounding box.
 const TIP: f64 = 0.15;
 
 /// Two edges that a collapse merges into one, on one side of the collapsed edge. The apex is the vertex that both edges
@@ -135,8 +135,8 @@ impl Work<'_> {
         Ok(merged)
     }
 
-    /// Returns the relative length of the longest edge that a collapse to `point` would make. If the collapse is not
-    /// allowed, returns the reason as an error.
+    /// Returns the length of the longest edge that a collapse to `point` would make, divided by its target length. If
+    /// the collapse is not allowed, returns the reason as an error.
     fn longest_after(&self, e: EdgeId, point: DVec3) -> Result<f64, Refused> {
         let ends = self.mesh.edge_vertices(e);
         let size = self.sizes[ends[0].index()].min(self.sizes[ends[1].index()]);

@@ -28,8 +28,8 @@ const TOLERANCE: f64 = 0.01;
 
 impl Work<'_> {
     /// Whether a step that replaces triangles could move the surface further than the limit allows, or further than
-    /// [`SOFT`] times the target length. `new` are the new triangles, each with a face of the same chart, and `gone`
-    /// are points of the old triangles.
+    /// [`SOFT`] times the target length. `new` are the new triangles, each with an existing face of the chart in which
+    /// the triangle lies. `gone` are points of the old triangles.
     pub(super) fn is_far(&self, new: &[(FaceId, [DVec3; 3])], gone: &[DVec3]) -> bool {
         let sizes = new.iter().flat_map(|&(f, _)| self.mesh.face_vertices(f));
         let size = sizes.fold(f64::INFINITY, |size, v| size.min(self.sizes[v.index()]));

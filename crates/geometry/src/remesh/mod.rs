@@ -71,7 +71,7 @@ pub struct Options<'a> {
     /// limit. With a limit, target lengths are reduced where edges of the given length could exceed the limit, and
     /// steps that seem to exceed the limit are refused. At the end, the distance is measured in both directions with a
     /// guaranteed bound. If the bound is above the limit, remeshing starts again with shorter edges where the distance
-    /// is too large. Remeshing fails after four attempts.
+    /// is too large. If the bound is still above the limit after four attempts, remeshing fails.
     pub error: Option<f64>,
     /// Edges that are preserved as lines. These edges are always preserved: boundaries, seams, edges between faces with
     /// different tags, materials or other whole numbers, tagged edges, and creases.
@@ -126,7 +126,7 @@ impl Counts {
 /// Why a split, a collapse or a flip was refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Refused {
-    /// The step would merge lines, move a vertex off its line, or move a corner.
+    /// The step would merge lines, move a vertex off its line, or move a corner of a line.
     Lines,
     /// The step would make an edge that is too long.
     Long,
@@ -136,7 +136,7 @@ pub enum Refused {
     Thin,
     /// The topology of the surface would change.
     Topology,
-    /// The surface would move too far: by more than a share of the target length, or further than the error allows.
+    /// The surface would move too far: by more than a fraction of the target length, or by more than the allowed error.
     Far,
 }
 
@@ -200,8 +200,9 @@ pub enum RemeshError {
 
 /// Remeshes a mesh of triangles: replaces its triangles by nearly equilateral triangles with edges of a target length.
 ///
-/// The topology is preserved: the Euler characteristic, the boundary loops and the graph of lines do not change. No
-/// step turns a triangle by more than 60°. Isolated vertices are preserved. These vertices keep their exact positions:
+/// The topology is preserved: the Euler characteristic, the boundary loops and the graph that the lines form do not
+/// change. No step turns a triangle by more than 60°. Isolated vertices are preserved. These vertices keep their exact
+/// positions:
 ///
 /// - the ends and meeting points of lines, and the corners of lines, where a line turns by more than 40°;
 /// - vertices on a line at which the attributes of the edges of the line change;
@@ -212,9 +213,9 @@ pub enum RemeshError {
 /// Attributes are taken from the same location on the original surface, and never from the other side of a line. Vertex
 /// and corner attributes are interpolated at this location. A new vertex has a tag if all original vertices around its
 /// location have the tag; integers are taken from the nearest of these vertices. A new face gets the values of the
-/// original face at its center. An edge on a line has the values of the original edge of the line at its midpoint.
-/// Another edge gets its values from the original triangle at its midpoint: from the nearest edge of this triangle that
-/// is not on a line. If the triangle has no such edge, the values are zero.
+/// original face at its center. A new edge on a line gets the values of the original edge of the line that contains its
+/// midpoint. Any other new edge gets its values from the original triangle at its midpoint: from the edge of this
+/// triangle that is nearest to the midpoint and not on a line. If the triangle has no such edge, the values are zero.
 ///
 /// All elements get new ids.
 ///
@@ -278,7 +279,7 @@ fn run(
 ) -> Result<(Mesh, Counts), RemeshError> {
     let max_faces = options.max_faces.min(MAX_FACES);
     let needed = sizes.n_faces(original);
-    // The estimate is not a number if the lengths are extreme.
+    // The estimate can be NaN if the lengths are extreme.
     let is_possible = needed <= max_faces as f64;
     if !is_possible {
         return Err(RemeshError::TooManyFaces {

@@ -26,8 +26,8 @@ const STRAIGHT: f64 = 0.766_044_443_118_978;
 pub(super) struct Original<'a> {
     /// The original mesh. It is [dense](mesh::Mesh::is_dense).
     pub(super) source: &'a Mesh,
-    /// The same mesh without attributes, in coordinates around `center`, scaled by a power of two. Very small and very
-    /// large meshes then give the same result.
+    /// The same mesh without attributes, in coordinates relative to `center`, scaled by a power of two. Very small and
+    /// very large meshes then give the same result.
     pub(super) mesh: Mesh,
     center: DVec3,
     pub(super) scale: f64,
@@ -53,7 +53,8 @@ pub(super) enum Place {
     Corner(VertexId),
     /// On a chain, at this arc length from its start.
     Line { chain: u32, at: f64 },
-    /// Inside a chart, at the nearest point of the chart. The triangle with this index is near the location.
+    /// Inside a chart, at the point of the chart that is nearest to the vertex. The triangle with this index is near
+    /// that point.
     Inside(u32),
 }
 
@@ -61,7 +62,7 @@ pub(super) enum Place {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Track {
     pub(super) chain: u32,
-    /// Whether the first half of the edge runs along the chain, rather than against it.
+    /// Whether the first half-edge of the edge has the direction of the chain.
     pub(super) is_along: bool,
 }
 
@@ -90,8 +91,9 @@ impl Chain {
         (self.half_edges[i], t)
     }
 
-    /// Returns the arc length from one parameter to another, in the direction of the chain. Equal parameters are the
-    /// ends of a zero-length edge, because a closed chain has at least three vertices.
+    /// Returns the arc length from one parameter to another, in the direction of the chain. For equal parameters, the
+    /// result is 0, and never the full length of a closed chain: no edge goes all the way around a closed chain,
+    /// because the chain has at least three vertices.
     pub(super) fn way(&self, from: f64, to: f64) -> f64 {
         if self.is_closed && to < from {
             to - from + self.length
@@ -155,7 +157,7 @@ impl<'a> Original<'a> {
         Ok(this)
     }
 
-    /// Returns a point in the coordinates of the source.
+    /// Converts a point to the coordinates of `source`.
     pub(super) fn unscaled(&self, p: DVec3) -> DVec3 {
         p / self.scale + self.center
     }
@@ -351,7 +353,7 @@ fn fixed_kinds(source: &Mesh, mesh: &Mesh, lines: &[bool], pinned: &[VertexId]) 
     parallel::collect(mesh.n_vertices(), |v| kind(VertexId::new(v)))
 }
 
-/// Returns the first half of an edge if it runs along its chain, otherwise the second half.
+/// Returns the half-edge of an edge that has the direction of the chain of the edge.
 pub(super) fn along(e: EdgeId, track: Track) -> HalfEdgeId {
     e.half_edges()[usize::from(!track.is_along)]
 }

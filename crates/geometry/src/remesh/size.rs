@@ -110,9 +110,9 @@ impl Sizes {
     }
 }
 
-/// Returns the edge length of equilateral triangles with corners on a sphere of curvature k, if the distance from the
-/// centers of the triangles to the sphere is the `error` e: √(6 e / k - 3 e²). Source: Dunyach, Vanderhaeghe, Barthe,
-/// Botsch, "Adaptive Remeshing for Real-Time Mesh Deformation", 2013, §2.
+/// Returns the side length of an equilateral triangle whose corners lie on a sphere of curvature k, and whose center is
+/// at the distance e, the `error`, from the sphere: √(6 e / k - 3 e²). Source: Dunyach, Vanderhaeghe, Barthe, Botsch,
+/// "Adaptive Remeshing for Real-Time Mesh Deformation", 2013, §2.
 fn chord(curvature: f64, error: f64) -> f64 {
     let squared = 6.0 * error / curvature - 3.0 * error * error;
     if squared > 0.0 { squared.sqrt() } else { 0.0 }

@@ -14,7 +14,7 @@ use super::WHAT;
 use super::original::{Original, Place, Track, along};
 use super::work::Work;
 
-/// The elements of the original from which an element gets its values, with their weights.
+/// The elements of the original mesh from which a new element gets its values, with the weights of these elements.
 #[derive(Clone, Copy)]
 struct Blend {
     from: [usize; 3],
@@ -229,9 +229,10 @@ impl Work<'_> {
         }
     }
 
-    /// Returns the edge of the source from which an edge gets its values. For an edge on a line, this is an edge of the
-    /// line. For other edges, it is the nearest edge that is not on a line, if the triangle at the midpoint has such an
-    /// edge.
+    /// Returns the edge of the source from which a new edge gets its values. For a new edge on a line, this is an edge
+    /// of the line. For any other new edge, it is an edge of the source triangle at the midpoint of the new edge: of
+    /// the edges that are not on a line, the edge nearest to the midpoint. Returns `None` if all three edges of the
+    /// triangle are on lines.
     fn edge(&self, e: EdgeId) -> Option<EdgeId> {
         if let Some(track) = self.tracks[e.index()] {
             let h = along(e, track);
@@ -250,7 +251,8 @@ impl Work<'_> {
         let nearest = index.nearest(middle, self.hint_of(f));
         let triangle = index.triangle(nearest.triangle);
         let weights = triangle.barycentric(middle);
-        // The weight of a corner is the distance from the opposite side, relative to the height.
+        // The barycentric weight of a corner is the distance of the point from the side opposite the corner, divided by
+        // the height of the triangle over this side.
         let side = |i: usize| (weights[(i + 2) % 3], triangle.corners[i].edge());
         (0..3)
             .map(side)
@@ -259,7 +261,7 @@ impl Work<'_> {
             .map(|(_, e)| e)
     }
 
-    /// Returns the face of the source that is at the center of a face of the result.
+    /// Returns the face of the source that is nearest to the center of a face of the result.
     fn face(&self, f: FaceId) -> FaceId {
         let [a, b, c] = self.triangle(self.mesh.face_half_edge(f));
         let center = a / 3.0 + b / 3.0 + c / 3.0;

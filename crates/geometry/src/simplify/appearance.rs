@@ -38,7 +38,7 @@ const NORMAL: f64 = 0.002;
 /// lowest and the highest value of the attribute counts as a distance of this fraction of the size of the mesh.
 const OTHER: f64 = 0.02;
 
-/// A column whose values are kept by wedge instead of in the mesh.
+/// A column whose values are stored in [`Appearance`], one for each wedge, instead of in the mesh.
 struct Taken {
     domain: Domain,
     column: Column,
@@ -65,23 +65,23 @@ pub(super) struct Appearance {
     n: usize,
     /// The number of components of columns that are not normals.
     n_placing: usize,
-    /// By half-edge with a face: the wedge of its corner.
+    /// For each half-edge with a face: the wedge of its corner.
     wedges: Vec<u32>,
-    /// By wedge: a third of the area of its triangles.
+    /// For each wedge: a third of the area of its triangles.
     areas: Vec<f64>,
-    /// By wedge: the integral of the sum of the squared linear functions, without normals.
+    /// For each wedge: the integral of the sum of the squared linear functions of all attributes except normals.
     placing: Vec<Quadric>,
-    /// By wedge: the integral of the sum of the squared linear functions of normals.
+    /// For each wedge: the integral of the sum of the squared linear functions of normals.
     normals: Vec<Quadric>,
-    /// By wedge and component: the integral of the gradient and the offset of the linear functions.
+    /// For each wedge and component: the integral of the gradient and the offset of the linear functions.
     fits: Vec<DVec4>,
-    /// By wedge and component: the value, times the weight of its column.
+    /// For each wedge and component: the value, times the weight of its column.
     values: Vec<f64>,
-    /// By component: a value that is subtracted from the linear functions, so that rounding errors are small.
+    /// For each component: a value that is subtracted from the linear functions, so that rounding errors are small.
     bases: Vec<f64>,
 }
 
-/// Two wedges that an edge joins: at the first and at the second end of the edge.
+/// Two wedges that an edge joins: one at the first end and one at the second end of the edge.
 pub(super) type Pair = [u32; 2];
 
 /// The corners of the faces around an edge before its collapse, with their wedges.
@@ -168,7 +168,8 @@ impl Appearance {
     }
 
     /// Adds up the linear functions on the triangles of the wedge whose first corner is given. Returns the area of the
-    /// wedge, the integral of the squared functions without normals, and this integral for normals.
+    /// wedge, the integral of the squared functions of all attributes except normals, and the same integral for
+    /// normals.
     fn measure(
         &self,
         mesh: &Mesh,
@@ -214,8 +215,8 @@ impl Appearance {
         &self.values[first..first + self.n]
     }
 
-    /// Returns the wedges that an edge joins, on both sides. If the edge is not on a line, both sides are in one wedge,
-    /// which is returned once.
+    /// Returns, for each side of an edge, the two wedges that the edge joins. If the edge is not on a line, these are
+    /// the same two wedges on both sides, and they are returned once.
     pub(super) fn pairs(&self, mesh: &Mesh, e: EdgeId, is_line: bool) -> [Option<Pair>; 2] {
         let [h, twin] = e.half_edges();
         let at = |h: HalfEdgeId| self.wedges[h.index()];
@@ -239,7 +240,7 @@ impl Appearance {
         self.fits[self.n * a as usize + i] + self.fits[self.n * b as usize + i]
     }
 
-    /// Returns the integral of the squared error of the best values without normals, as a function of the point.
+    /// Returns the integral of the squared error of the best values, normals excluded, as a function of the point.
     pub(super) fn placing(&self, pair: Pair) -> Quadric {
         self.least(pair, &self.placing, 0..self.n_placing)
     }

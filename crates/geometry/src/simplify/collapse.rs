@@ -5,7 +5,7 @@
 //! number of threads.
 //!
 //! 1. The cost of an edge is computed again if one of its ends has changed.
-//! 2. Edges are chosen whose cost is low enough, and that are not near an edge chosen before in this pass.
+//! 2. An edge is chosen if its cost is low enough and no edge near it was chosen before in this pass.
 //! 3. For each chosen edge, the new position and values are computed, and the collapse is checked.
 //! 4. The chosen edges are collapsed. They are so far from each other that no collapse changes the results of the third
 //!    stage for another edge.
@@ -60,7 +60,7 @@ pub(super) struct Collapser<'a> {
     n_faces: usize,
     /// The values of vertices and corners that are interpolated, if there are any.
     pub(super) appearance: Option<Appearance>,
-    /// The distances are computed in coordinates around `center`, scaled by a power of two, so that very small and
+    /// The distances are computed in coordinates relative to `center`, scaled by a power of two, so that very small and
     /// very large meshes give the same result.
     center: DVec3,
     pub(super) scale: f64,
@@ -222,7 +222,8 @@ impl<'a> Collapser<'a> {
         if marks.iter().any(|mark| mark.touched == self.queue.pass()) {
             return Cost::Touched;
         }
-        // The cost of an edge of a line also depends on the neighbors on the line.
+        // The cost of an edge on a line also depends on the neighbors of its ends along the line, so it is always
+        // computed again.
         let is_line = self.lines[edge.index()];
         if !is_line && marks.iter().all(|mark| mark.changed < computed) {
             return Cost::Unchanged;

@@ -1,4 +1,4 @@
-//! Tests whether a collapse would make faces intersect, with a tree of boxes that is updated when the mesh
+//! Tests whether a collapse would make faces intersect. The test uses a tree of boxes, which is updated when the mesh
 //! changes.
 
 use mesh::{DVec3, Domain, FaceId, Mesh, VertexId};
@@ -6,7 +6,8 @@ use progress::{Cancelled, Progress};
 
 use crate::surface_index::{SurfaceIndex, triangles_intersect};
 
-/// The lowest and the highest corner of a box. In an empty box, the first corner exceeds the second.
+/// The lowest and the highest corner of a box. In an empty box, the coordinates of the first corner exceed those of the
+/// second.
 type Bounds = [DVec3; 2];
 
 const EMPTY: Bounds = [DVec3::INFINITY, DVec3::NEG_INFINITY];

@@ -1,30 +1,33 @@
 //! Simplification: fewer triangles for nearly the same surface.
 //!
-//! Edges are collapsed, the cheapest first. A vertex represents the original triangles that were collapsed into it. The
-//! main part of the cost is the squared distance from the new vertex to the planes of these triangles, integrated over
-//! their area, and divided by the square root of their area. Source of the squared distance: Garland, Heckbert,
-//! "Surface Simplification Using Quadric Error Metrics", 1997.
+//! Edges are collapsed, the cheapest first. Each vertex represents a part of the original surface: before the first
+//! collapse, a third of the area of each triangle around the vertex; after a collapse, everything that the two ends of
+//! the edge represented. The main part of the cost of a collapse is the squared distance from the new vertex to the
+//! planes of the original triangles that it represents. This squared distance is integrated over the represented area,
+//! and divided by the square root of this area. Source of the squared distance: Garland, Heckbert, "Surface
+//! Simplification Using Quadric Error Metrics", 1997.
 //!
-//! Without the division, small details would count less. With a division by the area instead of its square root, small
-//! details would count more. For example, a model of a rocker arm is reduced from 20,088 triangles to a tenth. Without
-//! the division, the largest distance between the original and the simplified surface is 0.5 % of the diagonal of the
-//! bounding box. With a division by the area or by its square root, it is 0.3 %. The distance averaged over the surface
-//! is 5 % smaller with the square root than with the area.
+//! The division balances large and small details. Without it, small details would count too little; with a division by
+//! the area instead of its square root, they would count too much. For example, a model of a rocker arm is reduced to a
+//! tenth of its 20,088 triangles. Without the division, the largest distance between the original and the simplified
+//! surface is 0.5 % of the diagonal of the bounding box. With a division by the area or by its square root, this
+//! distance is 0.3 %. The distance averaged over the surface is 5 % smaller with the square root than with the area.
 //!
-//! A small part of the cost is the squared distance to the triangles themselves instead of their planes. This part
+//! A small part of the cost is the squared distance to the centers of the triangles instead of their planes. This part
 //! keeps triangles round, similar to Trettner, Kobbelt, "Fast and Robust QEM Simplification of Large Meshes Using
 //! Probabilistic Quadrics", 2020.
 //!
-//! Texture coordinates, normals, colors and other numbers are a part of the cost; see `appearance.rs`.
+//! Errors of texture coordinates, normals, colors and other interpolated numbers are also a part of the cost; see
+//! `appearance.rs`.
 //!
 //! Lines of the mesh keep their places:
 //!
 //! ```text
 //!     +-------+-------+            Boundaries, seams, borders of tags and materials, creases and chosen
-//!     |  \    |    /  |            features are lines. A vertex on a line merges with its neighbors on
-//!     |    \  |  /    |            the line only. Vertices inside a region merge with each other, or into
-//!     X=======+=======X            a vertex of a line (+). Where lines end or meet (X), the vertex stays
-//!     |    /  |  \    |            as it is.
+//!     |  \    |    /  |            features are lines. A vertex on a line merges only with its neighbors
+//!     |    \  |  /    |            along this line. A vertex that is not on a line merges with another such
+//!     X=======+=======X            vertex, or into a vertex on a line (+). Where lines end or meet (X), the
+//!     |    /  |  \    |            vertex keeps its position.
 //! ```
 
 mod appearance;
@@ -58,8 +61,8 @@ pub struct Options<'a> {
     /// Vertices that keep their positions.
     pub pinned: &'a [VertexId],
     /// Whether a collapse is refused if a changed triangle would intersect another one, as tested by
-    /// [`triangles_intersect`](crate::surface_index::triangles_intersect). Faces that do not intersect before the
-    /// simplification then do not intersect afterwards.
+    /// [`triangles_intersect`](crate::surface_index::triangles_intersect). If this option is true, faces that do not
+    /// intersect before the simplification do not intersect afterwards.
     pub refuse_intersections: bool,
 }
 
@@ -77,7 +80,7 @@ pub struct Simplified {
 /// Why an edge was not collapsed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Blocked {
-    /// The surface could move further than the error allows.
+    /// The surface could move further than the allowed error.
     Error,
     /// The ends are on different lines, or both ends must keep their positions.
     Lines,
@@ -105,7 +108,7 @@ impl Blocked {
 impl std::fmt::Display for Blocked {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
-            Self::Error => "could exceed the error",
+            Self::Error => "could exceed the allowed error",
             Self::Lines => "would merge lines or move the end of a line",
             Self::Labels => "join vertices with different tags or sharpness",
             Self::Turned => "would turn a triangle over",
@@ -128,15 +131,15 @@ pub enum SimplifyError {
 
 /// Simplifies a mesh of triangles by collapsing edges.
 ///
-/// The topology is preserved: the Euler characteristic, the boundary loops and the graph of lines do not change. No
-/// triangle is turned by more than 78° in one collapse, and none is turned over in a texture. Remaining vertices can
-/// move, except pinned vertices, the ends and meeting points of lines, and vertices on a line at which the attributes
-/// of the edges of the line change.
+/// The topology is preserved: the Euler characteristic, the boundary loops and the graph that the lines form do not
+/// change. No collapse turns a triangle by more than 78° on the surface, or turns a triangle over in the texture.
+/// Remaining vertices can move, except pinned vertices, the ends and meeting points of lines, and vertices at which the
+/// attributes of the edges of a line change.
 ///
-/// Interpolated attributes of vertices and corners, including normals, are a part of the cost of a collapse. A vertex
-/// inside a region gets the values with the least error, within the range of the values around it. A vertex on a line
-/// gets the values at the nearest point on the collapsed edge, on each side of a seam separately. Isolated vertices are
-/// preserved.
+/// Errors of interpolated attributes of vertices and corners, including normals, are a part of the cost of a collapse.
+/// A new vertex that is not on a line gets the values with the least error, within the range of the values around it. A
+/// new vertex on a line gets the values at the nearest point on the collapsed edge, on each side of a seam separately.
+/// Isolated vertices are preserved.
 ///
 /// # Errors
 ///

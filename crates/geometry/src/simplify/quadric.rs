@@ -93,8 +93,8 @@ impl Add for Quadric {
     }
 }
 
-/// The area of the original surface that a vertex represents, and the integrals from which the squared distance of this
-/// area from any point is computed.
+/// The area of the original surface that a vertex represents, and two integrals over this area. The squared distance
+/// from any point, integrated over the area, is computed from these numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Spread {
     pub(super) area: f64,

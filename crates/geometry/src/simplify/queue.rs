@@ -73,7 +73,7 @@ impl Queue {
     }
 }
 
-/// Returns the level of a cost, which must not be negative. A cost that is not a number has the last level.
+/// Returns the level of a cost, which must not be negative. A cost that is NaN has the last level.
 fn level_of(cost: f64) -> usize {
     let cost = if cost.is_nan() { f64::INFINITY } else { cost };
     usize::try_from(cost.to_bits() >> SHIFT).expect("14 bits")

@@ -39,7 +39,7 @@ pub(super) struct Target {
     /// - the integral of the squared distance from the point to the planes of these triangles;
     /// - the integral of the squared error of the values of the vertex;
     /// - the [error of the line](Collapser::line_error), if the edge is on a line;
-    /// - [`ROUNDNESS`] times the integral of the squared distance to these triangles.
+    /// - [`ROUNDNESS`] times the integral of the squared distance to the centers of these triangles.
     pub(super) cost: f64,
 }
 

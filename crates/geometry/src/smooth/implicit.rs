@@ -14,9 +14,9 @@ const LONGEST: f64 = 1e3;
 /// edges of this length.
 const SHORTEST: f64 = 1e-5;
 
-/// Solves (M + time L) x' = M x for the new positions x', where L is the Laplacian and M has the vertex areas.
-/// The solver computes the displacements d = x' - x from (M + time L) d = -time L x, so the result does not
-/// depend on the distance of the mesh from the origin.
+/// Solves (M + time L) x' = M x for the new positions x', where L is the Laplacian, and M is the diagonal matrix of the
+/// vertex areas. The solver computes the displacements d = x' - x from (M + time L) d = -time L x, so the result does
+/// not depend on the distance of the mesh from the origin.
 pub(super) fn step(
     smoother: &Smoother,
     mesh: &mut Mesh,

@@ -48,8 +48,8 @@ pub enum Method {
         pass_band: f64,
     },
     /// Solves (M + time L) x' = M x for the new positions x', where x are the old positions, L is the
-    /// [`Laplacian`](crate::Laplacian) and M has the vertex areas. Source: Desbrun, Meyer, Schröder, Barr,
-    /// "Implicit Fairing of Irregular Meshes Using Diffusion and Curvature Flow", 1999.
+    /// [`Laplacian`](crate::Laplacian), and M is the diagonal matrix of the vertex areas. Source: Desbrun, Meyer,
+    /// Schröder, Barr, "Implicit Fairing of Irregular Meshes Using Diffusion and Curvature Flow", 1999.
     Implicit {
         /// The time of the flow, in scene unit². The longest time is 1000 times the squared diagonal of the
         /// bounding box; a longer time has the same effect.
@@ -114,7 +114,7 @@ pub struct Smoothing<'a> {
     pub method: Method,
     /// The number of times that the method is applied.
     pub passes: u32,
-    /// Whether each vertex may move, by vertex index. All other vertices keep their exact positions.
+    /// For each vertex index, whether the vertex may move. Vertices that may not move keep their exact positions.
     pub is_free: &'a [bool],
     /// How boundary vertices move.
     pub boundary: Boundary,

@@ -1,8 +1,8 @@
 //! The numerical factorization L D Lᵀ, and the solution of equations.
 //!
-//! Each supernode has a front: a dense symmetric matrix of the rows of the supernode. The front is the sum of the
-//! entries of the matrix in the columns of the supernode and of the updates U from the children of the supernode in the
-//! tree. Eliminating the pivots P gives the columns of L and the update for the parent:
+//! Each supernode has a front: a dense symmetric matrix of the rows of the supernode. The front is the sum of two
+//! parts: the entries of the matrix in the columns of the supernode, and the updates U from the children of the
+//! supernode in the tree. Eliminating the pivots P gives the columns of L and the update for the parent:
 //!
 //! ```text
 //!     | P      |   pivots        | L      |
@@ -20,7 +20,7 @@ use super::symbolic::{Supernode, Symbolic, inverse};
 use super::{Entry, SolveError, SymmetricMatrix};
 use front::{Front, Update};
 
-/// The largest number of entries of a factor: 16 GiB.
+/// The largest number of entries of a factor. This number of entries takes 16 GiB.
 const MAX_ENTRIES: u64 = 1 << 31;
 /// The largest accepted residual, relative to the size of the terms of the equations.
 const MAX_RESIDUAL: f64 = 1e-9;
@@ -200,8 +200,9 @@ impl<'a> Factor<'a> {
     ///
     /// # Errors
     ///
-    /// Returns [`SolveError::Residual`] if the residual is larger than 1e-9 times the largest sum of the absolute terms
-    /// of an equation. `x` is then unspecified.
+    /// Returns [`SolveError::Residual`] if the residual is larger than 1e-9 times the size of the terms. The size of
+    /// the terms is the sum of the absolute values of the terms of an equation, for the equation with the largest sum.
+    /// `x` is then unspecified.
     ///
     /// # Panics
     ///
@@ -241,7 +242,8 @@ impl<'a> Factor<'a> {
         }
     }
 
-    /// Returns b - A x for the free rows, and the largest sum of absolute terms of a row.
+    /// Returns b - A x for the free rows. Also returns the sum of the absolute values of the terms of a row, for the
+    /// row with the largest sum.
     fn residual<T: Entry>(&self, b: &[T], x: &[T]) -> (Vec<T>, f64) {
         let rows: Vec<(T, f64)> = parallel::collect(self.free.len(), |i| {
             let i = self.free[i] as usize;

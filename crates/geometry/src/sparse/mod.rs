@@ -25,7 +25,8 @@ use progress::Cancelled;
 
 pub use factor::Factor;
 
-/// A symmetric matrix with few nonzero entries, in compressed rows (CSR). Both triangles are stored.
+/// A symmetric matrix with few nonzero entries, in compressed rows (CSR). Both the upper and the lower triangle are
+/// stored.
 ///
 /// # Examples
 ///
@@ -42,9 +43,9 @@ pub use factor::Factor;
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SymmetricMatrix {
-    /// The entries of row i are from `starts[i]` to `starts[i + 1]`, exclusive.
+    /// The entries of row i have the indices from `starts[i]` to `starts[i + 1]`, exclusive.
     starts: Vec<usize>,
-    /// The column of each entry, ascending in a row.
+    /// The column of each entry. Within each row, the columns are in ascending order.
     columns: Vec<u32>,
     values: Vec<f64>,
 }
@@ -199,7 +200,7 @@ impl SymmetricMatrix {
         self.len() == 0
     }
 
-    /// Returns the number of stored entries of both triangles.
+    /// Returns the number of stored entries, in the upper and the lower triangle together.
     pub fn n_entries(&self) -> usize {
         self.columns.len()
     }

@@ -213,8 +213,8 @@ impl Quotient {
         }
     }
 
-    /// Removes the variables and elements that the new element p covers from the lists of i. Returns the degree
-    /// of i outside of p, as an upper bound, and a hash of the lists.
+    /// Removes from the lists of i the variables and elements that the new element p covers. Returns the degree of i
+    /// outside of p, as an upper bound, and a hash of the lists.
     fn update(&mut self, i: u32, p: u32) -> (u32, u64) {
         let base = self.stamp << 32;
         let (mut degree, mut hash) = (0_u64, u64::from(p));

@@ -1,8 +1,9 @@
 //! The pattern of the factor: elimination tree, supernodes and their rows.
 //!
-//! Source: Liu, "The Role of Elimination Trees in Sparse Factorization", 1990. A supernode is a range of columns with
-//! the same rows below their diagonal block. Small supernodes are merged with their parents although this stores some
-//! zeros (Ashcraft, Grimes, "The Influence of Relaxed Supernode Partitions on the Multifrontal Method", 1989).
+//! Source: Liu, "The Role of Elimination Trees in Sparse Factorization", 1990. A supernode is a range of columns that
+//! have entries in the same rows below their diagonal block. Small supernodes are merged with their parents although
+//! this stores some zeros (Ashcraft, Grimes, "The Influence of Relaxed Supernode Partitions on the Multifrontal
+//! Method", 1989).
 //!
 //! ```text
 //!     x                  a supernode of 3 columns
@@ -100,7 +101,7 @@ fn elimination_tree<I: Iterator<Item = u32>>(
 ) -> Vec<u32> {
     let position = inverse(order);
     let mut parent = vec![NONE; order.len()];
-    // The highest known ancestor of each column, which shortens the paths to the root.
+    // For each column, the highest ancestor that is known so far. These ancestors shorten the paths to the root.
     let mut ancestor = vec![NONE; order.len()];
     for (k, &row) in (0..).zip(order) {
         for i in neighbors(row as usize) {

@@ -18,17 +18,17 @@ const WHAT: &str = "build the spatial index";
 /// The center of a triangle, and the index of the triangle in the order of the faces.
 type Key = (DVec3, u32);
 
-/// A flat convex face with at least this number of corners is halved recursively.
+/// A flat convex face with at least this number of corners is cut in half recursively.
 const MANY_CORNERS: usize = 64;
 
 /// The number of triangles between two progress reports.
 const REPORT: usize = 16_384;
 
 /// Appends the triangles of a face. A face with at most four corners is triangulated as a fan. A larger face is
-/// triangulated by `cutter`: the triangles of a fan could lie on top of each other, and a point near the face would
-/// be near all of them. For the same reason, a flat convex face with many corners is halved recursively: if its corners
-/// lie on a circle, the triangles of `cutter` are long and thin, and a point is inside the bounding boxes of many of
-/// them.
+/// triangulated by `cutter`, because the triangles of a fan could lie on top of each other. A point near the face would
+/// then be near all of these triangles, and searches would be slow. A flat convex face with many corners is cut in half
+/// recursively instead. For example, if its corners lie on a circle, the triangles of `cutter` are long and thin, and a
+/// point is inside the bounding boxes of many of them.
 pub(crate) fn triangulate(
     mesh: &Mesh,
     face: FaceId,
@@ -61,8 +61,8 @@ pub(crate) fn triangulate(
     }
 }
 
-/// Calls `triangle` with the corners of the triangles of a polygon. The first triangle halves the polygon, and both
-/// halves are halved recursively.
+/// Calls `triangle` with the corners of the triangles of a polygon. The first triangle separates the polygon into two
+/// halves, which are then divided in the same way, recursively.
 fn halve(corners: &[HalfEdgeId], triangle: &mut impl FnMut([HalfEdgeId; 3])) {
     let [first, .., last] = *corners else { return };
     let middle = corners.len() / 2;
@@ -128,7 +128,7 @@ struct Subtree<'a> {
 }
 
 impl Subtree<'_> {
-    /// Builds the nodes. Returns the sum over all triangles of the unit normal times twice the area.
+    /// Builds the nodes. Returns the sum, over all triangles, of the unit normal times twice the area.
     fn build(
         self,
         triangles: &[Triangle],
@@ -156,8 +156,8 @@ impl Subtree<'_> {
         let (min, max) = bounds(self.keys.iter().map(|key| key.0));
         let axis = (max - min).max_position();
         let middle = n / 2;
-        // The index is the second key, so no two keys are equal, and the halves do not depend on the order of the
-        // keys.
+        // Triangles whose centers have equal coordinates along the axis are ordered by their indices, so no two keys
+        // are equal, and the halves do not depend on the order of the keys.
         self.keys.select_nth_unstable_by(middle, |a, b| {
             a.0[axis].total_cmp(&b.0[axis]).then(a.1.cmp(&b.1))
         });

@@ -11,7 +11,7 @@ use crate::predicates::{orient2d, orient3d};
 
 /// Returns the faces of a mesh that intersect another face of the mesh, in ascending order. Polygons are divided into
 /// triangles as in [`SurfaceIndex`], and the triangles are tested by [`triangles_intersect`]. Common corners and sides
-/// of neighbors do not count as intersections; corners at the same position are common.
+/// of neighbors do not count as intersections; corners at the same position count as common.
 ///
 /// # Errors
 ///
@@ -150,7 +150,7 @@ fn meets_flat([p, q]: [DVec3; 2], t: &[DVec3; 3]) -> bool {
         !(turns.contains(&Greater) && turns.contains(&Less))
     };
     // A segment with both ends outside of the triangle meets the triangle if and only if it meets one of its sides. Two
-    // segments meet if neither has both ends strictly on one side of the line of the other.
+    // segments on different lines meet if neither has both ends strictly on one side of the line through the other.
     let crosses = |a, b| {
         let (at_a, at_b) = (orient2d(p, q, a), orient2d(p, q, b));
         let (at_p, at_q) = (orient2d(a, b, p), orient2d(a, b, q));

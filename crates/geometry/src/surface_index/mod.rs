@@ -11,9 +11,9 @@
 //! assert_eq!(nearest.distance, 1.0);
 //! ```
 //!
-//! The index is a binary tree of axis-aligned boxes. The triangles of a node are sorted by their centers along the
-//! longest side of the box of the centers; each child gets half of the triangles. A node also has a slab: two parallel
-//! planes around its triangles. The tree depends only on the mesh, not on the number of threads.
+//! The index is a binary tree of axis-aligned boxes. The triangles of a node are sorted along the longest side of the
+//! bounding box of their centers; each child gets half of the triangles. A node also has a slab: two parallel planes
+//! around its triangles. The tree depends only on the mesh, not on the number of threads.
 //!
 //! A face with four corners is divided into a fan of two triangles. A face with more corners is divided by
 //! [`triangulate`](mod@crate::triangulate).
@@ -188,8 +188,8 @@ impl SurfaceIndex {
 impl Triangle {
     /// Returns the barycentric coordinates of the point of the triangle that is nearest to `p`: weights of the three
     /// corners that are not negative and add up to 1, up to rounding. The weight of a corner is exactly 0 if the
-    /// nearest point was found on the opposite side. In a zero-area triangle, the weights are those of a point on a
-    /// side.
+    /// nearest point was found on the side opposite this corner. In a zero-area triangle, the weights are those of a
+    /// point on a side.
     pub fn barycentric(&self, p: DVec3) -> [f64; 3] {
         triangle::nearest_weights(p, &self.positions)
     }

@@ -161,7 +161,8 @@ impl SurfaceIndex {
     }
 
     /// Returns the nearest point for each of the points `point(0)` to `point(n - 1)`; `None` where `point` returns
-    /// `None`. Calls `done` after every few points with their number, and stops if `done` returns an error.
+    /// `None`. After every few points, calls `done` with the number of these points, and stops if `done` returns an
+    /// error.
     pub(crate) fn nearest_to_all(
         &self,
         n: usize,

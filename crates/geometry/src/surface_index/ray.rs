@@ -205,8 +205,8 @@ impl Ray {
         };
         let depth = weights[0] * moved[0][z] + weights[1] * moved[1][z] + weights[2] * moved[2][z];
         let along = depth / self.direction[z];
-        // The order of the axes is right-handed, so a triangle whose corners turn left faces in the positive direction
-        // of the last axis.
+        // The order of the axes is right-handed. The front of a triangle with counter-clockwise corners therefore
+        // points in the positive direction of the last axis.
         let is_front = (side == Less) == (self.direction[z] > 0.0);
         (along >= 0.0).then(|| RayHit {
             t: along,

@@ -21,7 +21,7 @@ const STEPS: usize = 3;
 /// All points of a node satisfy `low <= normal · point <= high`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Slab {
-    /// The direction of the sum over the triangles of normal times area, with length 1 up to rounding.
+    /// The direction of the sum, over the triangles, of normal times area. The length is 1 up to rounding.
     normal: [f32; 3],
     low: f64,
     high: f64,
@@ -35,8 +35,8 @@ impl Slab {
         high: f64::INFINITY,
     };
 
-    /// Returns the slab of `n` triangles. `normal` is the sum over the triangles of normal times area, or a multiple of
-    /// this sum.
+    /// Returns the slab of `n` triangles. `normal` is the sum, over the triangles, of normal times area, or a multiple
+    /// of this sum.
     pub(super) fn of<'a>(
         triangles: impl Iterator<Item = &'a [DVec3; 3]>,
         n: usize,

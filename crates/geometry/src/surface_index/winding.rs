@@ -36,7 +36,7 @@ const BLOCK: usize = 256;
 
 /// Integrals over the points p of the triangles of a node, for the Taylor series about the center c. Here n is the unit
 /// normal of a triangle, and x = p − c. Of the tensors M and T, only the symmetric parts are stored, with their
-/// components in the given order.
+/// components in the order below.
 ///
 /// ```text
 /// normal   N_i  = ∫ n_i dA

@@ -90,7 +90,8 @@ impl<'a> Polygon<'a> {
         let n = u32::try_from(self.points.len()).expect("corners fit 32 bits");
         // The sides that the line meets and that have the inside of the polygon on their right.
         let mut sides: BTreeSet<Side> = BTreeSet::new();
-        // For each of these sides, by its first corner: the last corner that had this side as its left neighbor.
+        // For each of these sides, indexed by the first corner of the side: the last corner that had this side as its
+        // left neighbor.
         let mut helpers = vec![0; self.points.len()];
         let mut is_join = vec![false; self.points.len()];
         let mut diagonals = Vec::new();
@@ -152,7 +153,7 @@ impl<'a> Polygon<'a> {
             triangles.push(triangle);
             (orient2d(a, b, c) != Less).then_some(())
         };
-        // The corners above that no triangle has cut off. All of them except the first are on the same boundary.
+        // The corners above `c` that no triangle has cut off. All of them except the first are on the same boundary.
         let mut stack: Vec<u32> = Vec::new();
         let mut stack_is_left = false;
         let &(_, last, _) = corners.last()?;
@@ -328,7 +329,7 @@ mod tests {
         }
     }
 
-    /// Small whole coordinates have many corners at the same height and on the same line.
+    /// With small whole coordinates, many corners are at the same height or on the same line.
     #[test]
     fn polygons_with_small_whole_coordinates_are_triangulated() {
         let (mut state, mut n_tested) = (1, 0);

@@ -12,13 +12,16 @@ use super::number;
 use super::surface::{Part, Surface, is_solid};
 use crate::sparse::SolveError;
 
-/// A chart whose projection to a plane has at most this aspect everywhere is projected.
+/// A chart is flattened by a projection to a plane if the aspect (see [`Stretch`](super::Stretch)) of the projection
+/// is at most this number everywhere.
 const FLAT: f64 = 1.0 + 1e-6;
-/// Two charts are joined only if they meet along this fraction of the shorter border.
+/// Two charts are joined only if the length of their common border is at least this fraction of the length of the
+/// shorter of their two borders.
 const MIN_SHARED: f64 = 0.1;
 /// Two charts are not joined if the mean of `1 - cosine` of the angles at which they meet is above this number.
 const MAX_CREASE: f64 = 0.5;
-/// A chart whose area is less than this fraction of the area of the other chart is also joined across larger angles.
+/// A chart whose area is less than this fraction of the area of the other chart is also joined if the angles are larger
+/// than [`MAX_CREASE`] allows.
 const SMALL: f64 = 0.1;
 
 /// The limits of a chart.
@@ -26,18 +29,21 @@ const SMALL: f64 = 0.1;
 pub(super) struct Limits {
     /// The smallest cosine of the angle between the normals of the faces and the mean normal.
     pub(super) min_cosine: f64,
-    /// The largest ratio between the area scale of a triangle and that of the chart.
+    /// The largest ratio between the area scale of a triangle and that of the chart, the larger scale divided by the
+    /// smaller one. The area scale is the area in the plane, divided by the area on the surface.
     pub(super) max_stretch: f64,
 }
 
 /// The limits of the map of a chart into the plane.
 struct Allowed {
-    /// See [`Limits::max_stretch`].
+    /// The largest allowed ratio between area scales; see [`Limits::max_stretch`].
     stretch: f64,
-    /// The largest aspect (see [`Stretch`](super::Stretch)). The fraction `except` of the area can exceed it.
+    /// The largest allowed aspect (see [`Stretch`](super::Stretch)). Triangles with a total area of at most the
+    /// fraction `except` of the chart may have a larger aspect.
     aspect: f64,
     except: f64,
-    /// The largest mean of the ratios between the area scales of the triangles and that of the chart.
+    /// The largest allowed value of the mean, over the area, of the ratio between the area scale of a triangle and that
+    /// of the chart.
     spread: f64,
 }
 
@@ -56,7 +62,7 @@ impl Allowed {
 /// A flat chart.
 pub(super) struct Chart {
     pub(super) part: Part,
-    /// The positions of the vertices of the part in the plane.
+    /// The positions, in the plane, of the vertices of the part.
     pub(super) uvs: Vec<DVec2>,
     /// Whether the chart is one polygon that overlaps itself.
     pub(super) is_bent: bool,
@@ -259,8 +265,8 @@ fn split(
     Ok([of_side(0), of_side(1)])
 }
 
-/// Returns, for each face of a connected set, the distance to the nearest of some faces of the set, and the number of
-/// that face (Dijkstra, 1959). Distances are sums of distances between the centers of neighbors.
+/// Returns, for each face of a connected set, the distance to the nearest seed and the index of this seed in `seeds`
+/// (Dijkstra, 1959). The seeds are faces of the set. Distances are sums of distances between the centers of neighbors.
 fn nearest(
     surface: &Surface,
     faces: &[u32],
@@ -314,7 +320,7 @@ fn join(
     limits: Limits,
     progress: &dyn Progress,
 ) -> Result<Vec<Chart>, Cancelled> {
-    // A chart is identified by its lowest face and its number of faces. The number of faces changes when a chart
+    // A chart is identified by its lowest face id and its number of faces. The number of faces changes when a chart
     // changes.
     let key = |chart: &Chart| (chart.part.faces[0], chart.part.faces.len());
     let mut failed = BTreeSet::new();

@@ -11,8 +11,8 @@ const AREA_WEIGHT: f64 = 0.5;
 /// The iterations stop once the vertices move less than this fraction of the size of the part, on average.
 const SMALL_MOVE: f64 = 1e-4;
 const MAX_ITERATIONS: usize = 40;
-/// The smallest height of a triangle without area, relative to its longest side. This height keeps the equations
-/// solvable.
+/// The height that the equations use for a triangle without area, relative to its longest side. With this height, the
+/// equations can be solved.
 const FLOOR: f64 = 1e-6;
 
 /// A triangle in its own plane: the corners (0, 0), (x1, 0) and (x2, y2).
@@ -122,8 +122,8 @@ fn conformal(
 ) -> Result<Vec<DVec2>, SolveError> {
     let n = part.points.len();
     let start = project(part);
-    // The equations have one solution if the positions of two vertices are given. These are the vertices at the two
-    // ends in the longer direction.
+    // The equations have one solution if the positions of two vertices are given. These are the two end vertices along
+    // the longer side of the bounding box of the projection.
     let (low, high) = start
         .iter()
         .fold((DVec2::MAX, DVec2::MIN), |(low, high), &p| {

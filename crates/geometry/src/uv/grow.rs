@@ -20,7 +20,7 @@ const ROUNDNESS_WEIGHT: f64 = 0.01;
 const STRAIGHTNESS_WEIGHT: f64 = 6.0;
 const CREASE_WEIGHT: f64 = 4.0;
 const MAX_COST: f64 = 2.0;
-/// The cosine of the largest angle between faces that are coplanar: 0.25 degrees.
+/// The cosine of the largest angle between faces that count as coplanar: 0.25 degrees.
 const COPLANAR: f64 = 1.0 - 1e-5;
 const NONE: u32 = u32::MAX;
 
@@ -84,8 +84,8 @@ pub(super) fn meetings(
     (totals, links)
 }
 
-/// Returns the normals of the faces, each averaged with the normals of the neighbors. Edges with an angle above 30
-/// degrees are excluded. Without averaging, the borders of charts on noisy scans would be ragged.
+/// Returns the normals of the faces, each averaged several times with the normals of the neighbors. Neighbors at an
+/// angle above 30 degrees are excluded. Without averaging, the borders of charts on noisy scans would be ragged.
 pub(super) fn smooth_normals(surface: &Surface) -> Vec<DVec3> {
     const ROUNDS: usize = 8;
     const COS_30: f64 = 0.866_025_403_784_438_6;
@@ -179,7 +179,7 @@ impl Growth {
         })
     }
 
-    /// Returns the cost to add a region to a chart with these totals, if it can be added.
+    /// Returns the cost of adding a region to a chart with these totals; `None` if the region cannot be added.
     fn cost(&self, region: u32, chart: u32, totals: &Totals) -> Option<f64> {
         let added = &self.totals[region as usize];
         let cosine = added
@@ -250,9 +250,9 @@ impl Growth {
     }
 }
 
-/// Divides the solid faces into connected charts. Returns the chart of each face, which is [`u32::MAX`] for other
-/// faces, and the number of charts. A region is added to a chart only if the cosine of the angle between its normal and
-/// the mean normal of the chart is at least `min_cosine` at that time.
+/// Divides the solid faces, which are the faces with a nonzero area, into connected charts. Returns the chart of each
+/// face, which is [`u32::MAX`] for other faces, and the number of charts. A region is added to a chart only if the
+/// cosine of the angle between its normal and the mean normal of the chart is at least `min_cosine` at that time.
 pub(super) fn grow(
     surface: &Surface,
     smooth: &[DVec3],

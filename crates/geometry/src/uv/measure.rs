@@ -18,8 +18,9 @@ pub struct Stretch {
     pub max_aspect: f64,
     /// The number of triangles of the texture that are mirrored: clockwise with v upwards.
     pub n_mirrored: usize,
-    /// The ratio of the largest to the smallest area scale, after the 2.5 % of the area with the largest scales and
-    /// the 2.5 % with the smallest scales are excluded. The ratio is 1 if the texture has one scale.
+    /// The ratio of the largest to the smallest area scale. The area scale of a triangle is its area in the texture,
+    /// divided by its area on the surface. The 2.5 % of the surface with the largest scales and the 2.5 % with the
+    /// smallest scales are excluded. The ratio is 1 if the texture has one scale.
     pub scales: f64,
 }
 
@@ -62,7 +63,8 @@ pub fn aspects(mesh: &Mesh, uvs: &[DVec2]) -> impl Iterator<Item = ([HalfEdgeId;
     })
 }
 
-/// Returns the value up to which the sum of the weights is `weight`. Sorts the values.
+/// Sorts pairs of a value and a weight by value, and adds up the weights. Returns the first value at which the sum is
+/// at least `weight`.
 pub(super) fn percentile(values: &mut [(f64, f64)], weight: f64) -> f64 {
     values.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut sum = 0.0;

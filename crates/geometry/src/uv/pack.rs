@@ -28,8 +28,8 @@ pub struct Packed {
 /// Triangles whose area is at most this fraction of the area of their chart do not take part in packing.
 const MIN_AREA: f64 = 1e-11;
 
-/// The shortest edge of a hull, as a fraction of its size. The crate `uvunwrap` leaves out triangles whose height is
-/// below 1e-6 times the diagonal. Without these triangles, the hull would fall into parts.
+/// The shortest edge of a convex hull, as a fraction of the size of the hull. The crate `uvunwrap` leaves out triangles
+/// whose height is below 1e-6 times the diagonal. Without these triangles, the hull would fall into parts.
 const MIN_EDGE: f64 = 4e-6;
 
 /// One chart before it is packed.

@@ -6,7 +6,7 @@ use super::number;
 use crate::merge::union_find::UnionFind;
 use crate::tangent::triangles;
 
-/// A triangle whose doubled area is at most this fraction of the square of its longest side has no area.
+/// A triangle counts as having no area if twice its area is at most this fraction of the square of its longest side.
 const MIN_HEIGHT: f64 = 1e-8;
 
 /// A mesh, scaled so that its bounding box has a size of 1, with the triangles, normals and areas of its faces. Faces

@@ -16,7 +16,8 @@ pub struct UnwrapOptions<'a> {
     /// The largest angle between the normal of a face and the mean normal of its chart, in degrees, strictly between 0
     /// and 90.
     pub max_angle: f64,
-    /// The largest ratio between the area scale of a triangle and that of its chart, at least 1.
+    /// The largest ratio between the area scale of a triangle and that of its chart, the larger scale divided by the
+    /// smaller one. The area scale is the area in the texture, divided by the area on the surface. At least 1.
     pub max_stretch: f64,
     /// The size of the texture.
     pub page: Page,

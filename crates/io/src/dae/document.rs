@@ -174,7 +174,7 @@ impl<'a> Document<'a> {
 
     fn add(&self, kind: NoteKind, count: usize, node: Node, what: What) {
         if count > 0 {
-            // The line is determined only for the first node, because finding a line takes time.
+            // The line is determined only for the first node, because determining a line is slow.
             let mut all = self.tally.borrow_mut();
             let (sum, _) = all
                 .entry((kind, what.1, what.0))

@@ -119,9 +119,10 @@ fn read_effect<'a>(document: &Document<'a>, effect: Node<'a>) -> Result<Material
 
 /// Returns the opacity of a shader, or `None` if the shader does not declare an opacity that can be used.
 ///
-/// COLLADA 1.4.1, "Determining transparency": In the mode `A_ONE`, the opacity is the alpha of the transparent color
-/// times the transparency of the effect. In the mode `RGB_ZERO`, it is 1 minus the luminance of the transparent color
-/// times the transparency. `A_ZERO` and `RGB_ONE` are the same modes with alpha and luminance exchanged.
+/// COLLADA 1.4.1, "Determining transparency": `alpha` and `luminance` belong to the transparent color, and
+/// `transparency` is a value of the effect. The opacity is `alpha * transparency` in the mode `A_ONE`,
+/// `1 - alpha * transparency` in the mode `A_ZERO`, `luminance * transparency` in the mode `RGB_ONE`, and
+/// `1 - luminance * transparency` in the mode `RGB_ZERO`.
 fn opacity(scope: &Scope, shader: Node) -> Result<Option<f64>, Fault> {
     let transparent = child(shader, "transparent");
     let transparency = match child(shader, "transparency") {

@@ -13,9 +13,9 @@
 //! | `instance_node` | another instance of the referenced node |
 //! | `matrix`, `translate`, `rotate`, `scale`, `lookat` | a part of the transform; reflections reverse the faces |
 //! | `triangles`, `polylist`, `polygons`, `tristrips`, `trifans` | faces; holes (`ph`) are left out |
-//! | input `POSITION` | vertices, in order and not merged |
+//! | input `POSITION` | vertices, in the order of the file and not merged |
 //! | input `NORMAL` | vertex attribute `normal` if the corners of each vertex agree, otherwise corner attribute |
-//! | input `COLOR` | attribute `color`, on the same domains; alpha defaults to 1 |
+//! | input `COLOR` | vertex attribute `color` if the corners of each vertex agree, otherwise corner attribute; alpha defaults to 1 |
 //! | input `TEXCOORD` | corner attributes `uv`, `uv1`, `uv2` and so on, in the order of the set numbers; at most 8 sets |
 //! | material of a list of polygons | face attribute `material`, and a material of the object |
 //! | effect: `diffuse` (`emission` of `constant`) | the base color, or its texture with the path of the image file |
@@ -24,7 +24,7 @@
 //! | lines, splines, skins, morphs, animations, cameras, lights, physics, `skew` | left out, with a note |
 //!
 //! Corners without a normal or a texture coordinate get zero, and corners without a color get white. If a file has no
-//! scene, each of its geometries becomes an object. Of the other files that a file refers to, only images are read.
+//! scene, each of its geometries becomes an object. A file can refer to other files, of which only images are read.
 //!
 //! Document type declarations are refused, so that entities cannot expand. Instances can repeat content, but the memory
 //! that a file can use is limited to 64 times its size, or to 16 MiB if that is more.
@@ -168,7 +168,7 @@ impl Object<'_, '_> {
         let mut place_of_symbol = Vec::new();
         for symbol in &self.surface.symbols {
             let next = i32::try_from(polygons.materials.len()).unwrap_or(i32::MAX);
-            // Some programs write no binding and use the id of the material as its symbol.
+            // Some programs write no binding of symbols to materials, and use the id of a material as its symbol.
             let same_id = self.document.ids.get(symbol);
             let same_id = same_id.filter(|node| document::is(**node, "material"));
             let node = self.placed.materials.get(symbol).or(same_id);

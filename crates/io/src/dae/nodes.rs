@@ -142,7 +142,8 @@ impl<'a, 'd> Walk<'a, 'd> {
         Ok(())
     }
 
-    /// Pushes the nodes below `node` on the stack. Afterwards, the first of them is on top.
+    /// Pushes the child nodes of `node`, including instances of other nodes, onto the stack `open`. Afterwards, the
+    /// first child is on top.
     fn open_children(
         &mut self,
         node: Node<'a>,

@@ -269,7 +269,7 @@ impl Reader<'_> {
         Ok(elements)
     }
 
-    /// Returns the rows of an accessor, unless it has no view, and the number of elements.
+    /// Returns the rows of an accessor and the number of its elements. The rows are `None` if the accessor has no view.
     fn dense(
         &self,
         index: usize,
@@ -306,7 +306,7 @@ impl Reader<'_> {
             ));
         };
         let n = sparse.count.0;
-        // Sparse values take no additional memory, but replacing values takes time whenever the accessor is used.
+        // Sparse values need no additional memory, but the reader applies them again each time the accessor is read.
         // Therefore, the size of the sparse values is taken from the budget.
         self.budget.spend(n.saturating_mul(size as u64), &here)?;
         let (indices, values) = (&sparse.indices, &sparse.values);
@@ -327,7 +327,7 @@ impl Reader<'_> {
         Ok(Some((targets, values)))
     }
 
-    /// Checks the number of zeros that an accessor without data declares.
+    /// Checks the number of elements that an accessor without a buffer view declares, and returns it as a `usize`.
     fn zeros(&self, count: u64, here: &str) -> Result<usize, Fault> {
         let all: u64 = self.buffers.iter().map(|buffer| buffer.len() as u64).sum();
         let limit = all.max(MIN_ZEROS);

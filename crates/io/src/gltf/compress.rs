@@ -1,4 +1,4 @@
-//! Compresses the arrays of a document by the extension `EXT_meshopt_compression`.
+//! Compresses the arrays of a document with the extension `EXT_meshopt_compression`.
 //!
 //! ```text
 //! buffer 0    the compressed arrays and everything else, such as images

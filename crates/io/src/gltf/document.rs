@@ -80,7 +80,7 @@ impl Document {
         check_version(json)?;
         check_extensions(json, notes)?;
         let views: Vec<View> = pieces(json, "bufferViews", budget)?;
-        // The additional data that the reader stores for each view is also taken from the budget.
+        // The memory of the additional data that the reader stores for each view is also taken from the budget.
         let more = views.len() * size_of::<(Option<Compressed>, OnceCell<Vec<u8>>)>();
         budget.spend(more as u64, "/bufferViews")?;
         let compressed = meshopt::compressed(list(json, "bufferViews")?)?;

@@ -165,8 +165,8 @@ fn arrays(reader: &Reader, compressed: &Compressed) -> Result<Vec<(usize, Vec<u8
             wanted.push((accessor, name, *id, kind.multiplicity(), component));
         }
     }
-    // The memory that the decoder allocates is determined by declared numbers. It is taken from the budget before the
-    // decoder starts.
+    // The memory that the decoder allocates depends on the counts that the file declares. This memory is taken from the
+    // budget before the decoder starts.
     let size: usize = wanted
         .iter()
         .map(|(.., n, component)| n * component.size())
@@ -194,7 +194,8 @@ fn arrays(reader: &Reader, compressed: &Compressed) -> Result<Vec<(usize, Vec<u8
     let (n_faces, n) = (mesh.num_faces() as u64, mesh.num_points());
     if n_faces.saturating_mul(3) != n_corners || n as u64 != n_points {
         return Err(wrong(format!(
-            "the accessors declare {n_corners} indices and {n_points} vertices, but the Draco stream has {} and {n}",
+            "the accessors declare {n_corners} indices and {n_points} vertices, but the Draco stream has {} indices \
+             and {n} vertices",
             3 * n_faces
         )));
     }

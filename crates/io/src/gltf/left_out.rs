@@ -68,7 +68,7 @@ struct Used {
     textures: Vec<bool>,
     samplers: Vec<bool>,
     images: Vec<bool>,
-    /// The number of textures of materials whose image does not exist or has an unknown kind.
+    /// The number of references from materials to textures whose image does not exist or has an unknown kind.
     without_image: usize,
 }
 
@@ -145,7 +145,8 @@ fn mark(flags: &mut [bool], i: usize) -> bool {
         .is_some_and(|flag| !std::mem::replace(flag, true))
 }
 
-/// Counts the attributes of the morph targets of meshes that are not read, by name.
+/// Counts, by name, the attributes of morph targets that are not read. Only meshes for which `is_used` is true are
+/// considered.
 fn morph_attributes(json: &Value, is_used: &[bool]) -> BTreeMap<String, usize> {
     let mut counts = BTreeMap::new();
     let meshes = elements(json, "meshes").zip(is_used);

@@ -15,7 +15,7 @@
 //! | --- | --- |
 //! | a mesh of a node | an object with the name of the node, mesh or file (the first that exists); names are made unique |
 //! | a mesh of several nodes | one object with the name of the mesh, first node or file (the first that exists) |
-//! | a node | a node of the graph, with its placement, name, extras, camera and light; if the nodes equal those that the writer creates for objects without nodes (a root with the name of each object), the graph has no nodes |
+//! | a node | a node of the graph, with its placement, name, extras, camera and light; if the nodes equal those that the writer creates for objects without nodes (one root node for each object, with the name of the object), the graph has no nodes |
 //! | the scene that `scene` refers to, or the first scene | its nodes are read; without scenes, all nodes of the file |
 //! | triangles, strips and fans, with or without indices | triangles |
 //! | points, lines | left out, with a note |
@@ -27,7 +27,7 @@
 //! | `_NAME` | vertex or corner attribute `NAME` with 1 to 4 floats |
 //! | `JOINTS_n`, `WEIGHTS_n` | for each used joint, a vertex attribute [`mesh::joint_name`] with its weights |
 //! | `POSITION` of a morph target | a vertex attribute [`mesh::morph_name`] with the deltas |
-//! | `NORMAL` of a morph target | a vertex or corner attribute [`mesh::morph_normal_name`] with the sums of the normals and their changes |
+//! | `NORMAL` of a morph target | a vertex or corner attribute [`mesh::morph_normal_name`] with the changed normals: each value is the sum of a normal and its change |
 //! | skins, animations | kept in the graph; the numbers are rounded to 32 bits |
 //! | `COLOR_1`, other attributes of morph targets | left out, with a note |
 //! | `material` | face attribute `material`, and materials of the object |
@@ -59,9 +59,10 @@
 //! | other required extensions | the file is refused |
 //! | other optional extensions | left out, with a note |
 //!
-//! The writer uses the first table in the other direction. glTF has a separate vertex for each side of a seam.
-//! Therefore, the writer splits vertices whose corners differ, and the reader merges them again. There is one primitive
-//! for each material. Writing a scene and reading it again preserves the scene, with these exceptions:
+//! The writer uses the first table in the other direction: from the scene to glTF. A glTF file has a separate vertex
+//! for each side of a seam. Therefore, the writer splits vertices whose corners differ, and the reader merges them
+//! again. There is one primitive for each material. Writing a scene and reading it again preserves the scene, with
+//! these exceptions:
 //!
 //! - numbers are rounded to 32 bits; if a position or the placement of a node exceeds the range of 32-bit numbers, the
 //!   scene is refused; texture coordinates, custom attributes and deltas of morph targets beyond this range become 0,

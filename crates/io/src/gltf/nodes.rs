@@ -223,8 +223,8 @@ fn shared(
     Ok(placed)
 }
 
-/// Returns the graph of the scene, and for each node of the file, its index in the graph. If the writer would create
-/// the same nodes for a graph without nodes, the graph has no nodes.
+/// Returns the graph of the scene, and for each node of the file, its index in the graph. If the nodes equal the nodes
+/// that the writer would create for a graph without nodes, the returned graph has no nodes.
 fn graph(
     document: &Document,
     nodes: &[SceneNode],

@@ -29,7 +29,7 @@ pub(super) struct PreparedObject<'a> {
 }
 
 impl<'a> PreparedObject<'a> {
-    /// Determines the content to write, and adds losses for the other content.
+    /// Determines the content to write, and adds losses for the content that is not written.
     ///
     /// # Errors
     ///

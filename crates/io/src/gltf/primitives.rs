@@ -50,7 +50,8 @@ pub(super) fn triangles(
     notes: &mut Notes,
 ) -> Result<Triangles, Fault> {
     let mut all = Triangles::default();
-    // Primitives with the same attributes, such as parts of a model, share their vertices.
+    // Primitives that use the same accessors for all attributes and morph targets share their vertices. For example,
+    // the parts of a model with different materials can be such primitives.
     let mut known = BTreeMap::new();
     let mut left_out = LeftOut::default();
     let mut has_materials = false;

@@ -10,8 +10,8 @@
 //! nodes do not change. If no node references the object, only the grid node is written. The scale of the grid is the
 //! same along all axes, so normals keep their directions.
 //!
-//! Normals are rounded on an octahedron, in the same way as by the filter for compressed files. Therefore, compressing
-//! a quantized file does not change its content.
+//! Normals are rounded on an octahedron. The octahedral filter of compressed files rounds normals in the same way.
+//! Therefore, compressing a quantized file does not change its content.
 #![expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -408,8 +408,9 @@ fn octahedral(v: DVec3, bits: Bits) -> [i16; 3] {
 }
 
 /// Returns an upper bound for the factor by which a map stretches lengths. This factor is the square root of the
-/// largest eigenvalue of M^T M, where M is the matrix of the map. The eigenvalues of a matrix are at most its largest
-/// sum of absolute values in a column. The bound is exact if M scales along each axis and then rotates.
+/// largest eigenvalue of M^T M, where M is the matrix of the map. For each column of a matrix, take the sum of the
+/// absolute values: no eigenvalue exceeds the largest of these sums. The bound is exact if M scales along each axis and
+/// then rotates.
 fn stretch(map: &DAffine3) -> f64 {
     let m = map.matrix3;
     let square = m.transpose() * m;

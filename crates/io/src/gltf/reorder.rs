@@ -3,7 +3,8 @@
 //!
 //! Source: Sander, Nehab, Barczak, "Fast Triangle Reordering for Vertex Locality and Reduced Overdraw", 2007. The order
 //! consists of fans: all remaining triangles around one vertex, then all remaining triangles around the next vertex,
-//! and so on. The next vertex is a vertex of the last fan that is still recent and has few remaining triangles.
+//! and so on. The center of the next fan is chosen from the vertices of the last fan. Vertices that will still count as
+//! recently used when their own fan is complete are preferred.
 
 use std::collections::BTreeMap;
 
@@ -44,7 +45,8 @@ fn triangles_in_fans(corners: &[u32], n_vertices: usize) -> Vec<u32> {
     let mut last_use = vec![0_usize; n_vertices];
     let mut time = RECENT + 1;
     let mut ordered = Vec::with_capacity(corners.len());
-    // The vertices used so far, with the latest one at the end, and the first vertex that has not been tried.
+    // `used` has the vertices used so far, with the latest one at the end. `untried` is the range of the vertices that
+    // have not been tried as the center of a fan.
     let mut used: Vec<u32> = Vec::new();
     let mut untried = 0..n_vertices;
     let mut center = untried.next();
@@ -181,7 +183,7 @@ mod tests {
                 cache.truncate(16);
             }
         }
-        // In an optimal order, the number of misses is half the number of triangles.
+        // In an optimal order, the number of cache misses is half the number of triangles.
         assert!(misses < 2 * n * n * 3 / 4, "{misses}");
     }
 }

@@ -12,7 +12,7 @@ use super::views::Reader;
 use crate::fault::Fault;
 use crate::note::Notes;
 
-/// Checks the references of skins, nodes and animations to nodes, skins and samplers.
+/// Checks the indices in skins, nodes and animations. Each index must refer to an existing node, skin or sampler.
 ///
 /// # Errors
 ///

@@ -231,8 +231,8 @@ fn narrow(value: [f64; 4], good: bool) -> ([f32; 4], bool) {
     (narrow.map(|x| if x.is_finite() { x } else { 0.0 }), false)
 }
 
-/// Normalizes a vector. Returns `None` if it has no direction. A 32-bit unit vector is returned unchanged, because its
-/// length is not exactly 1: normalizing it would change it slightly each time it is written.
+/// Normalizes a vector. Returns `None` if it has no direction. A unit vector that was rounded to 32 bits is returned
+/// unchanged. Its length is not exactly 1, so normalizing would change the vector slightly each time it is written.
 fn unit(v: DVec3) -> Option<DVec3> {
     const ROUNDING: f64 = 1e-6;
     if (v.length_squared() - 1.0).abs() < ROUNDING {

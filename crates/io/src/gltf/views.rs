@@ -105,8 +105,8 @@ impl Reader<'_> {
         let needed = if count == 0 { Some(0) } else { needed };
         if needed.is_none_or(|needed| needed > bytes.len() as u64) {
             let message = format!(
-                "{count} elements of {size} bytes with stride {stride} from byte {offset} do not fit in the \
-                {} bytes of the view",
+                "{count} elements of {size} bytes, with a stride of {stride} bytes and beginning at byte {offset}, do \
+                not fit in the {} bytes of the view",
                 bytes.len()
             );
             return Err(Fault::json(format!("{here}/count"), message));

@@ -24,8 +24,8 @@ pub(super) struct Deformation<'a> {
 }
 
 impl<'a> Deformation<'a> {
-    /// Determines the content to write, and adds losses for the other content. `sets`, if given, replaces the number of
-    /// sets in the original file of the object.
+    /// Determines the content to write, and adds losses for the content that is not written. `sets`, if given, replaces
+    /// the number of sets in the original file of the object.
     pub(super) fn new(
         object: &Object,
         mesh: &'a Mesh,

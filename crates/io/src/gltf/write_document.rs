@@ -405,7 +405,7 @@ fn push(list: &mut Vec<Value>, value: Value) -> usize {
     list.len() - 1
 }
 
-/// Removes members that are null or empty lists, except from data of other programs.
+/// Removes members that are null or empty lists. The content of `extras` is data of other programs and is not changed.
 fn remove_empty(json: &mut Value) {
     match json {
         Value::Object(members) => {

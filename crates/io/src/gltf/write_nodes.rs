@@ -103,7 +103,7 @@ fn write_deformation(
         return;
     }
     let lost = node.weights.len().saturating_sub(n);
-    let reason = "the mesh has fewer morph targets";
+    let reason = "the mesh has fewer morph targets than the node has weights";
     losses.add(None, "morph weights", lost, reason);
     let mut weights = node.weights.clone();
     weights.resize(n, 0.0);

@@ -26,7 +26,7 @@ impl<'a> Writer<'a> {
             let n_written = self.animation(graph, animation)?;
             lost += animation.channels.len() - n_written;
         }
-        let reason = "animation channels without a mesh, a morph target or valid values";
+        let reason = "animation channels with invalid values, or for morph targets that do not exist";
         losses.add(None, "animations", lost, reason);
         Ok(())
     }

@@ -9,9 +9,10 @@
 //! | `vertex/name`, `face/name`, `edge/name` | elements, or elements and components | the attributes |
 //! | `corner/name` | corners, or corners and components | the attributes of corners, face by face |
 //!
-//! Numbers are `float64`, whole numbers `int32`, tags `bool`, and vertex ids `int64`. The file is an uncompressed zip
-//! archive of `.npy` files (version 1.0 of the format). In the names of attributes, slashes, backslashes and control
-//! characters become `_`. If two arrays would have the same name, a number is appended to the second name.
+//! Floating-point numbers are stored as `float64`, integers as `int32`, tags as `bool`, and vertex ids as `int64`. The
+//! file is an uncompressed zip archive of `.npy` files (version 1.0 of the format). In the names of attributes,
+//! slashes, backslashes and control characters become `_`. If two arrays would have the same name, a number is appended
+//! to the second name.
 
 mod zip;
 

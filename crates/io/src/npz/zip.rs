@@ -20,7 +20,8 @@ struct Entry {
     offset: u64,
 }
 
-/// The version that a reader needs (2.0), the flag for names in UTF-8, no compression, and the time and the date.
+/// The fields that are the same for all files: the version that a reader needs (2.0), the flag for names in UTF-8, no
+/// compression, and the time and the date.
 const COMMON: [u16; 5] = [20, 1 << 11, 0, 0, (1 << 5) | 1];
 
 impl Archive {
@@ -78,7 +79,7 @@ fn push_header(out: &mut Vec<u8>, entry: &Entry) {
     out.extend_from_slice(&[length[0], length[1], 0, 0]);
 }
 
-/// Returns the lowest 32 bits. `finish` refuses larger archives.
+/// Returns the lowest 32 bits of a number. `finish` refuses archives in which a number needs more bits.
 fn low(x: u64) -> [u8; 4] {
     let [a, b, c, d, ..] = x.to_le_bytes();
     [a, b, c, d]

@@ -251,7 +251,7 @@ fn count<T>(values: Option<&(T, CornerNumbers)>) -> usize {
     values.map_or(0, |(_, numbers)| numbers.firsts().len())
 }
 
-/// Numbers the distinct values on the corners of each vertex.
+/// Assigns numbers to the distinct values on the corners of each vertex.
 fn numbers<const N: usize>(
     mesh: &Mesh,
     value: impl Fn(HalfEdgeId) -> [f64; N] + Sync,

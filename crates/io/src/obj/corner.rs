@@ -25,9 +25,10 @@ pub(super) enum Index {
 pub(super) enum Limits {
     /// No limit: this is a part of a file, and the counts of the other parts are not known yet.
     Part,
-    /// The whole file, but the elements that later lines define are not known yet.
+    /// The whole file is parsed, but the elements that later lines define are not known yet. A positive index can refer
+    /// to such an element, so only negative indices are checked.
     Start,
-    /// The numbers of elements that the whole file defines.
+    /// The whole file is parsed, and the numbers of elements that it defines are known.
     Whole(Counts),
 }
 

@@ -1,4 +1,4 @@
-//! Joins the parts of an OBJ file in order.
+//! Joins the parts of an OBJ file in the order of the file.
 
 use std::collections::BTreeMap;
 

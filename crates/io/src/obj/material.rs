@@ -13,10 +13,10 @@ use crate::fault::Fault;
 use crate::note::Notes;
 use crate::text::{check_encoding, name, quoted};
 
-/// The maximum total size in bytes of the material libraries of a file. More bytes are not read.
+/// The maximum total size in bytes of the material libraries of a file. All further bytes are not read.
 const MAX_LIBRARY_BYTES: u64 = 1 << 28;
-/// The maximum number of library names that are looked up, including repeated names. The number is limited because
-/// searching for files takes time. More names are left out.
+/// The maximum number of library names that are looked up, including repeated names. All further names are left out,
+/// because searching for very many files would be slow.
 const MAX_NAMES: usize = 512;
 /// The largest length of a path in bytes.
 const MAX_PATH_BYTES: usize = 1024;
@@ -101,8 +101,8 @@ fn library_names(words: &str, most: usize, assets: &mut Assets) -> (Vec<String>,
     while !rest.is_empty() && names.len() < most {
         let quoted = rest.strip_prefix('"').and_then(|rest| rest.split_once('"'));
         let (name, behind) = quoted.unwrap_or_else(|| {
-            // The name is the longest prefix of the text that is the name of a file. If there is none, it is the
-            // first word.
+            // The name is the longest prefix of the text that is the name of an existing file. If no prefix is the
+            // name of a file, the name is the first word.
             let blanks = rest.rmatch_indices(char::is_whitespace).take(MAX_BLANKS);
             let ends = std::iter::once(rest.len()).chain(blanks.map(|(at, _)| at));
             let first = rest.find(char::is_whitespace).unwrap_or(rest.len());

@@ -9,7 +9,7 @@
 //! | `#MRGB` comments of `ZBrush` | vertex attribute `color`, if there is one for each vertex |
 //! | `vt`, `f v/vt` | corner attribute `uv` |
 //! | `vn`, `f v//vn` | vertex attribute `normal` if the corners of each vertex agree, otherwise corner attribute |
-//! | `f` | a polygon of any degree, in order |
+//! | `f` | a polygon with any number of corners; polygons keep their order |
 //! | `g a b` | face tags `a` and `b` |
 //! | `o a` | face tag `o:a` |
 //! | `s 1` | face attribute `smoothing` |

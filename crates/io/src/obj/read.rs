@@ -48,7 +48,7 @@ fn use_mrgb_colors(file: &mut ObjFile, notes: &mut Notes) {
         return;
     }
     if mrgb_colors.len() != file.positions.len() || !file.colors.is_empty() {
-        let what = "colors of `#MRGB` comments left out: their number differs from the number of vertices, or vertices have other colors";
+        let what = "colors of `#MRGB` comments left out: their number differs from the number of vertices, or `v` statements also define colors";
         notes.left_out("colors", mrgb_colors.len(), None, what);
         return;
     }

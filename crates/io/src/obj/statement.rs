@@ -257,7 +257,7 @@ impl Parser<'_> {
         let end = self.part.line_corners.len();
         let n = end - before;
         if n < 2 {
-            let message = format!("expected a line of at least 2 vertices, found {n}");
+            let message = format!("expected a polyline with at least 2 vertices, found {n}");
             return Err(start.error(message));
         }
         self.part.line_ends.push(to_u32(end));

@@ -8,7 +8,7 @@
 //! | `NOFF`: `nx ny nz` | vertex attribute `normal` |
 //! | `COFF`: `r g b` or `r g b a` | vertex attribute `color` |
 //! | `STOFF`: `s t` | corner attribute `uv` |
-//! | `n v0 v1 ..` | a polygon of any degree, in order |
+//! | `n v0 v1 ..` | a polygon with any number of corners; polygons keep their order |
 //! | `n v0 v1 .. r g b` or `.. r g b a` | face attribute `color`; if only some faces have a color, the others get gray (2/3) |
 //! | `n v0 v1 .. i` | face attribute `color_index`; if only some faces have an index, the others get -1; color maps are not supported |
 //! | comments, the number of edges | not kept |
@@ -16,7 +16,8 @@
 //! The letters can be combined, as in `STCNOFF`. A line then has position, normal, color and texture coordinates, in
 //! this order. The keyword can be missing. If all color components of the vertices are integers, and at least one is
 //! greater than 1, all of them are divided by 255. Otherwise, they are used unchanged. The same applies to the colors
-//! of the faces. Binary files are refused, and so are files with a different number of coordinates (`4OFF`, `nOFF`).
+//! of the faces. Binary files are refused. Files whose vertices do not have three coordinates (`4OFF`, `nOFF`) are also
+//! refused.
 //!
 //! The writer uses the same table in the other direction. Texture coordinates are written only if they agree around
 //! each vertex.

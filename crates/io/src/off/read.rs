@@ -93,7 +93,9 @@ impl Header {
                     letters = &rest[1..];
                 }
                 b'4' | b'n' => {
-                    return Err(place.expected("an OFF file with three coordinates", word));
+                    return Err(
+                        place.expected("an OFF file with three coordinates for each vertex", word)
+                    );
                 }
                 _ => return Err(place.expected("`OFF` with `ST`, `C` or `N` before it", word)),
             }
@@ -170,7 +172,7 @@ fn vertices(
         }
         cursor.skip_line();
     }
-    let what = "vertices with extra numbers left out: the keyword in the first line does not declare these numbers";
+    let what = "vertices with extra numbers: these numbers are left out, because the keyword in the first line does not declare them";
     notes.left_out("extra-content", extra, first_extra, what);
     if header.normals {
         polygons.insert_known(VERTEX_NORMAL, normals);

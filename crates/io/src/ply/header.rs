@@ -7,10 +7,11 @@ use super::types::Type;
 use crate::fault::Fault;
 use crate::text::{BYTE_ORDER_MARK, TextPosition, name, parsed, quoted};
 
-/// The maximum number of properties of all elements together. It limits the number of passes over the data. Files
-/// usually have far fewer properties.
+/// The maximum number of properties of all elements together. This limits how often the reader passes over the data.
+/// Files usually have far fewer properties.
 pub(super) const MAX_PROPERTIES: usize = 4096;
-/// The maximum number of elements. It limits the time of searches by name. Files usually have far fewer elements.
+/// The maximum number of elements. This limits the time for finding elements by name. Files usually have far fewer
+/// elements.
 const MAX_ELEMENTS: usize = 1024;
 
 /// The encoding of the values of a file.
@@ -149,8 +150,8 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Header, Fault> {
     Err(TextPosition::of_line(header.lines + 1).error(message))
 }
 
-/// Returns the last byte of the line ends in the header. Only the first line is examined, because data bytes after the
-/// header can look like line ends.
+/// Returns the byte at which each line of the header ends: CR if lines end in CR alone, otherwise LF. Only the first
+/// line is examined, because data bytes after the header can look like line ends.
 fn line_end(bytes: &[u8]) -> u8 {
     let end = bytes.iter().position(|byte| matches!(byte, b'\n' | b'\r'));
     match end.map(|at| (bytes[at], bytes.get(at + 1))) {

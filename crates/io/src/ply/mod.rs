@@ -8,19 +8,19 @@
 //! | `vertex`: `nx ny nz` | vertex attribute `normal` |
 //! | `vertex`: `red green blue alpha`, `diffuse_red ..` or `r g b a` | vertex attribute `color`; integers are divided by 255 (`ushort`: by 65535) |
 //! | `vertex`: `s t`, `u v`, `texture_u texture_v` or `texture_s texture_t` | corner attribute `uv` |
-//! | `face`: `vertex_indices` or `vertex_index` | a polygon of any degree, in order |
+//! | `face`: `vertex_indices` or `vertex_index` | a polygon with any number of corners; polygons keep their order |
 //! | `face`: `texcoord` (u and v for each corner, as in files of `MeshLab`) | corner attribute `uv` |
 //! | `face`: `red green blue alpha`, `nx ny nz` | face attributes `color` and `normal` |
 //! | `tristrips`: `vertex_indices` with -1 between strips | triangles, if there are no faces |
-//! | other scalars of `vertex` or `face` | an attribute with the same name, of integers if they fit in 32 bits |
+//! | other scalars of `vertex` or `face` | an attribute with the same name: of signed 32-bit integers if the scalar has an integer type and all its values fit, otherwise of floating-point numbers |
 //! | `comment meshwright ..` | describes the attribute that some properties store; see `attribute_comments` |
 //! | other lists, other elements (`edge`, `range_grid` and so on) | left out, with a note |
 //! | `comment TextureFile ..` | left out, with a note |
 //! | other comments, `obj_info` | not kept |
 //!
-//! When the mesh is edited, an attribute from one of the other scalars is interpolated if the scalar is a
-//! floating-point property of `vertex`, and copied otherwise. Non-finite positions are an error. Other non-finite
-//! values become 0, with a note.
+//! An attribute with the name of a scalar gets an edit rule, which applies when the mesh is edited: if the scalar is a
+//! floating-point property of `vertex`, values are interpolated; otherwise, they are copied. Non-finite positions are
+//! an error. Other non-finite values become 0, with a note.
 //!
 //! The writer uses the same table in the other direction and writes little-endian binary. All finite values are
 //! restored exactly when the file is read. Positions and custom floating-point attributes are written with 64 bits.

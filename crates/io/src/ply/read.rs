@@ -313,7 +313,7 @@ impl Reader<'_, '_> {
         if free != name {
             let (old, new) = (name.escape_debug(), free.escape_debug());
             let what = format!(
-                "values of attribute `{old}` renamed to `{new}`, because another attribute is named `{old}`"
+                "values of attribute `{old}` stored as attribute `{new}`, because another attribute is named `{old}`"
             );
             self.notes
                 .changed("attributes-renamed", values.len(), None, what);

@@ -17,13 +17,13 @@ pub(super) struct Facets {
     pub(super) solids: Vec<(String, Range<usize>)>,
 }
 
-/// The relation between the normal of a facet and its corners.
+/// How the normal of a facet compares with the normal that is computed from its corners.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Side {
     Same,
-    /// The normal deviates by more than a few degrees.
+    /// The normals differ by more than a few degrees, but not by more than 90 degrees.
     Tilted,
-    /// The normal is closer to the opposite direction.
+    /// The normals differ by more than 90 degrees.
     Opposite,
 }
 

@@ -4,9 +4,9 @@
 //!
 //! | in the file | in the mesh |
 //! | --- | --- |
-//! | facet | a triangle, in order |
+//! | facet | a triangle; triangles keep their order |
 //! | corners of facets | vertices: corners at exactly the same position are merged (0 and -0 are equal) |
-//! | facet normal | recomputed from the corners, so it is not counted as left out; a note counts nonzero normals that deviate by more than a few degrees |
+//! | facet normal | recomputed from the corners, so it is not counted as left out; a note counts nonzero normals that differ from the computed normals by more than a few degrees |
 //! | `solid a`, if a text file has several solids | face tag `o:a` |
 //! | header, `solid a` of the only solid | not kept |
 //! | attribute bytes other than 0 (colors, in two dialects) | left out, with a note |

@@ -24,10 +24,10 @@ const ROUNDS: usize = 4;
 /// The additional number of bytes that reading can use for repeated instances, even in a small file.
 const INSTANCES: usize = 1 << 25;
 
-/// Reads `bytes` as a file with this extension, in bounded memory. Then writes and reads the result several times,
-/// until the written bytes stay the same. From the third time on, the bytes may differ from those of the previous time
-/// only if writing reported losses the previous time. An `.mtl` file is read as the library of an `.obj` file, and the
-/// content of a `.dae` file is written as OBJ.
+/// Reads `bytes` as a file with this extension, in bounded memory. Then writes and reads the result in several rounds,
+/// until the written bytes stay the same. From the third round on, the bytes may differ from those of the previous
+/// round only if writing reported losses in the previous round. An `.mtl` file is read as the library of an `.obj`
+/// file, and the content of a `.dae` file is written as OBJ.
 ///
 /// # Panics
 ///

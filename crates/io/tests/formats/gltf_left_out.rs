@@ -65,7 +65,8 @@ fn parts_that_the_scene_does_not_use_are_left_out_with_a_note() {
     assert_eq!(left_out(&json), [("meshes-unused", 1)]);
 }
 
-/// An unused part does not use other parts: everything that only an unused node refers to is counted.
+/// References from an unused part do not count as uses. Therefore, the parts that only an unused node refers to are
+/// also reported as unused.
 #[test]
 fn parts_of_an_unused_node_are_left_out_too() {
     let mut json = asset();

@@ -280,8 +280,8 @@ fn decoded_views_are_limited_to_64_times_the_file() {
     }
 }
 
-/// Returns a document with rows of triangles, each of which has three separate vertices. A triangle needs about two
-/// bytes, which is close to the best possible compression.
+/// Returns a document with rows of triangles. Each triangle has three separate vertices and needs about two bytes,
+/// which is close to the best possible compression.
 fn dense_triangles(n: usize) -> Value {
     // Elements have 8 bytes. In these elements, x increases by 1 after each element, y after 256 elements, and z after
     // 65536 elements.

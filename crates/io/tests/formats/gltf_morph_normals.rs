@@ -135,7 +135,7 @@ fn a_primitive_whose_target_has_no_normals_keeps_its_normals() {
     assert!(values.contains(&DVec3::new(0.5, 0.0, 1.0)));
 }
 
-/// The changed normals are transformed in the same way as the normals of a mesh that has them.
+/// The changed normals are transformed as if they were the normals of a mesh.
 #[test]
 fn a_node_transforms_changed_normals_like_normals() {
     let normals = [[0.6, 0.0, 0.8]; 6];
@@ -215,12 +215,12 @@ fn a_wrong_number_of_changed_normals_is_an_error_that_says_where() {
     );
 }
 
-/// A pose blends the normals of the mesh and the targets by their weights.
+/// A pose blends the normals of the mesh with the normals of the targets, by the weights of the targets.
 #[test]
 fn a_pose_blends_the_normals_of_targets() {
     let normals = [[0.6, 0.0, 0.8]; 6];
     let mut changes = [[-0.6, 0.6, 0.0]; 6];
-    // With different changes at a seam, the blended normals are normals of corners.
+    // If the changes on the two sides of a seam differ, the blended normals are a corner attribute.
     for is_seam in [false, true] {
         if is_seam {
             changes[5] = [0.0, 0.8, -0.8];

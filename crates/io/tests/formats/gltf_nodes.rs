@@ -12,8 +12,8 @@ use store::Disk;
 use crate::Folder;
 use crate::gltf_read::{SQUARE, document, floats, read_json, square};
 
-/// Returns a document with a hierarchy of nodes. Two nodes reference the first mesh, and one node references each other
-/// mesh. There are two cameras and two lights.
+/// Returns a document with a hierarchy of nodes. Two nodes reference the first mesh. Each of the other meshes is
+/// referenced by one node. There are two cameras and two lights.
 fn asset() -> Value {
     let mut json = square(&[0, 1, 2, 0, 2, 3], 4);
     let primitives = json["meshes"][0]["primitives"].clone();
@@ -181,12 +181,13 @@ fn roots_keep_their_order() {
     for _ in 0..2 {
         let scene = scene_of(read_json(&json).unwrap());
         assert_eq!(canonical(&written(&scene)), canonical(&json));
-        // One of the nodes is not plain.
+        // In the second round, one of the nodes has a translation.
         json["nodes"][1]["translation"] = json!([1, 0, 0]);
     }
 }
 
-/// The copies of vertices that the reader makes are merged again, so the file has the vertices of its source.
+/// The writer merges the copies of vertices that the reader made, so the written file has the same vertices as the file
+/// that was read.
 #[test]
 fn meshes_that_are_not_manifold_are_converted_without_a_loss() {
     let mut options = ReadOptions {

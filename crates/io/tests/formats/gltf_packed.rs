@@ -120,7 +120,7 @@ fn baked(scene: &Scene, options: &WriteOptions) -> Vec<Object> {
 }
 
 /// Returns the faces in ascending order. Each face is a list of corners that starts at its smallest corner. Each corner
-/// has all its numbers.
+/// is a list of numbers: the bits of its position and attributes.
 fn sorted_faces(mesh: &Mesh) -> Vec<Vec<Vec<u64>>> {
     let corner = |h| {
         let v = mesh.origin(h);

@@ -1,4 +1,5 @@
-//! Tests of reading and writing whole files. The results must have general properties and agree with other readers.
+//! Tests of reading and writing whole files. Some tests check general properties of the results. Other tests compare
+//! the results with those of other readers.
 
 mod broken;
 mod compressed;

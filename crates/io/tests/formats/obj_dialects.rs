@@ -97,7 +97,7 @@ fn colors_of_zbrush_become_vertex_colors() {
     assert_eq!(
         notes,
         [
-            "1 colors of `#MRGB` comments left out: their number differs from the number of vertices, or vertices have other colors"
+            "1 colors of `#MRGB` comments left out: their number differs from the number of vertices, or `v` statements also define colors"
         ]
     );
 }

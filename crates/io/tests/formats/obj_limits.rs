@@ -1,4 +1,4 @@
-//! Checks that OBJ files with lines of very many names are read quickly.
+//! Checks that OBJ files with very many names on a line are read quickly.
 
 use std::time::{Duration, Instant};
 

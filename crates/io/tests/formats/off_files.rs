@@ -1,4 +1,5 @@
-//! Tests of OFF files. They are compared with the expected result, and general properties are checked.
+//! Tests of OFF files. Some tests compare the result of reading with the expected result. Other tests check general
+//! properties.
 
 use geometry::shapes;
 use glam::{DVec2, DVec3, DVec4};
@@ -234,7 +235,7 @@ fn content_left_out_is_counted() {
     assert_eq!(
         found(text).1,
         [
-            "2 vertices with extra numbers left out: the keyword in the first line does not declare these numbers",
+            "2 vertices with extra numbers: these numbers are left out, because the keyword in the first line does not declare them",
             "2 faces with fewer than 3 corners left out",
             "2 lines left out after the last face",
         ]
@@ -266,7 +267,7 @@ fn a_peek_counts_what_reading_gives() {
 fn unsupported_variants_of_off_are_refused() {
     assert_error(
         "4OFF\n1 0 0\n",
-        "1:1: expected an OFF file with three coordinates, found `4OFF`",
+        "1:1: expected an OFF file with three coordinates for each vertex, found `4OFF`",
     );
     assert_error(
         "CnOFF\n3\n1 0 0\n",

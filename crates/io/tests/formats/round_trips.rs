@@ -81,7 +81,7 @@ fn round_trip(objects: &[Object], extension: &str) -> Result<RoundTrip, WriteErr
     })
 }
 
-/// Returns the reported losses as keys of differences.
+/// Returns, for each reported loss, the key of the difference that the loss explains.
 fn reported(objects: &[Object], losses: &[Loss]) -> BTreeSet<Key> {
     let materials = objects.iter().flat_map(|object| &object.materials);
     let materials: BTreeSet<&str> = materials.map(|material| material.name.as_str()).collect();

@@ -1,4 +1,5 @@
-//! Tests of STL files. They are compared with a simple reader in this file, and general properties are checked.
+//! Tests of STL files. Some tests compare the result of reading with the result of a simple reader in this file. Other
+//! tests check general properties.
 
 use geometry::shapes;
 use glam::DVec3;

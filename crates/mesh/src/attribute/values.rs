@@ -5,8 +5,8 @@ use glam::{DVec2, DVec3, DVec4};
 
 use crate::parallel;
 
-/// For a new value, given by its index, calls a function with the index and the weight of each old value that
-/// contributes to the new value.
+/// A function of the index of a new value and of a callback. It calls the callback with the index and the weight of
+/// each old value that contributes to the new value.
 type Weights<'a> = dyn Fn(usize, &mut dyn FnMut(usize, f64)) + Sync + 'a;
 
 /// In a list of sources, marks a new value that has no source. The new value is zero.

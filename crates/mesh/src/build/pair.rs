@@ -27,9 +27,9 @@ pub(super) struct PairedSides {
     pub(super) has_inconsistent_edge: bool,
 }
 
-/// An outgoing half-edge of a vertex: the side that starts at a corner, the boundary half-edge that is the twin
-/// of such a side, or none. The stored value is twice the corner for a side, and twice the corner plus one for
-/// a boundary half-edge.
+/// An outgoing half-edge of a vertex: the side that starts at a corner, the boundary half-edge that is the twin of such
+/// a side, or none. If c is the index of the corner, the stored value is 2c for a side and 2c + 1 for a boundary
+/// half-edge.
 #[derive(Clone, Copy, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(transparent)]
 pub(super) struct Outgoing(u32);

@@ -10,7 +10,8 @@
 use super::pair::Outgoing;
 use super::polygons::{NONE, Polygons, to_id};
 
-/// The maximum number of corners that are matched by comparing all pairs; more corners are sorted.
+/// Up to this number of corners at a vertex are matched by comparing all pairs. If there are more, the corners are
+/// sorted.
 const MAX_COMPARED: usize = 32;
 
 /// The corners at one vertex. Each list has one entry for each corner, in the order of the corners passed to

@@ -3,7 +3,7 @@
 use crate::{EdgeId, EditError, FaceId, HalfEdgeId, Mesh};
 
 impl Mesh {
-    /// Connects the holes of `h` and `g`, half-edges without faces, by a band of faces.
+    /// Connects the holes of two half-edges without faces, `h` and `g`, by a band of faces.
     ///
     /// ```text
     ///    --d <-g-- c--          --d --- c--         a is joined to d, the target of g, and b to c.

@@ -21,14 +21,13 @@ impl Mesh {
     /// hole loses one edge. Inside a triangle mesh, V, E and F shrink by 1, 3 and 2; on its boundary by 1, 2
     /// and 1. V - E + F stays the same. No ids are added, and all other elements keep their ids.
     ///
-    /// Vertex attributes of v are interpolated between the two ends, except attributes whose rule does not
-    /// interpolate: these keep their values at v. The corners at v of the faces beside `e` are interpolated
-    /// within their face, separately on each side of a seam. Each corner of another face at an end of `e` is
-    /// compared with the corners of the faces beside `e` at the same end, for each attribute. If two compared
-    /// corners have the same value, the corner of the other face gets the new value of the corner beside `e`. A
-    /// corner without such a match keeps its value. When two edges become one, the larger value is kept, so
-    /// that creases are preserved, and a tag is set if either edge had it. For attributes of other types, the
-    /// remaining edge keeps its value.
+    /// Vertex attributes of v are interpolated between the two ends, except attributes whose rule does not interpolate:
+    /// these keep their values at v. The corners at v of the faces beside `e` are interpolated within their face,
+    /// separately on each side of a seam. Every other face at an end of `e` has a corner there. For each attribute,
+    /// this corner is compared with the corners of the faces beside `e` at the same end. If it has the same value as
+    /// one of them, it gets the new value of that corner. Otherwise it keeps its value. When two edges become one, the
+    /// larger value is kept, so that creases are preserved, and a tag is set if either edge had it. For attributes of
+    /// other types, the remaining edge keeps its value.
     ///
     /// A collapse is refused if it would change the topology of the surface or make two elements coincide. The test is
     /// the link condition of Dey, Edelsbrunner, Guha and Nekhayev ("Topology preserving edge contraction", 1999),

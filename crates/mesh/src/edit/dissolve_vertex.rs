@@ -181,8 +181,8 @@ impl Mesh {
         largest
     }
 
-    /// Returns a vertex that the face merged around a vertex would contain twice. `rim` has the half-edges around all
-    /// faces except the face of the spoke `large`, which is not walked around.
+    /// Returns a vertex that the merged face would contain twice. `rim` has the half-edges around all faces except the
+    /// face of the spoke `large`, which is not walked around.
     fn repeated_after_merge(
         &self,
         spokes: &[HalfEdgeId],

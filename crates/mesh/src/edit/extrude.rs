@@ -29,15 +29,15 @@ impl Mesh {
     /// the first half-edge of each face. Each h adds the vertex v', the edges v'-w' and v-v' in this order, and
     /// the side face, whose half-edge is h.
     ///
-    /// If faces meet only at a vertex, each of their fans gets a separate copy of the vertex. If all faces of a
-    /// sheet are extruded, the sheet becomes a box that is open where the sheet was. If all faces of a closed
-    /// component are extruded, there is no rim, and the component only moves. If two edges of the rim join the
-    /// same two vertices, their copies also join the same two vertices.
+    /// If faces meet only at a vertex, each of their fans gets a separate copy of the vertex. If all faces of a sheet
+    /// are extruded, the sheet becomes a box that is open where the sheet was. If all faces of a closed component are
+    /// extruded, there is no rim, and the component only moves. If two edges of the rim are parallel (they join the
+    /// same two vertices), their copies are parallel too.
     ///
-    /// **Attributes.** New vertices and the new edges of the rim have the values of the old ones; the edges
-    /// v-v' have zero values. A side face has the values of the face f at its rim edge. The corners of the side
-    /// face at v and v' both have the values that the corner of f had at v, so that there is no seam between f
-    /// and the side face. Normals do not change.
+    /// **Attributes.** The copies of the vertices and edges of the rim have the values of the originals; the edges v-v'
+    /// have zero values. A side face has the values of the face f at its rim edge. The corners of the side face at v
+    /// and v' both have the values that the corner of f had at v, so that there is no seam between f and the side face.
+    /// Normals do not change.
     ///
     /// Returns the side faces, in the order of their half-edges h.
     ///

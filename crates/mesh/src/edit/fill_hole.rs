@@ -7,7 +7,7 @@ use super::{first_repeated, sorted_unique};
 use crate::{EditError, FaceId, HalfEdgeId, Mesh, VertexId};
 
 impl Mesh {
-    /// Fills the hole of `h`, a half-edge without a face, with a single face.
+    /// Fills a hole with a single face. `h` is a half-edge of the hole: it has no face.
     ///
     /// ```text
     ///    +-----+-----+          +-----+-----+
@@ -54,9 +54,9 @@ impl Mesh {
         Ok(f)
     }
 
-    /// Fills the hole of `h`, a half-edge without a face, with triangles, by cutting off ears. Each number in
-    /// `ears` is the index of a vertex on the rim, counted from the origin of `h`. The vertex is cut off by a
-    /// triangle with its two remaining neighbors on the rim.
+    /// Fills a hole with triangles, by cutting off ears. `h` is a half-edge of the hole: it has no face. Each number in
+    /// `ears` is the index of a vertex on the rim, counted from the origin of `h`. The vertex is cut off by a triangle
+    /// whose other two corners are its current neighbors on the rim.
     ///
     /// ```text
     ///    +-----+-----+          +-----+-----+

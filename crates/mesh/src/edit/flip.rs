@@ -13,7 +13,8 @@ pub enum Seams {
 }
 
 impl Mesh {
-    /// Flips the edge between two faces: rotates it counter-clockwise, so that each end moves to the next corner.
+    /// Flips the edge between two faces: rotates the edge counter-clockwise inside the polygon that the two faces form,
+    /// so that each end moves to the next corner of this polygon.
     ///
     /// ```text
     ///        c                   c                 +-----c           +-----c

@@ -45,7 +45,7 @@ pub enum EditError {
     /// The face does not exist, or is dead.
     #[error("{0} is not a face of the mesh")]
     NoSuchFace(FaceId),
-    /// The edit needs a face on both sides.
+    /// The edit needs an edge with a face on both sides.
     #[error("{0} is on the boundary")]
     Boundary(EdgeId),
     /// The edit needs a half-edge without a face, but this half-edge has one. The edge can still be on the
@@ -77,7 +77,8 @@ pub enum EditError {
     #[error("a face would contain {0} twice")]
     RepeatedVertex(VertexId),
     /// No face has both vertices as corners, or the two vertices are the same. [`Mesh::cut_face`] returns this error,
-    /// with the ends of the first diagonal, if diagonals cross, repeat or follow a side.
+    /// with the ends of the first diagonal, if two diagonals cross or are equal, or if a diagonal joins neighboring
+    /// corners.
     #[error("no face can be cut from {0} to {1}")]
     NoCut(VertexId, VertexId),
     /// Several faces have both vertices as corners, or one face contains a vertex several times.
@@ -88,7 +89,9 @@ pub enum EditError {
     Vanishes(EdgeId),
     /// The ends of the edge have a common neighbor that is not a corner of a triangle at the edge, so the ends
     /// cannot be merged.
-    #[error("both ends of {0} are adjacent to {1}, but not through a triangle at the edge")]
+    #[error(
+        "both ends of {0} are neighbors of {1}, which is not a corner of a triangle at the edge"
+    )]
     Link(EdgeId, VertexId),
     /// Both ends of the edge are on the boundary, but the edge is not. Collapsing such an edge would split one
     /// boundary loop in two, or merge two loops.
@@ -139,7 +142,7 @@ pub enum EditError {
     /// The list of elements to edit is empty.
     #[error("the list of elements to edit is empty")]
     NoElements,
-    /// The mesh could have more elements than there are ids after the edit.
+    /// After the edit, the mesh could have more elements than there are ids.
     #[error("the mesh would have too many elements: the highest id is 2^32 - 2")]
     Full,
 }

@@ -4,7 +4,7 @@ use crate::marks::Marks;
 use crate::{EditError, FaceId, HalfEdgeId, Mesh};
 
 impl Mesh {
-    /// Reverses the orientation of faces, so that inside and outside are exchanged. The faces must be whole
+    /// Reverses the orientation of faces, so that inside and outside are exchanged. The faces must form whole
     /// components, because the two faces at an edge must run along it in opposite directions.
     ///
     /// ```text

@@ -13,11 +13,10 @@ impl Mesh {
     ///        d                 d
     /// ```
     ///
-    /// `e` keeps its id and becomes a-m. The new elements are, in this order, the edges m-b, m-c (on the side
-    /// of the first half of `e`) and m-d, and the faces at b: (m, b, c) and (b, m, d). f and g remain at a.
-    /// A side without a face gets no new edge. A face with more than three corners is not cut: it gains m as
-    /// a corner. Inside a triangle mesh, V, E and F grow by 1, 3 and 2; on its boundary by 1, 2 and 1.
-    /// V - E + F stays the same.
+    /// `e` keeps its id and becomes a-m. The new elements are, in this order, the edges m-b, m-c (on the side of the
+    /// first half of `e`) and m-d, and the faces at b: (m, b, c) and (b, m, d). f and g become the triangles at a. A
+    /// side without a face gets no new edge. A face with more than three corners is not cut: it gains m as a corner.
+    /// Inside a triangle mesh, V, E and F grow by 1, 3 and 2; on its boundary by 1, 2 and 1. V - E + F stays the same.
     ///
     /// Vertex attributes at m are interpolated between a and b. Corner attributes at m are interpolated within
     /// their face, separately on each side of a seam. m-b has the edge values of `e`. The new faces have the
@@ -89,8 +88,8 @@ impl Mesh {
         self.set_face(bm, self.face(ma));
         self.copy_values(ma, bm);
         self.mix_values(am, after_b, t, mb);
-        // The half-edge from m to a now stores the corner at m. The values of this corner are interpolated
-        // between the corner at b, which the half-edge from b to m now stores, and the corner at a.
+        // The half-edge from m to a now stores the corner at m, and the half-edge from b to m stores the corner at b.
+        // The values at m are interpolated between the corners at b and at a.
         let at_a = self.next(ma);
         self.mix_values(bm, at_a, 1.0 - t, ma);
         self.set_next(am, mb);

@@ -13,7 +13,7 @@ impl Mesh {
     ///      \  f  |x             \  f  |x
     ///       \    |               \    |          v: the origin of x and y
     ///   ----- v -----    -->   -- v-->w ----     f: the face of x, g: the face of y
-    ///         |    \              |    \         w is new and has the edges from x to before y
+    ///         |    \              |    \         w is new and has the edges from x up to y, without y
     ///        y|  g  \            y|  g  \
     /// ```
     ///

@@ -31,12 +31,11 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// Returns [`EditError::NotBoundary`] if `h` or `g` has a face, [`EditError::EdgeListedTwice`] if they are
-    /// the same, [`EditError::SameFace`] if the same face is beside both edges of a pair that would be
-    /// stitched, [`EditError::SelfLoop`] if two vertices that would be merged share an edge,
-    /// [`EditError::VisitsTwice`] if two such vertices share a face, [`EditError::DuplicateEdge`] if both such
-    /// vertices are joined to the same other vertex by edges that would not be stitched, or
-    /// [`EditError::NoSuchHalfEdge`]. The mesh is unchanged.
+    /// Returns [`EditError::NotBoundary`] if `h` or `g` has a face, [`EditError::EdgeListedTwice`] if they are the
+    /// same, [`EditError::SameFace`] if the same face is beside both edges of a pair that would be stitched,
+    /// [`EditError::SelfLoop`] if two vertices that would be merged share an edge, [`EditError::VisitsTwice`] if two
+    /// such vertices share a face, [`EditError::DuplicateEdge`] if two such vertices are both joined to a third vertex
+    /// by edges that would not be stitched, or [`EditError::NoSuchHalfEdge`]. The mesh is unchanged.
     ///
     /// # Examples
     ///
@@ -141,7 +140,7 @@ impl Mesh {
     /// Merges the edges of two half-edges without faces. The edge with the lower id remains.
     fn merge_edges(&mut self, [h, g]: Pair) -> EdgeId {
         let (kept, removed) = (h.min(g), h.max(g));
-        // The kept half-edge takes the place of the half-edge of the removed edge that has a face.
+        // One half of the removed edge has a face. The kept half-edge takes the place of this half.
         let old = removed.twin();
         let (before, after, face) = (self.prev(old), self.next(old), self.face(old));
         self.set_next(before, kept);

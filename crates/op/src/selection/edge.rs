@@ -77,7 +77,7 @@ selection! {
 
 impl EdgeSelection {
     /// Converts the parameter `at` of a recipe to a position on the edge `e`, measured from the origin of the first
-    /// half-edge of `e`. If the selection is `Between(v, w)`, `at` is 0 at v and 1 at w. Otherwise it is 0 at the end
+    /// half-edge of `e`. If the selection is `Between(v, w)`, `at` is 0 at v and 1 at w. Otherwise `at` is 0 at the end
     /// with the lower id. Returns `at` unchanged if the edge does not exist, because the edit will refuse the edge.
     pub fn place_on(&self, mesh: &Mesh, e: EdgeId, at: f64) -> f64 {
         if !mesh.has_edge(e) {

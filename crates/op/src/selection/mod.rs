@@ -207,14 +207,14 @@ pub trait Select: Sized + Sync {
         Ok(Self::marked(mesh, &mask).collect())
     }
 
-    /// Returns the selection as one flag for each element, by index.
+    /// Returns one flag for each element, by the index of the element: whether the element is selected.
     ///
     /// # Errors
     ///
     /// Returns the errors of [`resolve`](Self::resolve).
     fn mask(&self, mesh: &Mesh, cx: &Context) -> Result<Vec<bool>, OpError>;
 
-    /// Returns the range of the number of elements of a planned mesh that this selection can contain.
+    /// Returns how many elements of a planned mesh this selection can contain, as a range.
     fn count(&self, plan: &MeshPlan) -> Range;
 
     /// Returns all elements of a mesh.
@@ -320,7 +320,7 @@ impl<S: Select> Shared<'_, S> {
         })
     }
 
-    /// Returns the range of the number of elements that the variant can select. `all` is the number of all elements.
+    /// Returns how many elements the variant can select, as a range. `all` is the number of all elements.
     fn count(&self, all: Range, plan: &MeshPlan) -> Range {
         match self {
             Self::All => all,

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 
-#: The largest number of an element.
+#: The largest id of an element.
 MAX_ID = 2**32 - 2
 
 

@@ -114,8 +114,8 @@ def batch(
 
     A batch that was interrupted, or whose workers were killed, continues when it is called again: a file is not processed
     again if the recipe, the parameters and every file that the run reads are unchanged. Files are compared by their
-    content. The engine and the number of parts can differ. A file that fails is a row of the report, and does not stop
-    the batch.
+    content. The engine and the number of parts can differ from those of the earlier call. A file that fails is a row of
+    the report, and does not stop the batch.
 
     :param recipe: The recipe, or the path of its file. For inputs, it needs a parameter of type Path, which receives the
         input.
@@ -136,9 +136,9 @@ def batch(
     :param report: A file for the report: .json, .jsonl or .csv.
     :param budget: The memory budget for meshes of a process, such as "2GiB". Defaults to 8 GiB.
     :param upload: An address such as ``s3://bucket/clean``, to which outputs are copied at the end.
-    :param progress: Called with ``"batch"``, ``"files"``, the number of files that are done and of all files, each counted
-        once for each parameter set; or `True` for a bar of tqdm. On a cluster, it is called when a part is done. An
-        exception cancels the batch.
+    :param progress: Called with ``"batch"``, ``"files"``, the number of finished files and the total number of files;
+        or `True` for a bar of tqdm. Each file is counted once for each parameter set. On a cluster, the callable is
+        called when a part is done. An exception cancels the batch.
     """
     folder = Path(out).absolute()
     folder.mkdir(parents=True, exist_ok=True)
@@ -239,7 +239,7 @@ class Counter:
             self.show("batch", "files", self.done, self.total)
 
     def count(self, line: str) -> None:
-        """Counts the file that a line of the program is about."""
+        """Counts a file if this line of the program's output reports the result of a file."""
         if line.startswith(("ok ", "FAILED ")):
             self.add(1)
 
@@ -304,7 +304,7 @@ def run_on_ray(ray: Any, divided: Callable[[int], list[Task]], show: Progress | 
         ray.init(include_dashboard=False)
     nodes = [node["Resources"] for node in ray.nodes() if node["Alive"]]
     threads = int(sum(node.get("CPU", 0) for node in nodes))
-    # A task that needs more memory than every machine has would wait forever.
+    # If a task requested more memory than any machine has, it would wait forever.
     room = int(max((node.get("memory", 0) for node in nodes), default=0))
     made = divided(threads)
     counter = Counter(show, sum(task.runs for task in made))
@@ -328,7 +328,7 @@ def run_on_dask(client: Any, divided: Callable[[int], list[Task]], show: Progres
     threads = sum(client.ncores().values())
     made = divided(threads)
     counter = Counter(show, sum(task.runs for task in made))
-    # A task that needs more memory than every worker has would wait forever.
+    # If a task requested more memory than any worker has, it would wait forever.
     room = max((m for m in memory_of_workers(client) if m is not None), default=None)
     running = {
         client.submit(
@@ -376,8 +376,8 @@ def run_part(arguments: list[str], folder: str) -> str:
 
 
 def run_program(arguments: list[str], folder: str, each_line: Callable[[str], object] = lambda line: None) -> None:
-    """Runs the program in a process that ends with this one. The last argument is a new file that the program writes.
-    Calls `each_line` with the lines that it prints."""
+    """Runs the program in a process that ends when this process ends. The last argument is a new file that the program
+    writes. Calls `each_line` with each line that the program prints."""
     with tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace") as errors:
         process = subprocess.Popen(
             [sys.executable, "-m", "meshwright._task", *arguments],

@@ -1,7 +1,7 @@
 """Conversions from and to other packages, which are imported when a conversion is called.
 
-Attributes of vertices and faces keep their names. Texture coordinates and normals go where the other package has them.
-A warning names the data that the other package cannot hold.
+Attributes of vertices and faces keep their names. Texture coordinates and normals are stored where the other
+package stores them. A warning names the data that the other package cannot hold.
 """
 
 from __future__ import annotations
@@ -119,7 +119,8 @@ class MeshConversions:
     def to_trimesh(self) -> Any:
         """Returns a `trimesh.Trimesh` with the attributes of vertices and faces, and with texture coordinates if corners
         have the attribute "uv". Faces must be triangles. Vertices keep their order, and nothing is merged. A vertex with
-        several texture coordinates is copied for each of them, with a warning; the copies follow the other vertices."""
+        several texture coordinates is copied for each of them after the first, with a warning. The copies follow the
+        other vertices."""
         mesh = self._mesh()
         trimesh = module("trimesh")
         columns = self._columns(mesh, "trimesh", {"corner uv"})

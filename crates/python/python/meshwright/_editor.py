@@ -14,8 +14,8 @@ if TYPE_CHECKING:
 
 class Editor:
     """Edits of single elements, on a copy of a mesh. Each edit is checked first: a refused edit raises
-    :class:`meshwright.EditError` and changes nothing. Numbers of elements stay valid until the end of the `with` block.
-    Then elements are renumbered to close the gaps that removed elements left."""
+    :class:`meshwright.EditError` and changes nothing. Ids of elements stay valid until the end of the `with` block.
+    Then elements get new ids, so that removed elements leave no gaps."""
 
     def __init__(self, mesh: Mesh) -> None:
         self._original = mesh
@@ -87,7 +87,7 @@ class Editor:
         return self._core.poke(face)
 
     def inset(self, face: int, fraction: float) -> list[int]:
-        """Shrinks a face, with a ring of faces around it. Returns the new faces.
+        """Shrinks a face, and fills the space around it with a ring of faces. Returns the new faces.
 
         :param fraction: How far each corner moves toward the center, strictly between 0 and 1.
         """

@@ -48,7 +48,7 @@ class HalfEdges(NamedTuple):
 class Attributes(Mapping[str, NDArray[Any]]):
     """The attributes of a mesh by name, as read-only arrays: one row for each vertex, corner, edge or face.
 
-    If several domains have an attribute of this name, ``attributes["uv"]`` is the first, in the order vertices,
+    If several domains have an attribute named "uv", ``attributes["uv"]`` is the first of them, in the order vertices,
     corners, edges, faces. ``attributes["corner", "uv"]`` names the domain.
     """
 
@@ -140,7 +140,7 @@ class Mesh(MeshConversions, MeshOperations):
         :param name: The name of the object.
         :param repair: Whether faces that are not a manifold are repaired: inconsistent faces are reversed, edges with
             more than two faces are split, and faces with fewer than three corners are dropped. `notes` lists the
-            repairs. If false, they raise `ValueError`.
+            repairs. If false, a mesh that needs a repair raises `ValueError`.
         """
         return cls._built(vertices, faces, face_starts, name, repair)[0]
 
@@ -153,7 +153,8 @@ class Mesh(MeshConversions, MeshOperations):
         name: str,
         repair: bool = True,
     ) -> tuple[Self, NDArray[np.uint32], NDArray[np.uint32]]:
-        """A mesh of points and polygons, the point of each vertex, and the polygon of each face."""
+        """Returns a mesh of points and polygons, the index of the point of each vertex, and the index of the polygon of
+        each face."""
         positions = points(vertices)
         starts, corners = polygons(faces, face_starts)
         core, repairs, point_of_vertex, polygon_of_face = _core.from_arrays(positions, starts, corners, repair)
@@ -235,7 +236,7 @@ class Mesh(MeshConversions, MeshOperations):
         return [(domain, name) for domain, name, kind, _ in self._core.attributes() if kind == "tag"]
 
     def select(self, selection: str | Choice | Ron, domain: Literal["vertex", "edge", "face"] | None = None) -> NDArray[np.uint32]:
-        """Returns the numbers of the vertices, edges or faces that a selection selects.
+        """Returns the ids of the vertices, edges or faces that a selection matches.
 
         >>> import meshwright as mw
         >>> from meshwright import sel
@@ -394,7 +395,7 @@ class Mesh(MeshConversions, MeshOperations):
     # ---- Changes
 
     def edit(self) -> Editor:
-        """Starts edits of single elements. Use it in a `with` block; `mesh` is then the edited mesh.
+        """Starts edits of single elements. Use the returned editor in a `with` block. Its `mesh` is the edited mesh.
 
         >>> import meshwright as mw
         >>> m = mw.Scene().icosahedron(name="ball").mesh()
@@ -505,7 +506,7 @@ def _count(n: int, one: str, many: str) -> str:
 def polygons(
     faces: ArrayLike | Sequence[ArrayLike], face_starts: ArrayLike | None
 ) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
-    """The start of each face and the corners of all faces."""
+    """The index of the first corner of each face, and the corners of all faces."""
     if face_starts is not None:
         starts, corners = indices(face_starts, "face_starts"), indices(faces, "faces")  # type: ignore[arg-type]
         if starts.ndim != 1 or corners.ndim != 1:

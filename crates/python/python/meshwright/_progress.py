@@ -6,7 +6,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
-#: Called with the step, the task, the number of parts that are done, and the number of all parts. An exception cancels.
+#: Called with the step, the task, the number of finished parts and the total number of parts. An exception cancels the
+#: computation.
 Progress = Callable[[str, str, int, int], object]
 
 

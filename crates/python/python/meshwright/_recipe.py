@@ -293,8 +293,8 @@ class Recipe(SceneOperations):
         :param preset: The name of a preset of the recipe.
         :param out: The folder for outputs.
         :param keep_outputs: Whether files are kept after the run.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True` for
-            a bar of tqdm. An exception cancels the run.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. An exception cancels the run.
         :param budget: The memory budget for meshes, in bytes. Defaults to 8 GiB.
         :param values: Values of the parameters of the recipe. A relative path is relative to the working directory.
         :param more: More values: ``run(levels=3)``.
@@ -313,7 +313,7 @@ class Recipe(SceneOperations):
 
 
 def recipe() -> Recipe:
-    """Returns an empty recipe, to which each method adds a step.
+    """Returns an empty recipe. Each method for an operation returns a recipe with one more step.
 
     >>> import meshwright as mw
     >>> mw.recipe().load("a.obj").simplify(faces=5000).save("a.glb").to_ron().splitlines()[3]

@@ -16,7 +16,8 @@ from . import _core
 
 Schema = Mapping[str, Any]
 
-#: The characters that are escaped in texts, and the escapes that are not a number.
+#: The characters that are escaped in texts, and the short escapes. Characters without a short escape are escaped by
+#: number.
 ESCAPED = re.compile(r'["\\\x00-\x1f\x7f-\x9f]')
 ESCAPES = {'"': '\\"', "\\": "\\\\", "\n": "\\n", "\r": "\\r", "\t": "\\t"}
 
@@ -105,7 +106,7 @@ def name_of(option: Schema) -> str | None:
 
 
 def words(schema: Schema) -> set[str]:
-    """The words that are written without quotes in this place."""
+    """The words that are written without quotes in a value of this schema."""
     found: set[str] = set()
     for option in options(schema):
         if isinstance(option.get("const"), str):
@@ -115,7 +116,7 @@ def words(schema: Schema) -> set[str]:
 
 
 def takes_text(schema: Schema) -> bool:
-    """Whether any text is allowed in this place."""
+    """Whether a value of this schema can be any text."""
     plain = [o for o in options(schema) if "const" not in o and "enum" not in o]
     kinds = [o.get("type") for o in plain]
     return any(k == "string" or isinstance(k, list) and "string" in k for k in kinds)
@@ -235,7 +236,7 @@ def step(operation: str, fields: Mapping[str, Any]) -> str:
 
 
 def arguments(value: Any) -> list[Arg]:
-    """The parameters of recipes in a value."""
+    """The recipe parameters that a value contains."""
     if isinstance(value, Arg):
         return [value]
     if isinstance(value, Choice):

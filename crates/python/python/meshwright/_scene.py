@@ -69,7 +69,8 @@ class Scene(SceneOperations, Mapping[str, Mesh]):
         return self._core.kind(name)
 
     def with_object(self, mesh: Mesh, *, name: str | None = None) -> Self:
-        """Returns the scene with the object of a mesh, which is added under its name or `name`."""
+        """Returns the scene with the object of a mesh added. The object is named `name`, or keeps its name if `name` is
+        omitted."""
         return type(self)(self._core.joined(mesh._scene, {mesh.name: name or mesh.name}), self._notes)
 
     def only(self, *names: str) -> Self:
@@ -113,8 +114,8 @@ class Scene(SceneOperations, Mapping[str, Mesh]):
         :param operation: The name of the operation.
         :param on: The objects that the operation acts on. If omitted, all objects that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True` for
-            a bar of tqdm. An exception cancels the operation.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. An exception cancels the operation.
         :param budget: The memory budget for meshes, in bytes. Defaults to 8 GiB.
         """
         return self._run(operation, parameters, on, id, progress=progress, budget=budget)[0]
@@ -236,7 +237,7 @@ def is_address(path: str) -> bool:
 
 
 def extension_of(path: str) -> str:
-    """The extension of a file name, with a `.gz` after it."""
+    """The extension of a file name, including a `.gz` that follows it."""
     name = path.rsplit("/", 1)[-1]
     stem, _, extension = name.rpartition(".")
     if extension == "gz":

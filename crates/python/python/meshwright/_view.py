@@ -36,7 +36,8 @@ def encoded(array: NDArray[Any], dtype: str) -> str:
 
 
 def colors_of(values: NDArray[Any]) -> tuple[NDArray[np.uint8], str]:
-    """A color for each value, and the range of the values in words. The value of a row of numbers is its length."""
+    """A color for each value, and the range of the values in words. If the values are vectors, their lengths are
+    used."""
     numbers = values.astype(float) if values.ndim == 1 else np.linalg.norm(values, axis=1)
     if not len(numbers):
         return np.zeros((0, 3), np.uint8), "no values"
@@ -66,7 +67,8 @@ class View:
             colors, span = colors_of(source.attributes[domain, color_by])
             caption += f", {color_by}: {span}"
             if domain == "face":
-                # Each triangle gets its own corners. They follow the vertices, which the edges use.
+                # Each triangle gets three points of its own. These points follow the vertices, to which the edges
+                # refer.
                 points = np.concatenate([points, points[triangles.reshape(-1)]])
                 colors = np.concatenate([np.zeros((mesh.n_vertices, 3), np.uint8), np.repeat(colors, 3, axis=0)])
                 triangles = (mesh.n_vertices + np.arange(3 * len(triangles), dtype=np.uint32)).reshape(-1, 3)

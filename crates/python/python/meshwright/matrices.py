@@ -35,9 +35,9 @@ def _csr(starts: _core.Array, columns: _core.Array, values: _core.Array, n_colum
 
 
 def laplacian(mesh: Mesh) -> Any:
-    """Returns the cotangent Laplacian: a positive semidefinite matrix whose rows add up to 0. The entry of an edge is minus
-    half the sum of the cotangents of the opposite angles. Divided by the areas of :func:`mass`, it approximates minus
-    the Laplace operator.
+    """Returns the cotangent Laplacian: a positive semidefinite matrix whose rows add up to 0. The entry of an edge is
+    -1/2 times the sum of the cotangents of the opposite angles. Divided by the areas of :func:`mass`, the matrix
+    approximates the negative Laplace operator.
 
     Faces with 4 to 16 corners have a virtual vertex at their center (Bunge, Herholz, Kazhdan, Botsch, "Polygon Laplacian
     Made Simple", 2020).

@@ -28,7 +28,7 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Col
 
 
 def tested(config: pytest.Config) -> set[Path]:
-    """The recipes that the program tests, of the files and folders in the arguments of pytest."""
+    """The recipes that the program would test if it received the files and folders in the arguments of pytest."""
     found: set[Path] | None = config.stash.get(TESTED, None)
     if found is None:
         from meshwright._core import tested_recipes

@@ -30,7 +30,7 @@ struct DroppedAttribute {
     step: String,
 }
 
-/// The name of each mesh with known attributes, with these attributes.
+/// The names of the meshes whose attributes are known, each with its attributes.
 pub(super) type KnownAttributes = Vec<(String, Vec<PlannedAttribute>)>;
 
 fn key(attribute: &PlannedAttribute) -> (Domain, &str) {
@@ -38,7 +38,8 @@ fn key(attribute: &PlannedAttribute) -> (Domain, &str) {
 }
 
 impl Attributes {
-    /// Records the attributes that a step certainly loses, and adds the certain and the possible losses.
+    /// Records the attributes that a step certainly loses. Adds the certain losses of the step to `losses`, and its
+    /// possible losses to `possible`.
     pub(super) fn losses(
         &mut self,
         step: &RecipeStep,

@@ -26,7 +26,7 @@ pub enum ColumnDifference {
     OnlySecond,
     /// The types of the values differ.
     Types([&'static str; 2]),
-    /// The edit rules of the attributes differ.
+    /// The attributes have different [edit rules](mesh::Rule).
     Rules,
     /// The connectivity of the meshes is not [`Connectivity::Same`](super::Connectivity::Same), so the values cannot be
     /// compared.
@@ -35,7 +35,7 @@ pub enum ColumnDifference {
     Values {
         /// The number of values that differ.
         count: usize,
-        /// The largest difference between two corresponding numbers. Two different tags have the difference 1.
+        /// The largest difference between two corresponding numbers. Two different values of a tag differ by 1.
         by: f64,
         /// The element of the first mesh with the largest difference, such as `v12`.
         element: String,

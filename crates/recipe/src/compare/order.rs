@@ -1,4 +1,5 @@
-//! The elements of a mesh in an order in which two meshes are compared.
+//! Lists the elements of a mesh in a fixed order. Two meshes are compared by comparing the elements at the same
+//! positions in their lists.
 
 use mesh::{EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 

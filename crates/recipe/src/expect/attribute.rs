@@ -21,7 +21,7 @@ pub(super) fn check(
             Element::Edge(e) => EdgeByVertices(mesh, e).to_string(),
             Element::Face(f) => f.to_string(),
         };
-        let what = format_args!("a value of \"{name}\" at {at}");
+        let what = format_args!("the attribute \"{name}\" at {at} to have a value");
         check_number(what, value, bounds, 0.0)
     })
 }

@@ -10,7 +10,7 @@ use super::subject::{Subject, Violation};
 /// mesh.
 const MAX_BYTES: u64 = 1 << 36;
 
-/// A subject whose objects are the instances of another subject, in scene space.
+/// A subject (see [`Subject`]) whose objects are the instances of the objects of another subject, in scene space.
 pub(crate) struct PlacedSubject<'a> {
     scene: Cow<'a, Scene>,
     on: Option<Vec<String>>,

@@ -174,7 +174,7 @@ impl CheckedMesh<'_> {
             .collect()
     }
 
-    /// Returns the vertices of each mesh that have no vertex of the other mesh within the tolerance.
+    /// Returns the vertices of each mesh for which no vertex of the other mesh is within the tolerance.
     fn unmatched_vertices(&self, other: &Mesh, tolerance: f64) -> Vec<ErrorLocation> {
         let (these, others) = (PositionIndex::new(self.mesh), PositionIndex::new(other));
         let mut places = self.locations(self.mesh.vertices().filter(|&v| {
@@ -189,7 +189,8 @@ impl CheckedMesh<'_> {
         places
     }
 
-    /// Returns where two surfaces are farthest apart: the element of this mesh, and the line between the two points.
+    /// Returns where two surfaces are farthest apart: the element of this mesh, and the line from the point on one
+    /// surface to the nearest point on the other surface.
     fn farthest(&self, found: &Distance) -> Vec<ErrorLocation> {
         let worst = found.worst();
         let on = if found.is_worst_forth() {

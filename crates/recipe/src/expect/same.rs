@@ -50,10 +50,10 @@ impl<'m> PositionIndex<'m> {
         found
     }
 
-    /// Searches a part of the tree for vertices within a distance of `p`. The distance is `limit` at first. Calls `at`
-    /// with the index of each vertex that can be within the distance. The result of `at` is the distance for the rest
-    /// of the search. Calls `enter` with the index of the middle vertex of each part of the tree and the distance, and
-    /// skips the part if the result is `false`. Returns the final distance.
+    /// Searches a part of the tree for the vertices whose distance from `p` is at most `limit`. Calls `at` with the
+    /// index of each vertex that can be so near. `at` returns the limit for the rest of the search. Before a part of
+    /// the tree is searched, calls `enter` with the index of the middle vertex of the part and with the current limit,
+    /// and skips the part if the result is `false`. Returns the last limit.
     fn visit(
         &self,
         part: Range<usize>,
@@ -84,7 +84,7 @@ impl<'m> PositionIndex<'m> {
     }
 
     /// Matches each vertex v of `other`, in the order of ids, with the nearest vertex of this mesh that is within the
-    /// tolerance of the image of v and is not matched yet. Returns the matching vertex for each index of v. Returns
+    /// tolerance of the image of v and is not matched yet. Returns the matches in a list by the index of v. Returns
     /// `None` if the numbers of vertices differ, or if there is no match for a vertex.
     pub(super) fn matching(
         &self,
@@ -111,11 +111,11 @@ fn middle(part: &Range<usize>) -> usize {
     part.start + part.len() / 2
 }
 
-/// The vertices of a k-d tree that have not been taken.
+/// The free vertices of a k-d tree: those that are not matched yet.
 struct FreeVertices {
     is_free: Vec<bool>,
     /// For each vertex, the bounding box of the free vertices in the part of the tree that the vertex splits. With the
-    /// boxes, a search skips parts without free vertices. Without them, every search would visit the same taken
+    /// boxes, a search skips parts without free vertices. Without the boxes, every search would visit the matched
     /// vertices again.
     boxes: Vec<[DVec3; 2]>,
 }

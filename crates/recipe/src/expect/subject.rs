@@ -278,7 +278,7 @@ impl<'a> Subject<'a> {
                 return Ok(());
             };
             largest = Some(largest.map_or(angle, |l| l.max(angle)));
-            let what = format_args!("a dihedral angle at {}", EdgeByVertices(mesh, e));
+            let what = format_args!("{} to have a dihedral angle", EdgeByVertices(mesh, e));
             check_number(what, angle, [None, min, max], 0.0)
         })?;
         let largest = largest.ok_or("the selection contains no edges between two faces")?;
@@ -318,7 +318,7 @@ impl<'a> Subject<'a> {
             let thickness = geometry::thickness(mesh, self.progress);
             let thickness = thickness.map_err(|cancelled| cancelled.to_string())?;
             for v in vertices {
-                let what = format_args!("a thickness at {v}");
+                let what = format_args!("{v} to have a thickness");
                 check_number(what, thickness[v.index()], bounds, 0.0)?;
             }
         }
@@ -508,8 +508,8 @@ fn singular_if_one(n: u64, what: &str) -> Cow<'_, str> {
     }
 }
 
-/// Checks a number against `eq` (within the tolerance), `min` and `max`. `what` is a noun with its article, such as "an
-/// area".
+/// Checks a number against `eq` (within the tolerance), `min` and `max`. `what` names the number in the error, such as
+/// "an area" or "v3 to have a thickness".
 pub(super) fn check_number(
     what: impl fmt::Display,
     found: f64,

@@ -37,8 +37,8 @@ pub trait CachedRun {
     /// Stores the result of step `number` (counted from 1), which was not in the cache.
     fn record_step(&mut self, number: usize, label: &str, files: &Files, done: &CompletedStep);
 
-    /// Records that step `number` (counted from 1) ran again because its scene was needed. Returns the reason why the
-    /// scene was not in the cache.
+    /// Records that step `number` (counted from 1) ran again because the scene after this step was needed. Returns the
+    /// reason why that scene was not in the cache.
     fn record_rerun(
         &mut self,
         number: usize,
@@ -47,8 +47,8 @@ pub trait CachedRun {
         time: Duration,
     ) -> RerunReason;
 
-    /// Loads the latest stored scene after more than `from` and at most `to` steps. Returns the number of steps before
-    /// this scene, and the scene.
+    /// Loads the latest stored scene among the scenes after the steps `from + 1` to `to`, counted from 1. Returns the
+    /// number of steps before this scene, and the scene.
     fn load_scene(&mut self, from: usize, to: usize) -> Option<(usize, Scene)>;
 
     /// Whether the step with this index (counted from 0) leaves the scene unchanged.

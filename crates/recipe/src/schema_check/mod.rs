@@ -10,7 +10,7 @@
 //! object with properties                        (count: 24, seed: 7)
 //! object with additionalProperties              {"key": value}
 //! array with items                              [1, 2, 3]
-//! array with prefixItems, or of one length      (0, 0, 1)
+//! array with prefixItems, or of fixed length    (0, 0, 1)
 //! string with enum or const                     Area
 //! object with one required property, in oneOf   Random(count: 24), Between(1, 2), Not(All)
 //! anyOf with null, type with null               7, Some(7) or None

@@ -306,7 +306,8 @@ impl Sweep {
         })
     }
 
-    /// Reports names that are not parameters of the recipe, and names that have values at several locations.
+    /// Reports names that are not parameters of the recipe, and names that have values at several locations of the
+    /// sweep, for example in `over` and in `set`.
     fn check_names(&self, parameters: &[Parameter], diagnostics: &mut Vec<Diagnostic>) {
         let mut seen: Vec<&Entry> = Vec::new();
         for entry in self.over.iter().chain(&self.zip).chain(&self.set) {

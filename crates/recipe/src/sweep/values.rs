@@ -108,8 +108,8 @@ fn range(
     }
     let last = f64::from(steps.max(2) - 1);
     let each = (0..steps).map(|i| {
-        // A weighted mean of both ends has less rounding error than a repeated sum. For example, the middle of 0.1 to
-        // 0.5 is 0.3.
+        // A weighted mean of both ends has less rounding error than a repeated sum. For example, the middle of the
+        // range from 0.1 to 0.5 is exactly 0.3.
         let i = f64::from(i);
         let x = (from * (last - i) + to * i) / last;
         if whole && x.fract() != 0.0 {

@@ -205,7 +205,7 @@ fn outputs_are_listed_with_their_placeholders_filled_in() {
     has_one_error(
         &text.replace("input.stem", "inptu.stem"),
         "\"new/{inptu.stem}.txt\"",
-        "unknown placeholder {inptu.stem} in \"new/{inptu.stem}.txt\"; known placeholders, which stand for file names in path parameters: {input.stem}, {input.name}",
+        "unknown placeholder {inptu.stem} in \"new/{inptu.stem}.txt\"; known placeholders, which stand for the file names of path parameters: {input.stem}, {input.name}",
         "",
     );
 }

@@ -168,8 +168,8 @@ impl Builder<'_, '_> {
     }
 }
 
-/// Whether polylines are the levels of de Casteljau's construction: each polyline has one point fewer than the
-/// previous one, and the last is a single point.
+/// Whether polylines are the levels of de Casteljau's construction: each polyline has one point fewer than the previous
+/// one, and the last is a single point.
 fn are_levels(lines: &[Vec<DVec3>]) -> bool {
     let loses_one = |pair: &[Vec<DVec3>]| pair[0].len() == pair[1].len() + 1;
     lines.len() > 1 && lines.windows(2).all(loses_one) && lines[lines.len() - 1].len() == 1

@@ -69,7 +69,7 @@ impl<'s> Builder<'s, '_> {
         Ok(())
     }
 
-    /// Returns the normals for the shading of the style.
+    /// Returns the normals that the shading of the style needs.
     fn normals(&self, mesh: &'s Mesh) -> Channel<'s> {
         let is_flat = matches!(self.style.shading, Shading::Flat | Shading::Plain);
         if is_flat {

@@ -33,7 +33,7 @@ pub struct Overlays {
 /// A line through points, or a dot.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stroke {
-    /// The points, in scene units. A single point is drawn as a dot. They must be finite.
+    /// The points, in scene units. A single point is drawn as a dot. All points must be finite.
     pub points: Vec<DVec3>,
     /// The color.
     pub color: Color,
@@ -99,12 +99,12 @@ pub enum Elements {
     Faces(Vec<FaceId>),
 }
 
-/// Numbers of the elements of a mesh that are shown as colors.
+/// A quantity of the elements of a mesh that is shown as colors, such as the curvature at each vertex.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coloring {
     /// The name of the object, which must be a mesh.
     pub object: String,
-    /// The domain of the numbers. Numbers of edges are shown as colored lines.
+    /// The domain: the elements that have numbers. The numbers of edges are shown as colored lines.
     pub domain: ::mesh::Domain,
     /// One number for each element, by index. NaN if the element has no number.
     pub values: Vec<f64>,
@@ -146,8 +146,8 @@ pub fn build<'s>(
     build_within(scene, style, overlays, u64::MAX, textures, images)
 }
 
-/// Converts a scene to a drawing like [`build()`], with a memory budget in bytes. Textures that are in `textures` are not
-/// decoded again; others are added to it.
+/// Converts a scene to a drawing like [`build()`], with a memory budget in bytes. Textures that are in `textures` are
+/// not decoded again. All other textures are decoded and added to `textures`.
 ///
 /// # Errors
 ///

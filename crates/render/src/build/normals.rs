@@ -34,9 +34,9 @@ fn of_vertices(mesh: &Mesh, areas: &[[f32; 3]]) -> Vec<[f32; 3]> {
     })
 }
 
-/// Returns smooth normals that are split at sharp edges. If the mesh has smoothing groups, an edge is sharp if its
-/// two faces are in different groups, or both in no group. Otherwise, an edge is sharp if the normals of its faces
-/// differ by at least `sharp` degrees. `size` is the radius of the scene.
+/// Returns smooth normals that are split at sharp edges. If the mesh has smoothing groups, an edge is sharp if its two
+/// faces are in different groups, or both in no group. Otherwise, an edge is sharp if the normals of its faces differ
+/// by at least `sharp` degrees. `size` is the radius of the scene.
 pub(super) fn smooth<'a>(mesh: &Mesh, size: f64, sharp: f64) -> Channel<'a> {
     let areas = of_faces(mesh, size);
     let is_sharp = sharp_edges(mesh, &areas, sharp);

@@ -222,7 +222,7 @@ fn auto_is_the_axis_on_whose_plane_the_scene_stands() {
     };
     assert_eq!(axis([-1.0, -1.0, 0.0], [1.0, 1.0, 3.0]), Up::Z);
     assert_eq!(axis([-1.0, 0.0, -1.0], [1.0, 3.0, 1.0]), Up::Y);
-    // The scene stands on both planes, or on none of them, or is flat.
+    // The scene stands on both planes or on neither of them, or is flat.
     assert_eq!(axis([0.0; 3], [1.0; 3]), Up::Y);
     assert_eq!(axis([-1.0; 3], [1.0; 3]), Up::Y);
     assert_eq!(axis([-1.0, -1.0, 0.0], [1.0, 1.0, 0.0]), Up::Y);

@@ -38,7 +38,8 @@ const NAME_GAP: f64 = 12.0;
 /// The distance from each end of an edge to the end of its arrow, as a fraction of the length of the edge.
 const SHORTENING: f64 = 0.17;
 
-/// Draws a figure of the half-edges of faces, `width` pixels wide, with the names of half-edges, vertices and faces.
+/// Draws the half-edges of faces in a figure that is `width` pixels wide, with the names of half-edges, vertices and
+/// faces.
 ///
 /// The faces are seen along their mean normal. Back faces, and faces that are seen nearly edge-on, are left out.
 /// Returns the figure and the number of faces that are left out. A figure with more than [`MAX_FACES`] faces is

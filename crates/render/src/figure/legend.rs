@@ -286,8 +286,8 @@ fn ticks(low: f64, high: f64) -> Vec<Tick> {
         (digit, exponent) = (1, exponent + 1);
     }
     let step = power(format!("{digit}e{exponent}"));
-    // A step is at least 1e-14 times the larger end. Therefore the rounded quotients are small enough to be exact
-    // integers in `f64`.
+    // A step is at least 1e-14 times the larger end. Therefore each end divided by the step is small enough to be
+    // rounded to an exact integer in `f64`.
     #[expect(
         clippy::cast_possible_truncation,
         reason = "the quotients are at most 1e15"

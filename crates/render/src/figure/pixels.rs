@@ -195,8 +195,8 @@ fn outline(shape: &Shape) -> Option<Path> {
                 return None;
             }
             let [x, y, r] = [center.x, center.y, *radius].map(narrow);
-            // A cubic curve approximates a quarter of a circle if its inner control points are
-            // 4 / 3 * tan(pi / 8) times the radius from its ends.
+            // A cubic curve approximates a quarter of a circle if its inner control points are 4 / 3 * tan(pi / 8)
+            // times the radius from its ends.
             let k = r * 0.552_284_8;
             path.move_to(x + r, y);
             path.cubic_to(x + r, y + k, x + k, y + r, x, y + r);

@@ -69,7 +69,7 @@ pub enum Font {
 }
 
 impl Font {
-    /// Returns the SVG attributes of the font, with fallback fonts for machines that do not have it.
+    /// Returns the SVG attributes of the font, with fallback fonts for machines that do not have the font.
     fn attributes(self) -> &'static str {
         match self {
             Self::Plain => "font-family=\"Inter, Helvetica, Arial, sans-serif\"",
@@ -134,7 +134,7 @@ impl Run {
     }
 }
 
-/// The point of a line of text that is placed at its position.
+/// The point of a line of text that is placed at the position of the text.
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
 pub enum Anchor {
     /// The start of the baseline.
@@ -440,8 +440,8 @@ pub(crate) fn escaped(text: &str) -> String {
     text.replace('>', "&gt;")
 }
 
-/// Replaces a line end or a tab by a space, and any other control character or a character that XML does not allow by
-/// U+FFFD.
+/// Replaces a line end or a tab by a space. Replaces any other control character, and any other character that XML does
+/// not allow, by U+FFFD.
 pub(super) fn printable(c: char) -> char {
     match c {
         '\t' | '\n' | '\r' => ' ',

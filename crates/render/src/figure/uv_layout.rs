@@ -1,4 +1,4 @@
-//! A figure of texture coordinates: the charts on their page.
+//! A figure of texture coordinates: the charts on the page, which is the unit square.
 //!
 //! ```text
 //!   +----------------+
@@ -24,7 +24,7 @@ pub enum UvFill {
     None,
     /// One of eight colors for each chart. Neighboring charts usually have different colors.
     Charts,
-    /// The stretch of angles: dark for none, bright for an aspect of [`MAX_ASPECT`] or more.
+    /// The stretch of angles: dark if angles are preserved (aspect 1), bright for an aspect of [`MAX_ASPECT`] or more.
     Stretch,
 }
 
@@ -39,7 +39,7 @@ const BORDER: Color = [0x1f, 0x29, 0x37, 255];
 const MARGIN: f64 = 8.0;
 /// The largest coordinate of a figure, in pixels.
 const FAR: f64 = 1e6;
-/// The number of colors of a stretch. Faces of the same color form one shape.
+/// The number of colors that show the stretch. Faces of the same color form one shape.
 const N_COLORS: usize = 16;
 
 /// Draws the charts of texture coordinates, `width` pixels wide. Coordinates outside the page are drawn too, so the
@@ -128,7 +128,7 @@ fn stretch_legend() -> Legend {
     }
 }
 
-/// Returns one of the [`N_COLORS`] colors of a stretch.
+/// Returns one of the [`N_COLORS`] colors that show the stretch.
 fn stretch_color(i: usize) -> Color {
     let last = (N_COLORS - 1) as f64;
     let [r, g, b] = ColorMap::Viridis.srgb(i as f64 / last);
@@ -193,8 +193,8 @@ mod tests {
     use geometry::shapes;
     use geometry::uv::charts;
 
-    /// Returns two squares that share an edge, and texture coordinates that are computed from x and y. The
-    /// coordinates of the second square are moved by `shift` along x.
+    /// Returns two squares that share an edge, and texture coordinates that are computed from x and y. The coordinates
+    /// of the second square are moved by `shift` along x.
     fn two(shift: f64) -> (Mesh, Vec<DVec2>) {
         let mesh = shapes::grid(2, 1);
         let mut uvs = vec![DVec2::ZERO; mesh.n_half_edges()];

@@ -1,8 +1,8 @@
 //! Sorts triangles and lines into the tiles of the picture that their bounding boxes touch.
 //!
-//! Triangles and lines (items) are divided into chunks. One task sorts a chunk into lists, one list for each tile, with
-//! a counting sort. A tile reads its lists chunk by chunk. The size of the lists is bounded, because items that touch
-//! many tiles are in one list that all tiles read.
+//! The triangles and lines are called items. They are divided into chunks. For each chunk, one task makes a list of
+//! items for each tile, with a counting sort. A tile reads its lists chunk by chunk. The size of the lists is bounded,
+//! because items that touch many tiles are in one list that all tiles read.
 
 use std::ops::Range;
 
@@ -22,7 +22,7 @@ use crate::{PictureError, View};
 const MAX_CHUNKS: usize = 32;
 /// The minimum number of items in a chunk. The last chunk of a part can have fewer items.
 const MIN_CHUNK: usize = 1 << 15;
-/// The maximum number of tiles that an item in the lists of single tiles can touch.
+/// An item that touches more tiles than this is always in the list that all tiles read.
 const MAX_LISTED_TILES: usize = 64;
 /// The lists of a chunk have at most `EXTRA_ENTRIES` entries, plus this number of entries for each item of the chunk.
 const ENTRIES_PER_ITEM: usize = 8;
@@ -48,8 +48,8 @@ fn n_tiles([left, top, right, bottom]: TileRect) -> usize {
     (right - left) as usize * (bottom - top) as usize
 }
 
-/// Returns the maximum number of tiles that an item in the lists of single tiles can touch. An item that touches more
-/// tiles is in the list that all tiles read, so that the size of the lists is bounded.
+/// Returns the number of tiles up to which an item is in the list of each tile that it touches. An item that touches
+/// more tiles is in the list that all tiles read, so that the size of the lists is bounded.
 fn max_listed_tiles(items: &[(u32, TileRect)]) -> usize {
     let mut entries = [0; MAX_LISTED_TILES + 1];
     for &(_, rect) in items {
@@ -88,8 +88,8 @@ pub(super) fn bytes(groups: impl Iterator<Item = usize> + Clone, frame: &Frame) 
     (lists + n_tasks * temporary) as u64
 }
 
-/// Returns the maximum number of bytes that the pieces of clipped triangles and their lists take, including the temporary
-/// memory of sorting.
+/// Returns the maximum number of bytes that the pieces of clipped triangles and their lists take, including the
+/// temporary memory of sorting.
 pub(super) fn clipped_bytes(drawing: &Drawing, view: &View) -> u64 {
     let n_pieces: u64 = drawing.parts.iter().map(|part| n_pieces(part, view)).sum();
     // While a vector grows, its old and its new memory take up to three times its length.
@@ -104,8 +104,8 @@ fn n_pieces(part: &Part, view: &View) -> u64 {
     for &p in &*part.points {
         (min, max) = (min.min(p), max.max(p));
     }
-    // The region in which no triangle is clipped is convex, so it contains all points if it contains the corners of their
-    // bounding box.
+    // The region in which no triangle is clipped is convex, so it contains all points if it contains the corners of
+    // their bounding box.
     let corner = |i: u32| {
         let side = |axis: u32| if i >> axis & 1 == 0 { min } else { max };
         DVec3::new(side(0).x, side(1).y, side(2).z)
@@ -246,8 +246,8 @@ impl Triangles {
         Ok(Self { points, chunks })
     }
 
-    /// Calls `each` with every triangle that touches a tile, and possibly with others. The arguments are the index of
-    /// the triangle, counted through all parts, and the projected triangle.
+    /// Calls `each` with every triangle that touches a tile, and possibly with other triangles. The arguments are the
+    /// index of the triangle, counted through all parts, and the projected triangle.
     pub(super) fn each_of_tile(
         &self,
         drawing: &Drawing,
@@ -323,7 +323,7 @@ impl Lines {
         Ok(Self { projected, chunks })
     }
 
-    /// Returns the lines whose bounding boxes touch a tile, and possibly others, in ascending order, with their
+    /// Returns the lines whose bounding boxes touch a tile, and possibly other lines, in ascending order, with their
     /// indices.
     pub(super) fn of_tile(&self, tile: usize) -> impl Iterator<Item = (u32, &ProjectedLine)> {
         let mut lines: Vec<u32> = Vec::new();

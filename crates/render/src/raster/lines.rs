@@ -1,10 +1,10 @@
 //! Draws lines over triangles. Lines have a constant width and round ends, and are hidden where a triangle is in front
 //! of them.
 //!
-//! For each sample, the depths of line and surface are compared at the point on the axis of the line nearest to the
-//! sample. The depth of the surface at that point is the depth of the plane of the triangle that is visible at the
-//! sample. Thus a thick line on a slanted surface is visible in its full width, although half of the line is behind
-//! the surface.
+//! For each sample, the depths of the line and of the surface are compared at one point: the point of the line's axis
+//! that is nearest to the sample. The depth of the surface at that point is the depth of the plane of the triangle that
+//! is visible at the sample. Thus a thick line on a slanted surface is visible in its full width, although half of the
+//! line is behind the surface.
 //!
 //! A hidden point is drawn as a ring, because a faint disc would look like a stain on the surface.
 
@@ -159,7 +159,7 @@ pub(super) type Planes = Vec<Option<(u32, (u32, DVec3, DVec3))>>;
 
 impl ProjectedLine {
     /// Whether the point of the line at parameter `t` is in front of the triangle that is visible at a sample. One
-    /// argument is the depth of the triangle at the sample. The faces beside the line never hide it.
+    /// argument is the depth of the triangle at the sample. The faces beside the line never hide the line.
     fn is_visible(
         &self,
         line: &Line,

@@ -1,9 +1,9 @@
 //! Ambient occlusion: how much of the surroundings of a point on a surface is visible from that point.
 //!
 //! Depth maps are drawn from directions that are spread evenly over the sphere. Each map stores the nearest and the
-//! farthest depth, so it serves two opposite directions. The openness of a point is the weighted mean of its
-//! visibility in all maps. The openness does not depend on the camera and has no noise. Surfaces with an alpha below
-//! one half, or with a texture that is not opaque, do not reduce the openness.
+//! farthest depth, so it serves two opposite directions. The openness of a point is the weighted mean of its visibility
+//! in all maps. The openness does not depend on the camera and has no noise. Surfaces with an alpha below one half, or
+//! with a texture that is not opaque, do not reduce the openness.
 
 use std::borrow::Cow;
 

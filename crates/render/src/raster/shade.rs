@@ -39,7 +39,7 @@ pub(super) struct Shader<'a> {
     fill: DVec3,
 }
 
-/// A point with its openness.
+/// A point and its openness: the fraction of its surroundings that is visible from the point.
 #[derive(Clone, Copy)]
 struct OpennessSample {
     at: DVec3,
@@ -250,7 +250,7 @@ impl<'a> Shader<'a> {
         1.0 - self.look.occlusion * (1.0 - openness)
     }
 
-    /// Returns the color of a point without lighting, and the surface.
+    /// Returns the color of a point without lighting, and the surface that the point belongs to.
     fn color(
         &self,
         part: &'a Part,

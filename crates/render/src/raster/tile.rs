@@ -1,9 +1,9 @@
 //! Finds the visible triangle for each sample of a tile of the picture.
 //!
 //! A pixel has 16 samples, one in each of 16 rows and columns (n-rooks: Shirley, "Discrepancy as a Quality Measure for
-//! Sample Distributions", 1991). This arrangement was found by a search over edges of all directions that cut a pixel.
-//! Of all tested arrangements, this one has the smallest difference between the fraction of covered samples and the
-//! exact covered area.
+//! Sample Distributions", 1991). The arrangement was found by a search that tested each arrangement with edges of all
+//! directions that cut a pixel. Of all tested arrangements, this one has the smallest difference between the fraction
+//! of samples that are covered and the exact fraction of the pixel that is covered.
 
 use std::ops::{Add, BitOr, Mul, Sub};
 
@@ -105,8 +105,8 @@ impl Tile {
         }
     }
 
-    /// Draws like [`Self::draw`], for a triangle that covers only the samples for which `covers` returns true.
-    /// `covers` takes a pixel and the index of a sample.
+    /// Draws like [`Self::draw`], for a triangle that covers only the samples for which `covers` returns true. `covers`
+    /// takes a pixel and the index of a sample.
     pub(super) fn draw_textured(
         &mut self,
         id: u32,

@@ -82,8 +82,8 @@ impl Graph {
         }
     }
 
-    /// Adds a child that references the object `part` to each node that references the object `whole`. The child
-    /// has the same location, skin and weights. If only one node references `whole`, the child is named `part`.
+    /// Adds a child that references the object `part` to each node that references the object `whole`. The child has
+    /// the location, skin and weights of its parent. If only one node references `whole`, the child is named `part`.
     pub fn add_part(&mut self, whole: &str, part: &str) {
         let nodes = self.nodes_of(whole);
         for &parent in &nodes {
@@ -147,8 +147,8 @@ impl Graph {
     }
 
     /// Returns a graph for the objects that `is_wanted` accepts. The graph has the nodes that reference these
-    /// objects, the joints of their skins, the roots of these joints, the ancestors of all these nodes, and their
-    /// animations. The parts of the document are kept; cameras and lights are not.
+    /// objects, the joints of their skins, the roots of these joints, the ancestors of all these nodes, and the
+    /// animations of these nodes. The parts of the document are kept; cameras and lights are not.
     pub(crate) fn only(&self, is_wanted: impl Fn(&str) -> bool) -> Self {
         let mut graph = Self {
             nodes: self.nodes.clone(),

@@ -1,6 +1,6 @@
 //! The canonical form of a graph.
 //!
-//! A scene whose graph is empty has the same form as in the first version, which had no graphs.
+//! A scene whose graph is empty has the same form as in the first version of the canonical form, which had no graphs.
 
 use std::collections::BTreeMap;
 

@@ -11,7 +11,8 @@ use crate::sharpness::VertexRule;
 /// the error by more than a third.
 const LEVELS_TO_CONVERGE: usize = 96;
 
-/// A sector of a star with one tangent plane: `n_faces` faces from spoke `first` on, counter-clockwise.
+/// A sector of a star: the faces that share one tangent plane. These are `n_faces` faces, counter-clockwise from spoke
+/// `first`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Sector {
     first: usize,

@@ -6,8 +6,9 @@
 //! masks) are the left eigenvectors of the matrix that maps the one-ring to the one-ring of the next level (Halstead,
 //! Kass and DeRose, "Efficient, Fair Interpolation using Catmull-Clark Surfaces", 1993; Hoppe et al., "Piecewise Smooth
 //! Surface Reconstruction", 1994; Biermann, Levin and Zorin, "Piecewise Smooth Subdivision Surfaces with Normal
-//! Control", 2000). If an element is semi-sharp, the one-ring is refined until the sharpness of that element reaches 0.
-//! For a dart, the end of a single sharp edge, there is no closed formula: its one-ring is refined until it converges.
+//! Control", 2000). If the vertex or one of its edges is semi-sharp (its sharpness falls to 0 after some levels), the
+//! one-ring is refined until this sharpness is 0. For a dart, the end of a single sharp edge, there is no closed
+//! formula: its one-ring is refined until it converges.
 
 mod masks;
 mod star;

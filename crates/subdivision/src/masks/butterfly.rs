@@ -24,9 +24,9 @@
 //! from Dyn, Levin and Gregory, "A 4-point interpolatory subdivision scheme for curve design", 1987. These
 //! papers leave three cases open:
 //!
-//! - If a vertex with weight -1/16 would lie beyond a boundary edge, this vertex is missing. The reflection of
-//!   the corner opposite that edge replaces the missing vertex, so that flat regular parts stay on their grid
-//!   up to the boundary.
+//! - If a vertex with weight -1/16 would lie beyond a boundary edge, this vertex is missing. It is replaced by the
+//!   corner opposite that edge, reflected through the middle of the edge. In this way, flat regular parts stay on their
+//!   grid up to the boundary.
 //! - Boundary vertices are never extraordinary.
 //! - For n = 2, the neighbors have the weights 3/8 and -1/8. These are the weights for n = 4 without the two
 //!   zeros.

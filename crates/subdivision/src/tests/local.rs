@@ -257,7 +257,8 @@ fn far_inside_the_chosen_faces_the_surface_equals_subdivision() {
 
 #[test]
 fn neighbors_differ_by_one_level_at_most() {
-    // The level of a triangle follows from its area; a green triangle has half the area.
+    // The level of a triangle follows from its area. A green triangle has half the area of an ordinary one, so it
+    // counts as half a level more.
     let mesh = sheet(8, 8);
     let first: Vec<bool> = (0..mesh.n_faces()).map(|f| f == 60).collect();
     let new = refined(&mesh, &first, MIDPOINT, 5);
@@ -268,7 +269,7 @@ fn neighbors_differ_by_one_level_at_most() {
             assert!(step < 1.01, "{e} {step}");
         }
     }
-    // So the result has far fewer triangles than a full refinement, which makes 4^5 of each old triangle.
+    // So the result has far fewer triangles than a full refinement, which makes 4^5 triangles of each old triangle.
     assert!(new.n_faces() < 4 * 1024, "{}", new.n_faces());
 }
 

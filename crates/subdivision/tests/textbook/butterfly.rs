@@ -52,8 +52,8 @@ fn new_vertex(mesh: &Polygons, (a, b): Edge, adjacency: &Adjacency) -> DVec3 {
     }
 }
 
-/// For a triangle a, b, c, returns the third corner of the other triangle at the edge from a to b. If there is
-/// no other triangle, returns the reflection of c.
+/// For a triangle a, b, c, returns the third corner of the other triangle at the edge from a to b. If there is no other
+/// triangle, returns c reflected through the middle of the edge.
 fn wing(mesh: &Polygons, [a, b, c]: [usize; 3], adjacency: &Adjacency) -> DVec3 {
     let begins_at_b = |side: &&(usize, usize)| adjacency.at(**side, 0) == b;
     match adjacency.sides[&edge(a, b)].iter().find(begins_at_b) {

@@ -248,7 +248,7 @@ fn decide(
     spans.iter().map(state).collect()
 }
 
-/// Computes the corner values of the next level. `numbers` has the new vertices on edges.
+/// Computes the corner values of the next level. `numbers` has the index of the new vertex on each edge.
 pub(crate) fn refine(
     charts: &Charts,
     mesh: &Polygons,

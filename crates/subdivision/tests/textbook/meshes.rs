@@ -25,7 +25,7 @@ impl Random {
         (z >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// Returns one of several values.
+    /// Returns one of the given values at random.
     pub(crate) fn one_of<T: Copy>(&mut self, values: &[T]) -> T {
         let k = values.len() as f64 * self.unit();
         let index = (1..values.len()).filter(|&i| i as f64 <= k).count();

@@ -150,7 +150,7 @@ impl Parts {
             Selected::Faces(list) => list.first().map(|&f| mesh.face_half_edge(f)),
         });
         if let Some(h) = start.filter(|h| mesh.has_edge(h.edge())) {
-            // The first step from a vertex or a face shows its half-edge.
+            // If a vertex or a face is picked, the first walk only picks its half-edge.
             let to = if picked.half_edge.is_some() {
                 walk(&mesh, h, step)
             } else {

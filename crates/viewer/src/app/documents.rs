@@ -31,7 +31,7 @@ impl Parts {
         }
     }
 
-    /// Does something that drops the document, after a question if the document has unsaved changes.
+    /// Performs an action that drops the document. If the document has unsaved changes, asks the user first.
     pub(crate) fn drop_document(&mut self, pending: Pending, ctx: &egui::Context) {
         if self.editor.document().is_dirty() && self.editor.document().undo_label().is_some() {
             self.pending = Some(pending);

@@ -72,7 +72,7 @@ pub struct App {
     remembered: Remembered,
 }
 
-/// Everything except for the layout of the tiles.
+/// All state of the window except for the layout of its tiles.
 #[expect(
     clippy::struct_excessive_bools,
     reason = "the flags are independent of each other"
@@ -95,7 +95,7 @@ pub(crate) struct Parts {
     pub(crate) files: files::Files,
     /// Whether dialogs of the system ask for paths.
     pub(crate) has_dialogs: bool,
-    /// A path that is being written in the window.
+    /// A path that the user is typing in the window.
     pub(crate) prompt: Option<Prompt>,
     /// An animation that is being written.
     pub(crate) export: Option<Export>,
@@ -163,7 +163,7 @@ impl App {
         &self.parts.editor
     }
 
-    /// Returns what goes wrong with the graphics device.
+    /// Returns the errors of the graphics device.
     pub(crate) fn loss(&self) -> Loss {
         self.parts.view.loss.clone()
     }
@@ -173,8 +173,8 @@ impl App {
         &mut self.parts.editor
     }
 
-    /// Returns the position of a point of the scene in the view, in points from the upper left corner of the view. `None` if
-    /// the point is behind the camera.
+    /// Returns where the view shows a point of the scene, in points of the screen from the upper left corner of the
+    /// view. `None` if the point is behind the camera.
     pub fn pixel_of(&self, point: mesh::DVec3) -> Option<[f64; 2]> {
         self.parts.view.pixel_of(point).map(|at| at.to_array())
     }

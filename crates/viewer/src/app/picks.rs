@@ -140,7 +140,9 @@ impl Parts {
     pub(super) fn pick_by_angle(&mut self) {
         let picked = self.editor.picked().map(|picked| &picked.elements);
         let Some(Selected::Faces(list)) = picked else {
-            self.inform("Pick a face first: its neighbors are picked up to sharp edges.");
+            self.inform(
+                "Pick a face first. This command then picks the faces around it, up to sharp edges.",
+            );
             return;
         };
         let ids: Vec<String> = list.iter().map(|f| f.index().to_string()).collect();
@@ -148,7 +150,7 @@ impl Parts {
         self.pick_checked(&format!("Expand(to_angle: {ANGLE}, of: {of})"));
     }
 
-    /// Replaces the picked elements by those that `change` returns, unless it returns none.
+    /// Replaces the picked elements by those that `change` returns, unless `change` returns no elements.
     pub(super) fn change_picked(&mut self, change: impl Fn(&Picked, &Mesh) -> Picked) {
         if let (Some(mesh), Some(picked)) = (self.picked_mesh(), self.editor.picked()) {
             let new = change(picked, &mesh);

@@ -66,8 +66,8 @@ pub(super) struct SurfaceLook {
 pub struct LineInstance {
     /// The ends, relative to the center of the object. Equal for a dot.
     pub ends: [[f32; 3]; 2],
-    /// The width in pixels, the opacity where the line is hidden, the distance in pixels by which the line is moved
-    /// towards the camera in addition to the 3 pixels of every line, and an unused number.
+    /// Four numbers: the width in pixels; the opacity where the line is hidden; the distance in pixels by which the
+    /// line is moved towards the camera, in addition to the 3 pixels of every line; and an unused number.
     pub look: [f32; 4],
     /// sRGB color and opacity.
     pub color: [u8; 4],
@@ -170,7 +170,7 @@ fn split(
 /// Maps points of a part to points of a chunk.
 struct Renumbering {
     local: Vec<u32>,
-    /// The chunk for which an entry of `local` is valid.
+    /// For each entry of `local`, the chunk for which the entry is valid.
     owner: Vec<u32>,
     chunk: u32,
 }

@@ -4,9 +4,9 @@
 //!   scene --render::build--> drawing --geometry--> buffers --shader.wgsl--> texture --egui--> window
 //! ```
 //!
-//! [`Painter`] keeps the buffers of each object. An object is converted and uploaded again only if its geometry, which
-//! is compared by address, or the [`Look`] changes. The picture depends only on the scene, the look, the overlay and
-//! the camera, not on earlier pictures.
+//! [`Painter`] keeps the buffers of each object. An object is converted and uploaded again only if its geometry or the
+//! [`Look`] changes. Geometries are compared by address. The picture depends only on the scene, the look, the overlay
+//! and the camera, not on earlier pictures.
 
 mod device;
 mod geometry;

@@ -146,10 +146,11 @@ pub(super) struct Uploaded {
     /// `None` for grids and overlays.
     pub(super) key: Option<Key>,
     pub(super) center: DVec3,
-    /// The lowest and the highest coordinates, in scene units.
+    /// Two opposite corners of the bounding box, in scene units: the lowest and the highest coordinates.
     pub(super) bounds: Option<[DVec3; 2]>,
     pub(super) chunks: Vec<ChunkBuffers>,
-    /// The buffers that a local change of the mesh changes. `None` if the whole object is converted after every change.
+    /// The buffers that are updated after a local change of the mesh. `None` if the whole object is converted after
+    /// every change.
     pub(super) simple: Option<Simple>,
     /// Lines and their number.
     pub(super) lines: Option<(wgpu::Buffer, u32)>,
@@ -277,7 +278,8 @@ fn alone(object: &Object, color: Color) -> Scene {
     scene
 }
 
-/// Whether all faces of a part are triangles with one material, without colors, and with at most one normal for each point.
+/// Whether all faces of a part are triangles with one material, without colors, and with at most one normal for each
+/// point.
 fn is_simple(part: &Part) -> bool {
     let is_smooth = matches!(part.normals, Channel::Point(_));
     let is_flat = matches!(part.normals, Channel::All([0.0, 0.0, 0.0]));

@@ -53,7 +53,7 @@ pub struct Painter {
     globals: wgpu::Buffer,
     globals_group: wgpu::BindGroup,
     objects: Vec<Uploaded>,
-    /// The lowest and the highest coordinates of the scene.
+    /// Two opposite corners of the bounding box of the scene: the lowest and the highest coordinates.
     bounds: Option<[DVec3; 2]>,
     overlay: Uploaded,
     overlay_key: Option<(Overlay, f32)>,
@@ -118,8 +118,8 @@ impl Painter {
         self.bounds.map(sphere)
     }
 
-    /// Returns the upward axis of a scene that stands on a plane: z if the scene stands on the plane z = 0 but not on the
-    /// plane y = 0, else y.
+    /// Returns the upward axis of a scene that stands on a plane: z if the scene stands on the plane z = 0 but not on
+    /// the plane y = 0, else y.
     pub fn up_axis(&self) -> UpAxis {
         let Some([min, max]) = self.bounds else {
             return UpAxis::Y;
@@ -312,7 +312,8 @@ impl Painter {
         self.objects.iter().chain([&self.grid, &self.overlay])
     }
 
-    /// Returns the values of each object and of each of its chunks, for dynamic offsets.
+    /// Returns a bind group with the values of each object and of each of its chunks, which are selected by dynamic
+    /// offsets.
     fn object_group(&self, camera: &Camera) -> wgpu::BindGroup {
         let mut uniforms: Vec<u8> = Vec::new();
         for uploaded in self.uploaded() {

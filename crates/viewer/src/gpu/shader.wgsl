@@ -74,7 +74,7 @@ struct Surface {
     @location(2) color: vec3f,
     @location(3) weights: vec3f,
     @location(4) @interpolate(flat) flags: u32,
-    // Inside of the triangle, so that no pixel at a border shows another part of the image.
+    // The value is taken inside of the triangle, so that no pixel at a border shows another part of the image.
     @location(5) @interpolate(perspective, centroid) uv: vec2f,
 }
 
@@ -232,7 +232,7 @@ fn nearer(v: vec3f, pixels: f32) -> vec3f {
 
 struct Line {
     @builtin(position) position: vec4f,
-    // Along and across the line, and the length and half of the width, in pixels.
+    // The position along the line and across it, the length of the line, and half of its width, in pixels.
     @location(0) along: vec4f,
     @location(1) color: vec4f,
     @location(2) @interpolate(flat) hidden: f32,

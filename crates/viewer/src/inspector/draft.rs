@@ -61,7 +61,8 @@ impl Draft {
         }
     }
 
-    /// Draws the parameters, and takes their changes. A parameter that takes the picked elements shows their selection.
+    /// Draws the parameters, and applies the changes that the user makes. A parameter that takes the picked elements
+    /// shows their selection.
     fn fields(&mut self, ui: &mut Ui, selection: Option<&SelectionText>) {
         let picked = selection.and_then(|selection| self.panel.picked_value(selection));
         for i in 0..self.panel.fields.len() {

@@ -72,7 +72,8 @@ fn nothing_picked(ui: &mut Ui, parts: &mut Parts) {
     if has_mesh || parts.editor.patches().is_empty() {
         weak(
             ui,
-            "Click a vertex, an edge or a face in the view. Shift+drag picks a box, a double click an edge loop.",
+            "Click a vertex, an edge or a face in the view. Shift+drag picks the elements in a box, and a double click \
+             picks an edge loop.",
         );
         if has_mesh {
             weak(ui, "Or write a selection:");

@@ -191,8 +191,8 @@ impl ViewPane {
         })
     }
 
-    /// Returns the length of the axes in scene units, and the base and the tip of each axis in the picture. `None` if the base
-    /// is behind the camera.
+    /// Returns the length of the axes in scene units, and the base and the tip of each axis in the picture. `None` if
+    /// the base is behind the camera.
     fn axis_lines(&self, gizmo: Gizmo) -> Option<(f64, [[DVec2; 2]; 3])> {
         let base = gizmo.base;
         let depth = if self.camera.is_perspective {

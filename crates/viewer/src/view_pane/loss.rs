@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use eframe::wgpu;
 
-/// What goes wrong with a graphics device.
+/// The errors of a graphics device, and the reason if the device is lost.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Loss {
     /// Why the device is lost.

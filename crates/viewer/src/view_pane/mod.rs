@@ -42,7 +42,8 @@ pub(crate) enum ViewEvent {
     Area {
         /// The elements of each object.
         picked: Vec<Picked>,
-        /// Whether the elements are removed from the picked elements. If not, they are added to them.
+        /// Whether the elements are removed from the picked elements. If not, the elements are added to the picked
+        /// elements.
         removes: bool,
     },
     /// A drag of a handle at the picked elements.
@@ -69,7 +70,7 @@ pub(crate) enum ViewEvent {
 pub(crate) struct Shown<'a> {
     pub(crate) scene: Option<&'a Arc<Scene>>,
     pub(crate) picked: Option<&'a Picked>,
-    /// An edge that is drawn like a picked edge, with its object.
+    /// An edge that is drawn like a picked edge, and the name of its object.
     pub(crate) edge: Option<(&'a str, EdgeId)>,
     /// The handles at the picked elements.
     pub(crate) gizmo: Option<Gizmo>,
@@ -132,7 +133,7 @@ pub(crate) struct ViewPane {
     /// The widget of the view in the last frame.
     pub(crate) id: Option<egui::Id>,
     legend: Option<(String, ColorMap, [f64; 2])>,
-    /// The places of the shown overlay.
+    /// What the current overlay shows. If this changes, a new overlay is made.
     overlay_key: Option<OverlayKey>,
     overlay: Overlay,
     /// Increases with every change of the overlay.
@@ -210,7 +211,8 @@ impl ViewPane {
         self.camera.fit(0.5 * (min + max), radius * 1.6, self.size);
     }
 
-    /// Returns the pixel of the view, from its upper left corner in points of the screen, where a point of the scene is shown.
+    /// Returns where the view shows a point of the scene, in points of the screen from the upper left corner of the
+    /// view.
     pub(crate) fn pixel_of(&self, point: DVec3) -> Option<DVec2> {
         self.camera.project(point, self.size)
     }
@@ -220,7 +222,7 @@ impl ViewPane {
         self.gpu.as_ref()?.painter.read()
     }
 
-    /// Forgets the fit, so that the next scene is fitted.
+    /// Forgets the fit, so that the camera is fitted to the next scene.
     pub(crate) fn forget_fit(&mut self) {
         self.is_fitted = false;
     }

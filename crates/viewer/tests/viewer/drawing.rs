@@ -104,7 +104,7 @@ pub(crate) fn keep(name: &str, image: &Image) {
     .unwrap();
 }
 
-/// Returns the brightest sum of the channels.
+/// Returns the sum of the channels of the brightest pixel.
 fn brightest(image: &Image) -> u32 {
     let sum = |p: &[u8; 4]| p[..3].iter().map(|&c| u32::from(c)).sum();
     image.pixels.iter().map(sum).max().unwrap()
@@ -174,7 +174,7 @@ fn wireframes_show_the_edges_of_polygons_and_no_diagonals() {
         n_different(&image, &plain)
     };
     let on_surface = count(Wireframe::Shaded);
-    // Nine edges are visible, of about 100 pixels.
+    // Nine edges are visible. Each is about 100 pixels long.
     assert!((400..2500).contains(&on_surface), "{on_surface}");
     assert!(count(Wireframe::HiddenLine) > 5000);
     assert!(count(Wireframe::Lines) > 5000);

@@ -1,4 +1,5 @@
-//! Tests on a graphics adapter, which can be a software renderer. Without an adapter, they say so and pass.
+//! Tests on a graphics adapter, which can be a software renderer. Without an adapter, the tests print a message and
+//! pass.
 
 mod adapter;
 mod drawing;

@@ -19,7 +19,7 @@ fn mesh_of(window: &Window) -> Arc<Mesh> {
     scene.objects()[0].as_mesh().unwrap().clone()
 }
 
-/// Picks the face of the cube that looks along z, and returns its center.
+/// Picks the face of the cube whose normal is the z axis, and returns its center.
 fn pick_front(window: &mut Window) -> DVec3 {
     let mesh = mesh_of(window);
     let face = mesh.faces().find(|&f| mesh.face_normal(f).z > 0.9).unwrap();
@@ -190,7 +190,7 @@ fn dragging_a_ring_rotates_and_dragging_the_center_scales_the_picked_face() {
     };
     let center = pick_front(&mut window);
     window.press_with(Modifiers::SHIFT, Key::R);
-    // The rings have a radius of 84 points of the screen where they are parallel to it.
+    // Where a ring is parallel to the screen, its radius is 84 points of the screen.
     let back = DVec3::new(0.46, 0.37, 0.8).normalize();
     let aside = back.cross(DVec3::Y).normalize();
     let pixels = window.at(center + aside * 0.1).distance(window.at(center));

@@ -44,7 +44,7 @@ fn times_of_growing_meshes() {
     }
 }
 
-/// The time from a key press to the command that draws the changed mesh, and its parts.
+/// The time from a key press to the command that draws the changed mesh, and the times of its parts.
 #[test]
 #[ignore = "a measurement"]
 fn times_of_an_edit_of_a_million_triangles() {
@@ -156,7 +156,7 @@ fn times_of_picks_on_a_million_triangles() {
     );
 }
 
-/// The time and the memory to open a file with a million triangles, until the first frame.
+/// The time until the first frame of a window that opens a file with a million triangles, and the memory.
 #[test]
 #[ignore = "a measurement"]
 fn times_of_opening_a_file_of_a_million_triangles() {

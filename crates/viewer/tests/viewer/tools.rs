@@ -91,7 +91,7 @@ fn the_edits_of_a_step_are_played_forwards_and_backwards() {
         .set_value_accesskit(5.0);
     window.settle();
     window.harness.get_by_label("Play").click();
-    // From the end, playing starts again, and ends at the end.
+    // At the end, the button Play starts from the beginning. The player then stops at the end.
     for _ in 0..80 {
         window.harness.run_steps(8);
     }

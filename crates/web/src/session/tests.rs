@@ -225,7 +225,7 @@ fn a_changed_parameter_of_the_last_step_runs_one_step() {
         cached(&run_as_new(&mut session, &other)),
         [true, true, false, false]
     );
-    // An expectation that changed needs the step before it, and an unmet one is reported again.
+    // If an expectation changes, the step before it runs again. An unmet expectation is reported again.
     let other = other.replace("eq: 12", "eq: 13");
     for _ in 0..2 {
         let result = run_as_new(&mut session, &other);

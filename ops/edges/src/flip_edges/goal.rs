@@ -74,8 +74,9 @@ impl Goal {
     ///
     /// For both goals, the sequence of improving flips is finite, regardless of rounding. For `Valence`, the sum of
     /// squares is an integer that decreases. For `Delaunay`, the computed energy of a triangle depends only on its
-    /// three vertices. Each flip reduces the first of these three values that it changes: the number of zero-area
-    /// triangles, the exact sum of the other energies, and the sum of the squared lengths of all edges.
+    /// three vertices. Three values are compared in this order: the number of zero-area triangles, the exact sum of the
+    /// other energies, and the sum of the squared lengths of all edges. The first of these values that a flip changes
+    /// becomes smaller.
     pub(crate) fn is_improvement(&self, mesh: &Mesh, quad: &Quad) -> bool {
         match self {
             Self::Delaunay => {

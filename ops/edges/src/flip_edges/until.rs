@@ -1,10 +1,10 @@
 //! Flips edges as long as flips improve the mesh.
 //!
 //! A pass checks edges in order of their ids. The first pass checks all edges. Each later pass checks only edges near
-//! vertices whose edges changed, because at all other edges the check would have the same result as in the pass before.
-//! (A flip is refused if an edge already joins the two opposite corners. If the joining edge is flipped away, the edges
-//! of both corners change, so both corners count as changed vertices.) A pass without a flip is the last one. Refused
-//! edges are checked again in every pass, so the refusals of the last pass are complete.
+//! vertices whose edges changed, because at all other edges the check would have the same result as in the previous
+//! pass. (A flip is refused if an edge already joins the two opposite corners. If the joining edge is flipped away, the
+//! edges of both corners change, so both corners count as changed vertices.) A pass without a flip is the last one.
+//! Refused edges are checked again in every pass, so the refusals of the last pass are complete.
 
 use mesh::{EdgeId, EditError, FaceId, Mesh, VertexId};
 use op::{Context, OpError, Report};
@@ -15,7 +15,7 @@ use crate::flip_edges::goal::{Goal, Quad};
 ///
 /// # Errors
 ///
-/// [`OpError::Cancelled`]. Some edges may then be flipped.
+/// [`OpError::Cancelled`]. Some edges may already be flipped.
 pub(crate) fn flip_until(
     mesh: &mut Mesh,
     edges: &[EdgeId],

@@ -9,7 +9,7 @@ pub(crate) struct Region {
 }
 
 impl Region {
-    /// Returns the regions of the marked faces, in order of their lowest faces.
+    /// Returns the regions of the marked faces, in order of the lowest face id of each region.
     pub(crate) fn all(mesh: &Mesh, marked: &[bool]) -> Vec<Self> {
         let mut unvisited = marked.to_vec();
         let mut regions = Vec::new();

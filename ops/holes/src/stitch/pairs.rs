@@ -78,8 +78,8 @@ fn sorted_rims(
     let midpoints = || outer.iter().map(|h| midpoint(ends(h)));
     let least = midpoints().reduce(DVec3::min).unwrap_or_default();
     let most = midpoints().reduce(DVec3::max).unwrap_or_default();
-    // Cells of twice the distance leave a margin for rounding. The second argument of `max` limits the number of cells
-    // along an axis.
+    // The side of a cell is twice the distance, which leaves a margin for rounding. The second argument of `max` limits
+    // the number of cells along an axis.
     let size = (2.0 * distance).max(1e-9 * (most - least).max_element());
     let size = if size > 0.0 { size } else { 1.0 };
     let rim = |(number, h)| Rim {

@@ -204,7 +204,7 @@ fn every_quantity_scales_exactly_or_is_refused() {
             let expected: Vec<f64> = expected.collect();
             match at(k) {
                 Ok(found) => assert_eq!(found, expected, "{of} 2^{k}"),
-                // Curvatures that are nearly 0 are out of range.
+                // At the scale 2^500, Gaussian curvatures that are nearly 0 underflow.
                 Err(OpError::Refused { .. }) => assert_eq!((dimension, k), (-2, 500)),
                 Err(other) => panic!("{of} 2^{k}: {other}"),
             }

@@ -1,8 +1,8 @@
 //! Joining skinned meshes.
 //!
-//! If all skinned parts have the same skin, and one node references each of them, the joined mesh keeps this skin. The
-//! other parts follow the first joint. Their points are mapped by the inverse of the map of this joint, so that they do
-//! not move. Otherwise the parts are joined in the pose of their joints, and the skins are lost.
+//! If all skinned parts have the same skin and a single node each, the joined mesh keeps this skin. The other parts
+//! follow the first joint. Their points are mapped by the inverse of the map of this joint, so that the points do not
+//! move in the scene. Otherwise the parts are joined in the pose of their joints, and the skins are lost.
 
 use std::sync::Arc;
 
@@ -26,7 +26,7 @@ pub(super) enum LostSkin {
 pub(super) struct KeptSkin {
     /// The name of the first skinned part. The node and the morph weights of this part are kept.
     pub(super) part: String,
-    /// The map from the bound points of the first joint to the scene.
+    /// The map of the first joint. It maps points from the space in which the skin binds them to scene space.
     first_joint: DAffine3,
 }
 
@@ -143,8 +143,9 @@ pub(super) fn morphed<'a>(parts: &[&'a Object]) -> Vec<&'a str> {
     morphed.map(|part| part.name.as_str()).collect()
 }
 
-/// Returns the names and default weights of morph targets that all parts with morph targets share; `None` if they
-/// differ, or if a node of a part has other weights. `morphed` are the names of these parts.
+/// Returns the names and default weights of morph targets that all parts with morph targets share; `None` if the names
+/// or default weights differ, or if a node of a part has weights that are not the default weights. `morphed` are the
+/// names of these parts.
 pub(super) fn shared_label(graph: &Graph, morphed: &[&str]) -> Option<MeshLabel> {
     let mut shared = None;
     for part in morphed {

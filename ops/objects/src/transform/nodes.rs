@@ -95,7 +95,8 @@ impl Transform {
             }
             maps[i] = Some(affine);
             for &joint in node.skin.iter().flat_map(|&skin| &graph.skins[skin].joints) {
-                // The joints do not move if the mesh has no weights of joints, which is not always known.
+                // If the mesh has no weights of joints, the joints do not move. The plan does not always know whether
+                // the mesh has such weights.
                 (maps[joint], may_be_skinned) = (Some(affine), true);
             }
         }
@@ -108,8 +109,8 @@ impl Transform {
             result = move_by(graph, &maps, map.only_moves());
         });
         let error = result.err()?;
-        // With `About::Center`, the run has other translations than the plan, so an overflow in the plan is not
-        // certain.
+        // With `About::Center`, the translations of the run differ from those of the plan, so an overflow in the plan
+        // does not prove that the run overflows.
         let is_certain = self.about != About::Center || matches!(error, OpError::Object(_));
         (is_certain && !may_be_skinned).then(|| Problem::error(error.to_string()))
     }

@@ -1,7 +1,7 @@
 //! The charts of the source: its parts between seams.
 //!
-//! A chart can have seams inside it, such as the single seam of a cylinder. Near such a seam, a face of the target takes
-//! its values from one side of the seam:
+//! A chart can have seams inside it, such as the single seam of a cylinder. Near such a seam, a face of the target
+//! takes its values from one side of the seam:
 //!
 //! ```text
 //!    target    +-----------+           the center of the face is above side a, so both corners take values
@@ -16,23 +16,24 @@ use geometry::surface_index::{SurfaceIndex, nearest_on_triangle, triangle_distan
 use mesh::{DVec3, Domain, FaceId, HalfEdgeId, Mesh, Values};
 use op::{Cancelled, Progress};
 
-/// Corners are moved toward the center of their face by this fraction of the distance, so that, for a corner at a seam,
-/// the nearest face of the source is on the same side of the seam as the face of the corner.
+/// Corners are moved toward the center of their face by this fraction of the distance. For a corner at a seam, the
+/// nearest face of the source is then on the same side of the seam as the face of the corner.
 const INSET: f64 = 1e-6;
 
 /// The largest number of pairs of triangles for which the distance between two polygons is computed. With more pairs,
-/// the computation would take too long, so the distance of the center of one polygon from the other is used.
+/// the computation would take too long, so the distance from the center of one polygon to the other polygon is used
+/// instead.
 const MAX_PAIRS: usize = 4096;
 
-/// The charts of an attribute of corners. The faces of a chart are connected by edges at which the values of the corners
-/// are the same on both sides.
+/// The charts of an attribute of corners. The faces of a chart are connected by edges at which the values of the
+/// corners are the same on both sides.
 pub(super) struct Charts<'a> {
     mesh: &'a Mesh,
     values: &'a Values,
     /// The chart of each face, by face index.
     pub(super) of_face: Vec<usize>,
     faces: Vec<Vec<FaceId>>,
-    /// The surface index of each chart. An index is built when it is first needed.
+    /// The spatial index of each chart. An index is built when it is first needed.
     indices: Vec<Option<SurfaceIndex>>,
     /// The faces beside seams inside a chart.
     seams: Option<SurfaceIndex>,
@@ -116,8 +117,9 @@ impl<'a> Charts<'a> {
         Ok(self.indices[chart].as_ref().expect("a chart has faces"))
     }
 
-    /// Returns the first candidate, unless another candidate is less than half as far from the face `f`. The distance
-    /// between a chart and a face is the largest distance of a corner or the center of the face from the chart.
+    /// Returns the first candidate, unless the distance of another candidate from the face `f` is less than half of the
+    /// distance of the first candidate. In this case, returns the nearest candidate. The distance between a chart and a
+    /// face is the largest distance of a corner or the center of the face from the chart.
     pub(super) fn nearest(
         &mut self,
         candidates: &[usize],

@@ -120,9 +120,9 @@ fn inside(folder: &Path, path: &Path) -> Option<PathBuf> {
     (real.starts_with(folder) && real.is_file()).then_some(real)
 }
 
-/// Returns the path of a target such as `/a%20b.html?c`, relative to the folder. If the path ends with a slash, it is
-/// the path of a folder, and `index.html` is appended. Returns `None` if the path is not valid or leads out of the
-/// folder.
+/// Returns the path for a request target, such as `/a%20b.html?c`, relative to the folder. If the path ends with a
+/// slash, it is the path of a folder, and `index.html` is appended. Returns `None` if the path is not valid or leads
+/// out of the folder.
 fn relative_path(target: &str) -> Option<PathBuf> {
     let path = target.split(['?', '#']).next().unwrap_or_default();
     let path = percent_decoded(path.strip_prefix('/')?)?;
@@ -169,7 +169,7 @@ fn content_type(path: &Path) -> &'static str {
         "jpg" | "jpeg" => "image/jpeg",
         "ico" => "image/x-icon",
         "woff2" => "font/woff2",
-        // Licenses have no extension.
+        // License files have no extension.
         "" | "txt" | "md" | "ron" => "text/plain; charset=utf-8",
         _ => "application/octet-stream",
     }

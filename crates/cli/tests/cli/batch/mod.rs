@@ -182,7 +182,7 @@ fn results_do_not_depend_on_jobs_threads_and_budget() {
     }
 }
 
-/// A line without `12 ms`.
+/// A line of the output without the time, such as `12 ms`.
 fn without_time(line: &str) -> String {
     match (line.find(" ("), line.find(" ms")) {
         (Some(from), Some(to)) => line[..from].to_owned() + &line[to..],

@@ -55,7 +55,7 @@ fn a_batch_is_resumed_with_a_different_number_of_parts() {
     for part in ["1/2", "2/2", "3/3"] {
         kept(&format!("--shard {part}"));
     }
-    // The outputs of another parameter value replace these, so the batch is then processed again.
+    // A run with another parameter value replaces the outputs, so the whole batch is processed again afterwards.
     for part in ["1/2", "2/2"] {
         batch(&folder, &format!("--set levels=2 --shard {part}"));
     }

@@ -25,7 +25,7 @@ pub(super) struct Front {
     pub(super) values: Vec<f64>,
     /// The pivots of all supernodes so far.
     pub(super) pivots: Vec<f64>,
-    /// The position in the front of each row of the matrix. The list is allocated when the first supernode is
+    /// For each row of the matrix, its position in the front. The list is allocated when the first supernode is
     /// eliminated.
     place: Vec<u32>,
     n: usize,

@@ -52,7 +52,8 @@ fn slabs_find_the_distance_to_a_tilted_square() {
     }
 }
 
-/// The numbers of nodes that far points visit grow only with the depth of the tree.
+/// For points that are far from the mesh, the number of nodes that a search for the nearest point visits grows only
+/// with the depth of the tree.
 #[test]
 fn far_points_visit_few_nodes_of_a_fine_mesh() {
     let mut most = [0; 2];
@@ -61,7 +62,7 @@ fn far_points_visit_few_nodes_of_a_fine_mesh() {
         let mut random = Random(6);
         for _ in 0..200 {
             let direction = random.point().normalize();
-            // The points in the middle of the ring are equally far from a circle.
+            // Points near the z axis are skipped: all points of a circle on the torus are almost equally near to them.
             if direction.z.abs() < 0.9 {
                 *most = index.nearest(100.0 * direction, 0).visits.max(*most);
             }

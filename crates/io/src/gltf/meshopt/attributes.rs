@@ -35,7 +35,8 @@ enum Channel {
     Bytes,
     /// As separate differences of two 16-bit numbers.
     Shorts,
-    /// As the bits that differ, rotated left by this number of bits.
+    /// As the bitwise XOR of the channel and the same channel of the previous element, rotated left by this number of
+    /// bits.
     Bits(u32),
 }
 

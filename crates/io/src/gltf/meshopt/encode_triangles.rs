@@ -45,7 +45,7 @@ pub(in super::super) fn encode<const N: usize>(
 struct State {
     /// The bytes that follow the codes in the stream.
     numbers: Vec<u8>,
-    /// The next vertex that has not been used.
+    /// The index of the next new vertex. New vertices have consecutive indices.
     next: u32,
     /// The last vertex that was stored explicitly.
     last: u32,
@@ -92,7 +92,7 @@ impl State {
         let rotations = [[a, b, c], [b, c, a], [c, a, b]];
         let new_first = rotations.iter().find(|[a, ..]| *a == self.next);
         let [a, b, c] = *new_first.unwrap_or(&rotations[0]);
-        // An explicitly stored pair with the value 0 means that the vertex indices start at 0 again.
+        // An explicitly stored pair with the value 0 means that the indices of new vertices start at 0 again.
         let restarts = self.next > 0 && [a, b, c] == [0, 1, 2];
         if restarts {
             self.next = 0;

@@ -1,10 +1,11 @@
-//! Decodes a sequence of arbitrary indices. Each index is stored as the difference from one of two previous indices.
+//! Decodes a sequence of arbitrary indices. The decoder keeps two base indices, which are 0 at first. Each index is
+//! stored as the difference from one of the base indices. After that, the index replaces this base index.
 //!
 //! ```text
 //! 0xd1 | a number for each index | 4 bytes
 //! ```
 //!
-//! The lowest bit of a number selects one of the two previous indices, and the other bits are the difference.
+//! The lowest bit of a number selects the base index, and the other bits are the difference.
 
 use super::input::{Input, header, zigzag};
 use crate::fault::Fault;

@@ -70,7 +70,7 @@ impl From<Fault> for TriangleError {
 
 struct State<'a> {
     input: Input<'a>,
-    /// The next vertex that has not been used.
+    /// The index of the next new vertex. New vertices have consecutive indices.
     next: u32,
     /// The last vertex that was stored explicitly.
     last: u32,

@@ -7,8 +7,8 @@ use glam::DVec3;
 use mesh::{Column, Domain, HalfEdgeId, Mesh, Rule, Values, VertexId};
 use scene::{Geometry, Image, Material, Object};
 
-/// The part of an object that differs: either the values of a domain with this name, or another part with this name.
-/// The names are the same as in losses.
+/// The part of an object that differs. With a domain, these are the values with this name, such as the positions or an
+/// attribute. Without a domain, it is another part with this name. The names are the same as in losses.
 pub(super) type Key = (Option<Domain>, String);
 
 /// The kind of difference between two scenes.
@@ -38,7 +38,7 @@ struct Flat {
     positions: Vec<Row>,
     faces: Vec<Vec<usize>>,
     columns: BTreeMap<Key, (Kind, Vec<Row>)>,
-    /// Edges as the lower and the higher vertex, with the index of their values.
+    /// For each edge, its lower and its higher vertex, and the index of its values.
     edges: Vec<([usize; 2], usize)>,
 }
 

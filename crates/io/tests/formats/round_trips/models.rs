@@ -251,7 +251,7 @@ fn attributes() -> Vec<Feature> {
             one(normals),
         ),
         feature(
-            "vertex normals next to corner normals",
+            "vertex normals of a mesh with corner normals",
             key(Vertex, "normal"),
             one(both),
         ),
@@ -331,7 +331,7 @@ fn attributes() -> Vec<Feature> {
             with(Face, "a b", Rule::Copy, |f| f % 3 == 0),
         ),
         feature(
-            "face tags without faces",
+            "face tags that no face has",
             key(Face, "none"),
             with(Face, "none", Rule::Copy, |_| false),
         ),

@@ -213,12 +213,12 @@ fn vertices_with_few_edges_are_refused() {
     mesh.push_vertex(DVec3::ZERO);
     assert_eq!(refused(&mesh, 4), EditError::FewEdges(vertex(4)));
     assert_eq!(refused(&spur(), 4), EditError::FewEdges(vertex(4)));
-    // The vertex on the edge to the middle would be left with one edge.
+    // If vertex 4, in the middle, were removed, m would be left with one edge.
     let mut mesh = shapes::grid(2, 2);
     let spoke = mesh.find_half_edge(vertex(4), vertex(5)).unwrap().edge();
     let m = mesh.split_edge(spoke, 0.5).unwrap();
     assert_eq!(refused(&mesh, 4), EditError::FewEdges(m));
-    // The vertex is on an edge that ends inside a face.
+    // The vertex to remove is on an edge that ends inside a face.
     let mut mesh = spur();
     let m = mesh.split_edge(EdgeId::new(4), 0.5).unwrap();
     assert_eq!(refused(&mesh, m.index()), EditError::FewEdges(vertex(4)));

@@ -32,7 +32,7 @@ fn thickness_is_measured_at_vertices() {
         &cube(),
         "Thickness(min: 1.999, max: 2.001)",
         "Thickness(of: Vertices([3]), min: 3)",
-        "expected a thickness at v3 of at least 3, found 1.9999999999999998",
+        "expected v3 to have a thickness of at least 3, found 1.9999999999999998",
     );
     assert!(check(&cube(), "Thickness(of: Not(All), min: 0)").is_err());
     let sheet = scene([("sheet", shapes::square())]);
@@ -124,7 +124,7 @@ fn dihedral_angles_lie_in_a_range() {
         &stairs,
         "DihedralAngle(of: Between(2, 3), max: 0)",
         "DihedralAngle(of: Between(2, 3), min: 1)",
-        "expected a dihedral angle at the edge v2-v3 of at least 1, found 0",
+        "expected the edge v2-v3 to have a dihedral angle of at least 1, found 0",
     );
     assert_eq!(
         check(&stairs, "DihedralAngle(of: Boundary, max: 180)"),
@@ -231,7 +231,7 @@ fn values_of_attributes_are_in_a_range() {
         &scene,
         "Attribute(name: \"wall\", min: 1, max: 8)",
         "Attribute(name: \"wall\", min: 1.5)",
-        "expected a value of \"wall\" at v0 of at least 1.5, found 1",
+        "expected the attribute \"wall\" at v0 to have a value of at least 1.5, found 1",
     );
     holds_and_fails(
         &scene,
@@ -243,13 +243,13 @@ fn values_of_attributes_are_in_a_range() {
         &scene,
         "Attribute(name: \"kind\", max: 5)",
         "Attribute(name: \"kind\", max: 4)",
-        "expected a value of \"kind\" at f5 of at most 4, found 5",
+        "expected the attribute \"kind\" at f5 to have a value of at most 4, found 5",
     );
     holds_and_fails(
         &scene,
         "Attribute(name: \"flow\", component: 1, min: 1)",
         "Attribute(name: \"flow\", component: 0, min: 1)",
-        "expected a value of \"flow\" at f0 of at least 1, found 0",
+        "expected the attribute \"flow\" at f0 to have a value of at least 1, found 0",
     );
     for (text, expected) in [
         (

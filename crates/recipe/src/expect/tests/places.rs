@@ -28,7 +28,7 @@ fn names(scene: &Scene, text: &str) -> Vec<String> {
     places(scene, text).into_iter().map(|p| p.name).collect()
 }
 
-/// Returns a scene with a square and a triangle beside it with sides of length 1, 2 and √5.
+/// Returns a scene with a square and, beside the square, a triangle with sides of length 1, 2 and √5.
 fn square_and_triangle() -> Scene {
     let at = |x: f64, y: f64| DVec3::new(x, y, 0.0);
     let positions = [

@@ -10,9 +10,9 @@
 //! b0                              b3
 //! ```
 //!
-//! The points of each level divide the legs of the previous level in the ratio t : 1 - t (de Casteljau, "Outillages
-//! méthodes calcul", 1959). The points have the names `b_i^r` of Farin, "Curves and Surfaces for CAGD", 5th edition,
-//! 2002, §4.2.
+//! The legs of a level are the line segments between its consecutive points. The points of the next level divide these
+//! legs in the ratio t : 1 - t (de Casteljau, "Outillages méthodes calcul", 1959). The points have the names `b_i^r` of
+//! Farin, "Curves and Surfaces for CAGD", 5th edition, 2002, §4.2.
 
 mod frame;
 mod key;

@@ -5,10 +5,10 @@ use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 use glam::{DAffine3, DMat3, DVec3, DVec4};
 use mesh::{
-    Attribute, Attributes, BuildError, BuildOutput, CORNER_TANGENT, Column, Domain, Elements, Id,
-    Mesh, Rule, Value, Values, joint_name, morph_name,
+    Attribute, Attributes, BuildError, BuildOutput, Column, Domain, Elements, Id, Mesh, Rule,
+    Value, Values, joint_name, morph_name,
 };
-use scene::{Material, Pose, transform_tangent};
+use scene::{Material, Pose, holds_tangents, transform_tangent};
 
 use crate::clean::{SourcePolygons, clean, gather};
 use crate::corners::vertex_values;
@@ -146,7 +146,7 @@ impl Polygons {
         let n = self.positions.len();
         pose.morph(&self.attributes, &mut self.positions);
         let vertex_of = |corner: usize| self.corners[corner] as usize;
-        for (domain, column) in pose.morphed_normals(&self.attributes, vertex_of) {
+        for (domain, column) in pose.morphed_directions(&self.attributes, vertex_of) {
             self.attributes.insert(domain, column);
         }
         let maps = pose.blended(&self.attributes, n);
@@ -197,8 +197,13 @@ impl Polygons {
 
     /// Transforms the tangents of corners by the matrix of each vertex.
     fn change_tangents<'a>(&mut self, matrix: impl Fn(usize) -> &'a DMat3) {
-        let name = CORNER_TANGENT.name;
-        if let Some(mut column) = self.attributes.remove(Domain::Corner, name) {
+        let columns = self.attributes.of(Domain::Corner).iter();
+        let tangents = columns.filter(|column| holds_tangents(column));
+        let names: Vec<String> = tangents.map(|column| column.name.clone()).collect();
+        for name in names {
+            let Some(mut column) = self.attributes.remove(Domain::Corner, &name) else {
+                continue;
+            };
             let tangents = DVec4::of_mut(&mut column.values).unwrap_or_default();
             for (tangent, &v) in tangents.iter_mut().zip(&self.corners) {
                 *tangent = transform_tangent(*tangent, matrix(v as usize));
@@ -254,7 +259,7 @@ impl Polygons {
             let vertices = built.mesh.attributes();
             if domain == Domain::Corner
                 && !column.name.starts_with("uv")
-                && column.name != CORNER_TANGENT.name
+                && !holds_tangents(&column)
                 && vertices.column(Domain::Vertex, &column.name).is_none()
                 && let Some(values) = vertex_values(&built.mesh, &column.values, |a, b| {
                     column.values.are_equal(a, b)

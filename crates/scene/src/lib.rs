@@ -29,7 +29,9 @@ pub use graph::{
 pub use material::{
     AlphaMode, Filter, Image, Material, Sampler, Texture, TextureNames, TextureTransform, Wrap,
 };
-pub use placed::{Instance, holds_normals, transform_tangent, transform_tangents, transformed};
+pub use placed::{
+    Instance, holds_normals, holds_tangents, transform_tangent, transform_tangents, transformed,
+};
 pub use pose::Pose;
 
 /// A list of objects in the order of their creation, and the nodes that place them.

@@ -6,7 +6,10 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3, DVec4};
-use mesh::{CORNER_TANGENT, Column, Domain, HalfEdgeId, Mesh, Rule, TANGENT, Value, morph_of};
+use mesh::{
+    CORNER_TANGENT, Column, Domain, HalfEdgeId, Mesh, Rule, TANGENT, Value, morph_of,
+    morph_tangent_of,
+};
 use rayon::prelude::*;
 
 use crate::pose::posed;
@@ -236,7 +239,7 @@ pub fn holds_normals(domain: Domain, column: &Column) -> bool {
     column.rule == Rule::Normal && (domain, &*column.name) != (Domain::Vertex, TANGENT.name)
 }
 
-/// Transforms the directions of [`CORNER_TANGENT`] and [`TANGENT`], if the mesh has such tangents. A
+/// Transforms the directions of [`CORNER_TANGENT`], [`TANGENT`] and the tangents of morph targets, if the mesh has them. A
 /// reflection negates the signs of the tangents of corners.
 pub fn transform_tangents(mesh: &mut Mesh, linear: &DMat3) {
     change_tangents(mesh, |_| *linear);
@@ -265,16 +268,25 @@ fn change_tangents(mesh: &mut Mesh, linear: impl Fn(usize) -> DMat3) {
             *tangent = transform_tangent(tangent.extend(1.0), &linear(v)).truncate();
         }
     }
-    if mesh.get(CORNER_TANGENT).is_none() {
-        return;
+    let columns = mesh.attributes().of(Domain::Corner).iter();
+    let names: Vec<String> = columns
+        .filter(|c| holds_tangents(c))
+        .map(|c| c.name.clone())
+        .collect();
+    for name in names {
+        let Some(mut column) = mesh.remove_column(Domain::Corner, &name) else {
+            continue;
+        };
+        let tangents = DVec4::of_mut(&mut column.values).into_iter().flatten();
+        for (h, tangent) in tangents.enumerate() {
+            let v = mesh.origin(HalfEdgeId::new(h));
+            *tangent = transform_tangent(*tangent, &linear(v.index()));
+        }
+        mesh.insert_column(Domain::Corner, column);
     }
-    let Some(mut column) = mesh.remove_column(Domain::Corner, CORNER_TANGENT.name) else {
-        return;
-    };
-    let tangents = DVec4::of_mut(&mut column.values).into_iter().flatten();
-    for (h, tangent) in tangents.enumerate() {
-        let v = mesh.origin(HalfEdgeId::new(h));
-        *tangent = transform_tangent(*tangent, &linear(v.index()));
-    }
-    mesh.insert_column(Domain::Corner, column);
+}
+
+/// Whether a column of corners holds the tangents of the mesh ([`CORNER_TANGENT`]) or of a morph target.
+pub fn holds_tangents(column: &Column) -> bool {
+    column.name == CORNER_TANGENT.name || morph_tangent_of(&column.name).is_some()
 }

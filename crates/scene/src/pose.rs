@@ -3,12 +3,13 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use glam::{DAffine3, DMat3, DVec3};
+use glam::{DAffine3, DMat3, DVec3, DVec4};
 use mesh::{
-    Attributes, Column, Domain, HalfEdgeId, Mesh, Rule, VERTEX_NORMAL, Value as _, morph_normal_of,
-    parallel,
+    Attributes, CORNER_TANGENT, Column, Domain, HalfEdgeId, Mesh, Rule, VERTEX_NORMAL, Value as _,
+    morph_normal_of, morph_tangent_of, parallel,
 };
 
+use crate::holds_tangents;
 use crate::placed::{LinearMap, mapped};
 use crate::{Graph, Node};
 
@@ -85,15 +86,62 @@ impl Pose {
         Some(parallel::collect(n, blend))
     }
 
-    /// Returns the normals of the mesh and of its morph targets in this pose, before joints move them. These columns
-    /// replace the columns of the same names in `attributes`. The list is empty if no normals change. If one of the old
-    /// columns has values for corners, all new columns have values for corners; otherwise, all have values for
-    /// vertices. `vertex_of` returns the vertex of a corner.
+    /// Returns the normals and tangents of the mesh and of its morph targets in this pose, before joints move them. These
+    /// columns replace the columns of the same names in `attributes`. Columns that do not change are left out. If one of
+    /// the old columns of normals has values for corners, all new columns of normals have values for corners; otherwise,
+    /// they have values for vertices. `vertex_of` returns the vertex of a corner.
     ///
     /// The new normal is the normalized sum of the old normal and the weighted differences between the normals of the
     /// morph targets and the old normal, as in glTF 2.0, section 3.7.2.2. The differences themselves do not change. If
-    /// the sum is zero, the old normal stays.
-    pub fn morphed_normals(
+    /// the sum is zero, the old normal stays. The same holds for tangents, whose signs stay.
+    pub fn morphed_directions(
+        &self,
+        attributes: &Attributes,
+        vertex_of: impl Fn(usize) -> usize + Sync,
+    ) -> Vec<(Domain, Column)> {
+        let mut columns = self.morphed_normals(attributes, vertex_of);
+        let tangents = self.morphed_tangents(attributes).into_iter();
+        columns.extend(tangents.map(|column| (Domain::Corner, column)));
+        columns
+    }
+
+    fn morphed_tangents(&self, attributes: &Attributes) -> Vec<Column> {
+        let columns = || {
+            let columns = attributes.of(Domain::Corner).iter();
+            let columns = columns.filter(|column| holds_tangents(column));
+            columns.filter_map(|column| Some((column, DVec4::of(&column.values)?)))
+        };
+        let own = columns().find(|(column, _)| column.name == CORNER_TANGENT.name);
+        let targets = columns().filter_map(|(column, values)| {
+            let weight = self.weights.get(morph_tangent_of(&column.name)?)?;
+            (*weight != 0.0).then_some((*weight, values))
+        });
+        let targets: Vec<(f64, &[DVec4])> = targets.collect();
+        let Some((_, own)) = own.filter(|_| !targets.is_empty()) else {
+            return Vec::new();
+        };
+        let changes: Vec<DVec4> = parallel::collect(own.len(), |i| {
+            let old = own[i].truncate();
+            let sum = targets.iter().fold(old, |sum, (weight, target)| {
+                sum + *weight * (target[i].truncate() - old)
+            });
+            let change = sum.try_normalize().map_or(DVec3::ZERO, |new| new - old);
+            change.extend(0.0)
+        });
+        let moved = |(column, values): (&Column, &[DVec4])| {
+            let values = values
+                .iter()
+                .zip(&changes)
+                .map(|(tangent, change)| tangent + change);
+            Column {
+                values: DVec4::wrap(values.collect()),
+                ..column.clone()
+            }
+        };
+        columns().map(moved).collect()
+    }
+
+    fn morphed_normals(
         &self,
         attributes: &Attributes,
         vertex_of: impl Fn(usize) -> usize + Sync,
@@ -171,7 +219,7 @@ pub(crate) fn posed(mesh: &Mesh, pose: &Pose, to_scene: &DAffine3) -> Mesh {
     let attributes = mesh.attributes();
     pose.morph(attributes, morphed.positions_mut());
     let vertex_of = |corner| mesh.origin(HalfEdgeId::new(corner)).index();
-    for (domain, column) in pose.morphed_normals(attributes, vertex_of) {
+    for (domain, column) in pose.morphed_directions(attributes, vertex_of) {
         morphed.remove_column(Domain::Vertex, &column.name);
         morphed.insert_column(domain, column);
     }

@@ -2,11 +2,16 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use bytemuck::Pod;
 use glam::{DVec3, DVec4};
 use gltf_json::accessor::{ComponentType, Type};
-use gltf_json::mesh::{Primitive, Semantic};
+use gltf_json::mesh::{MorphTarget, Primitive, Semantic};
 use gltf_json::validation::Checked;
-use mesh::{Column, Rule, Value, joint_name, morph_name, morph_normal_name};
+use gltf_json::{Accessor, Index};
+use mesh::{
+    CORNER_TANGENT, Column, Rule, Value, joint_name, morph_name, morph_normal_name,
+    morph_tangent_name,
+};
 
 use super::rig_json::Deformers;
 use super::views::Reader;
@@ -201,64 +206,111 @@ pub(super) fn morphs(
     Ok(columns)
 }
 
-/// Whether the primitive has normals.
-pub(super) fn has_normals(primitive: &Primitive) -> bool {
-    let normals = Checked::Valid(Semantic::Normals);
-    primitive.attributes.contains_key(&normals)
+/// The normals or the tangents of a mesh that morph targets change.
+pub(super) struct Directions {
+    semantic: Semantic,
+    /// Returns the accessor of the changes of a morph target.
+    changes: fn(&MorphTarget) -> Option<&Index<Accessor>>,
+    /// Returns the name of the attribute with the changed directions of a morph target.
+    name: fn(usize) -> String,
+    rule: Rule,
+    /// The morph targets with changes, in ascending order.
+    targets: Vec<usize>,
 }
 
-/// Returns the morph targets that change the normals of a primitive, in ascending order.
-pub(super) fn targets_with_normals(primitives: &[Primitive]) -> Vec<usize> {
-    let primitives = primitives.iter().filter(|primitive| has_normals(primitive));
-    let targets = primitives.flat_map(|primitive| primitive.targets.iter().flatten().enumerate());
-    let changed = targets.filter(|(_, target)| target.normals.is_some());
-    let changed: BTreeSet<usize> = changed.map(|(t, _)| t).collect();
-    changed.into_iter().collect()
-}
-
-/// Reads the normals that each of the given morph targets gives with the weight 1, into one column of `n` values for
-/// each target. `normals` are the normals of the primitive. Without normals, the columns are zero.
-///
-/// # Errors
-///
-/// If an accessor is invalid. `here` is the location of the primitive.
-pub(super) fn morph_normals(
-    reader: &Reader,
-    primitive: &Primitive,
-    wanted: &[usize],
-    normals: Option<&[DVec3]>,
-    n: usize,
-    here: &str,
-    repairs: &mut Repairs,
-) -> Result<Vec<Column>, Fault> {
-    let targets = primitive.targets.as_deref().unwrap_or_default();
-    let bytes = (wanted.len() as u64).saturating_mul(n as u64 * 24);
-    if !reader.budget.has(2 * bytes) {
-        let what = format!(
-            "normals of morph targets left out: they need {bytes} bytes, too many for a file of this size"
-        );
-        *repairs.left_out.entry(what).or_default() += wanted.len();
-        return Ok(Vec::new());
-    }
-    let mut columns = Vec::new();
-    for &t in wanted {
-        let mut values = normals.map_or_else(|| mesh::zeroed(n), <[DVec3]>::to_vec);
-        let accessor = targets.get(t).and_then(|target| target.normals.as_ref());
-        if let Some(accessor) = accessor.filter(|_| normals.is_some()) {
-            let at = format!("{here}/targets/{t}/NORMAL");
-            let kinds = &[Type::Vec3];
-            let deltas = reader.vectors(accessor.value(), &at, kinds, 0.0, DVec3::from_array)?;
-            expect_len(deltas.len(), n, &at)?;
-            let sums = values.iter_mut().zip(deltas);
-            sums.for_each(|(normal, delta)| *normal += delta);
-        }
-        columns.push(Column {
-            name: morph_normal_name(t),
+impl Directions {
+    /// The normals of a mesh with these primitives.
+    pub(super) fn normals(primitives: &[Primitive]) -> Self {
+        let normals = Self {
+            semantic: Semantic::Normals,
+            changes: |target| target.normals.as_ref(),
+            name: morph_normal_name,
             rule: Rule::Normal,
-            values: DVec3::wrap(values),
-        });
+            targets: Vec::new(),
+        };
+        normals.of(primitives)
     }
-    Ok(columns)
+
+    /// The tangents of a mesh with these primitives.
+    pub(super) fn tangents(primitives: &[Primitive]) -> Self {
+        let tangents = Self {
+            semantic: Semantic::Tangents,
+            changes: |target| target.tangents.as_ref(),
+            name: morph_tangent_name,
+            rule: CORNER_TANGENT.rule,
+            targets: Vec::new(),
+        };
+        tangents.of(primitives)
+    }
+
+    /// Finds the morph targets. Changes of a primitive that does not have the directions are ignored.
+    fn of(mut self, primitives: &[Primitive]) -> Self {
+        let semantic = Checked::Valid(self.semantic.clone());
+        let primitives = primitives.iter();
+        let primitives = primitives.filter(|p| p.attributes.contains_key(&semantic));
+        let targets = primitives.flat_map(|p| p.targets.iter().flatten().enumerate());
+        let changed = targets.filter(|(_, target)| (self.changes)(target).is_some());
+        let changed: BTreeSet<usize> = changed.map(|(t, _)| t).collect();
+        self.targets = changed.into_iter().collect();
+        self
+    }
+
+    /// Returns the names of the attributes with the changed directions.
+    pub(super) fn names(&self) -> impl Iterator<Item = String> {
+        self.targets.iter().map(|&t| (self.name)(t))
+    }
+
+    /// Reads the directions that each morph target gives with the weight 1, into one column of `n` values for each target.
+    /// `own` are the directions of the primitive, with three or more numbers, of which morph targets change the first three.
+    /// Without them, the columns are zero.
+    ///
+    /// # Errors
+    ///
+    /// If an accessor is invalid. `here` is the location of the primitive.
+    pub(super) fn read<T: Value + Pod>(
+        &self,
+        reader: &Reader,
+        primitive: &Primitive,
+        own: Option<&[T]>,
+        n: usize,
+        here: &str,
+        repairs: &mut Repairs,
+    ) -> Result<Vec<Column>, Fault> {
+        let targets = primitive.targets.as_deref().unwrap_or_default();
+        let semantic = self.semantic.to_string();
+        let bytes = (self.targets.len() as u64).saturating_mul((n * size_of::<T>()) as u64);
+        if !reader.budget.has(2 * bytes) {
+            let what = format!(
+                "attributes {semantic} of morph targets left out: they need {bytes} bytes, too many for a file of this size"
+            );
+            *repairs.left_out.entry(what).or_default() += self.targets.len();
+            return Ok(Vec::new());
+        }
+        let mut columns = Vec::new();
+        for &t in &self.targets {
+            let mut values = own.map_or_else(|| mesh::zeroed(n), <[T]>::to_vec);
+            let accessor = targets.get(t).and_then(self.changes);
+            if let Some(accessor) = accessor.filter(|_| own.is_some()) {
+                let at = format!("{here}/targets/{t}/{semantic}");
+                let kinds = &[Type::Vec3];
+                let changes =
+                    reader.vectors(accessor.value(), &at, kinds, 0.0, DVec3::from_array)?;
+                expect_len(changes.len(), n, &at)?;
+                let numbers: &mut [f64] = bytemuck::cast_slice_mut(&mut values);
+                let size = size_of::<T>() / size_of::<f64>();
+                for (value, change) in numbers.chunks_exact_mut(size).zip(changes) {
+                    let sums = value.iter_mut().zip(change.to_array());
+                    sums.for_each(|(number, change)| *number += change);
+                }
+            }
+            columns.push(Column {
+                name: (self.name)(t),
+                rule: self.rule,
+                values: T::wrap(values),
+            });
+        }
+        Ok(columns)
+    }
 }
 
 /// # Errors

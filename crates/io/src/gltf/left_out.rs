@@ -152,10 +152,15 @@ fn morph_attributes(json: &Value, is_used: &[bool]) -> BTreeMap<String, usize> {
     let meshes = elements(json, "meshes").zip(is_used);
     let meshes = meshes.filter_map(|(mesh, is_used)| is_used.then_some(mesh));
     for primitive in meshes.flat_map(|mesh| elements(mesh, "primitives")) {
-        let has_normals = primitive.pointer("/attributes/NORMAL").is_some();
+        let has = |name: &str| primitive["attributes"].get(name).is_some();
         let targets = elements(primitive, "targets").filter_map(Value::as_object);
         for name in targets.flat_map(|target| target.keys()) {
-            if name != "POSITION" && !(name == "NORMAL" && has_normals) {
+            let is_read = match name.as_str() {
+                "POSITION" => true,
+                "NORMAL" | "TANGENT" => has(name),
+                _ => false,
+            };
+            if !is_read {
                 *counts.entry(name.clone()).or_default() += 1;
             }
         }

@@ -28,6 +28,7 @@
 //! | `JOINTS_n`, `WEIGHTS_n` | for each used joint, a vertex attribute [`mesh::joint_name`] with its weights |
 //! | `POSITION` of a morph target | a vertex attribute [`mesh::morph_name`] with the deltas |
 //! | `NORMAL` of a morph target | a vertex or corner attribute [`mesh::morph_normal_name`] with the changed normals: each value is the sum of a normal and its change |
+//! | `TANGENT` of a morph target | a corner attribute [`mesh::morph_tangent_name`] with the changed tangents; the signs are those of the tangents of the mesh |
 //! | skins, animations | kept in the graph; the numbers are rounded to 32 bits |
 //! | `COLOR_1`, other attributes of morph targets | left out, with a note |
 //! | `material` | face attribute `material`, and materials of the object |

@@ -11,7 +11,7 @@ use mesh::Domain;
 use scene::Graph;
 
 use super::budget::Budget;
-use super::deform::targets_with_normals;
+use super::deform::Directions;
 use super::document::Document;
 use super::materials::{image_paths, material_name};
 use super::names::attribute_name;
@@ -112,7 +112,8 @@ fn peek_mesh(
     let mut left_out: BTreeMap<String, usize> = BTreeMap::new();
     let (mut points, mut lines) = (0, 0);
     let primitives = &reader.document.meshes[index].primitives;
-    names.extend((targets_with_normals(primitives).into_iter()).map(mesh::morph_normal_name));
+    names.extend(Directions::normals(primitives).names());
+    names.extend(Directions::tangents(primitives).names());
     for (i, primitive) in primitives.iter().enumerate() {
         let here = format!("/meshes/{index}/primitives/{i}");
         match primitive.mode {

@@ -12,7 +12,7 @@ use mesh::{
     Attributes, CORNER_NORMAL, CORNER_TANGENT, Column, Domain, Rule, VERTEX_SHARPNESS, Value,
 };
 
-use super::deform::{Repairs, expect_len, joints, morph_normals, morphs, targets_with_normals};
+use super::deform::{Directions, Repairs, expect_len, joints, morphs};
 use super::document::get;
 use super::names::attribute_name;
 use super::rig_json::Deformers;
@@ -56,7 +56,10 @@ pub(super) fn triangles(
     let mut left_out = LeftOut::default();
     let mut has_materials = false;
     let primitives = &reader.document.meshes[index].primitives;
-    let changed_normals = targets_with_normals(primitives);
+    let morphed = (
+        Directions::normals(primitives),
+        Directions::tangents(primitives),
+    );
     for (i, primitive) in primitives.iter().enumerate() {
         let here = format!("/meshes/{index}/primitives/{i}");
         let Checked::Valid(mode) = primitive.mode else {
@@ -80,7 +83,7 @@ pub(super) fn triangles(
                 reader,
                 primitive,
                 deformers,
-                &changed_normals,
+                &morphed,
                 &here,
                 &mut left_out,
             )?),
@@ -146,14 +149,14 @@ impl Triangles {
         ((VERTEX + deformers) * n + (CORNER + values) * self.corners.len()) as u64
     }
 
-    /// Appends the vertices of a primitive. `changed_normals` are the morph targets of the mesh that change normals.
+    /// Appends the vertices of a primitive. `morphed` are the normals and tangents of the mesh that morph targets change.
     /// Returns the index of the first vertex, and the number of vertices.
     fn push_vertices(
         &mut self,
         reader: &Reader,
         primitive: &Primitive,
         deformers: Deformers,
-        changed_normals: &[usize],
+        (normals, tangents): &(Directions, Directions),
         here: &str,
         left_out: &mut LeftOut,
     ) -> Result<(u32, u32), Fault> {
@@ -225,17 +228,13 @@ impl Triangles {
         for column in joints.into_iter().chain(morphs) {
             own.insert(Domain::Vertex, column);
         }
-        let normals = own.column(Domain::Corner, CORNER_NORMAL.name);
-        let normals = normals.and_then(|column| DVec3::of(&column.values));
-        for column in morph_normals(
-            reader,
-            primitive,
-            changed_normals,
-            normals,
-            n,
-            here,
-            repairs,
-        )? {
+        let old = own.column(Domain::Corner, CORNER_NORMAL.name);
+        let old = old.and_then(|column| DVec3::of(&column.values));
+        let mut morphed = normals.read(reader, primitive, old, n, here, repairs)?;
+        let old = own.column(Domain::Corner, CORNER_TANGENT.name);
+        let old = old.and_then(|column| DVec4::of(&column.values));
+        morphed.extend(tangents.read(reader, primitive, old, n, here, repairs)?);
+        for column in morphed {
             own.insert(Domain::Corner, column);
         }
         let all = |attributes: &Attributes| attributes.of(Domain::Vertex).len();

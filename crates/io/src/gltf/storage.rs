@@ -1,6 +1,6 @@
 //! Determines which attributes of a mesh a glTF file stores.
 
-use mesh::{Domain, Values, joint_of, morph_name, morph_normal_of, morph_of};
+use mesh::{Domain, Values, joint_of, morph_name, morph_normal_of, morph_of, morph_tangent_of};
 
 use super::names::{custom_semantic, uv_set};
 use crate::Storage;
@@ -28,6 +28,11 @@ pub(crate) fn storage(
             let target = morph_normal_of(name).unwrap_or_default();
             let has_deltas = has(Domain::Vertex, &morph_name(target));
             kept_if(has_deltas && has_normals() && !is_hidden)
+        }
+        (Domain::Corner, _, Values::Vec4(_)) if morph_tangent_of(name).is_some() => {
+            let target = morph_tangent_of(name).unwrap_or_default();
+            let has_deltas = has(Domain::Vertex, &morph_name(target));
+            kept_if(has_deltas && has_normals() && has(Domain::Corner, "tangent"))
         }
         (Domain::Edge | Domain::Face, ..) | (.., Values::Int(_) | Values::Tag(_)) => Lost,
         (_, "normal", Values::Vec3(_)) => kept_if(!is_hidden),

@@ -4,7 +4,8 @@ use glam::DVec3;
 use gltf_json::accessor::Type;
 use gltf_json::mesh::Semantic;
 use mesh::{
-    Column, Domain, FaceId, HalfEdgeId, Mesh, Values, VertexId, joint_of, morph_normal_of, morph_of,
+    Column, Domain, FaceId, HalfEdgeId, Mesh, Values, VertexId, joint_of, morph_normal_of,
+    morph_of, morph_tangent_of,
 };
 
 use super::names::{custom_semantic, uv_set};
@@ -30,6 +31,8 @@ enum Meaning<'a> {
     /// The difference from the normals in a column of this domain.
     NormalDelta(Domain, &'a Column),
     Tangent,
+    /// The difference from the tangents in a column of corners.
+    TangentDelta(&'a Column),
     Uv,
     Color,
     Custom,
@@ -62,20 +65,33 @@ pub(super) fn streams<'a>(
             }
         }
     }
-    let mut normals = streams.iter();
-    let normals = normals.find(|stream| stream.semantic == Semantic::Normals);
-    let normals = normals.map(|stream| (stream.domain, stream.column));
-    match normals {
-        Some(normals) => streams.extend(normal_deltas(mesh, normals, has_target)),
+    let find = |streams: &[Stream<'a>], semantic| {
+        let stream = streams.iter().find(|stream| stream.semantic == semantic)?;
+        Some((stream.domain, stream.column))
+    };
+    let normals = find(&streams, Semantic::Normals);
+    if normals.is_none() {
         // Readers ignore tangents without normals.
-        None => streams.retain(|stream| stream.semantic != Semantic::Tangents),
+        streams.retain(|stream| stream.semantic != Semantic::Tangents);
+    }
+    let tangents = find(&streams, Semantic::Tangents);
+    if let Some((domain, column)) = normals {
+        streams.extend(deltas(
+            mesh,
+            Meaning::NormalDelta(domain, column),
+            &has_target,
+        ));
+    }
+    if let Some((_, column)) = tangents {
+        streams.extend(deltas(mesh, Meaning::TangentDelta(column), &has_target));
     }
     losses.add_columns(mesh, Format::Gltf, |domain, column| {
         let is_material = domain == Domain::Face && column.name == mesh::MATERIAL.name;
         is_deformer(domain, column)
             || is_mark(domain, column)
-            // If a morph target is not written, the loss of the target includes its normals.
+            // If a morph target is not written, the loss of the target includes its normals and tangents.
             || normals.is_some() && morph_normal_of(&column.name).is_some()
+            || tangents.is_some() && morph_tangent_of(&column.name).is_some()
             || is_material && matches!(column.values, Values::Int(_))
             || streams
                 .iter()
@@ -85,24 +101,32 @@ pub(super) fn streams<'a>(
     streams
 }
 
-/// Returns the streams of the normals of morph targets. glTF stores the differences from the normals of the mesh.
-fn normal_deltas<'a>(
+/// Returns the streams of the normals or the tangents of morph targets. glTF stores the differences from those of the mesh.
+fn deltas<'a>(
     mesh: &'a Mesh,
-    (domain, normals): (Domain, &'a Column),
-    has_target: impl Fn(usize) -> bool,
+    meaning: Meaning<'a>,
+    has_target: &impl Fn(usize) -> bool,
 ) -> Vec<Stream<'a>> {
     let mut deltas: Vec<Stream> = Vec::new();
-    for own in [Domain::Corner, Domain::Vertex] {
-        for column in mesh.attributes().of(own) {
-            let target = morph_normal_of(&column.name).filter(|&target| has_target(target));
-            let is_new = deltas.iter().all(|other| other.target != target);
-            if target.is_some() && is_new && matches!(column.values, Values::Vec3(_)) {
+    for domain in [Domain::Corner, Domain::Vertex] {
+        for column in mesh.attributes().of(domain) {
+            let (semantic, target) = match (meaning, &column.values) {
+                (Meaning::NormalDelta(..), Values::Vec3(_)) => {
+                    (Semantic::Normals, morph_normal_of(&column.name))
+                }
+                (Meaning::TangentDelta(_), Values::Vec4(_)) if domain == Domain::Corner => {
+                    (Semantic::Tangents, morph_tangent_of(&column.name))
+                }
+                _ => continue,
+            };
+            let target = target.filter(|&target| has_target(target));
+            if target.is_some() && deltas.iter().all(|other| other.target != target) {
                 deltas.push(Stream {
-                    semantic: Semantic::Normals,
+                    semantic,
                     kind: Type::Vec3,
-                    meaning: Meaning::NormalDelta(domain, normals),
+                    meaning,
                     target,
-                    domain: own,
+                    domain,
                     column,
                 });
             }
@@ -153,25 +177,17 @@ impl Stream<'_> {
     /// the kind of the stream requires.
     pub(super) fn at(&self, mesh: &Mesh, v: VertexId, h: HalfEdgeId) -> ([f32; 4], bool) {
         let value = value(self.domain, self.column, v, h);
-        let [x, y, z, _] = value;
+        let [x, y, ..] = value;
         match self.meaning {
             Meaning::Normal => normal(mesh, h, value),
             Meaning::NormalDelta(domain, normals) => {
-                let to = DVec3::new(x, y, z);
-                if to == DVec3::ZERO || !to.is_finite() {
-                    return ([0.0; 4], false);
-                }
                 let (from, _) = normal(mesh, h, self::value(domain, normals, v, h));
-                let from = from.map(f64::from);
-                narrow([x - from[0], y - from[1], z - from[2], 0.0], true)
+                delta(from, value)
             }
-            Meaning::Tangent => {
-                let w = value[3];
-                let unit = unit(DVec3::new(x, y, z));
-                let is_kept = unit.is_some() && w.abs().to_bits() == 1.0_f64.to_bits();
-                let tangent = unit.unwrap_or(DVec3::X);
-                let sign = if w < 0.0 { -1.0 } else { 1.0 };
-                narrow([tangent.x, tangent.y, tangent.z, sign], is_kept)
+            Meaning::Tangent => tangent(value),
+            Meaning::TangentDelta(tangents) => {
+                let (from, _) = tangent(self::value(Domain::Corner, tangents, v, h));
+                delta(from, value)
             }
             Meaning::Uv => narrow([x, 1.0 - y, 0.0, 0.0], true),
             Meaning::Color => {
@@ -190,11 +206,34 @@ impl Stream<'_> {
             Meaning::NormalDelta(..) => {
                 "zero or not finite, so the target does not change the normal"
             }
+            Meaning::TangentDelta(_) => {
+                "zero or not finite, so the target does not change the tangent"
+            }
             Meaning::Tangent => "zero, not finite, or with an invalid sign, so changed",
             Meaning::Color => "outside the range from 0 to 1, so clamped",
             Meaning::Uv | Meaning::Custom => "not finite when rounded to 32 bits, so written as 0",
         }
     }
+}
+
+/// Returns a tangent as glTF stores it, and whether the tangent is unchanged.
+fn tangent([x, y, z, w]: [f64; 4]) -> ([f32; 4], bool) {
+    let unit = unit(DVec3::new(x, y, z));
+    let is_kept = unit.is_some() && w.abs().to_bits() == 1.0_f64.to_bits();
+    let tangent = unit.unwrap_or(DVec3::X);
+    let sign = if w < 0.0 { -1.0 } else { 1.0 };
+    narrow([tangent.x, tangent.y, tangent.z, sign], is_kept)
+}
+
+/// Returns the difference of the direction of a morph target from the direction that is written for the mesh, and whether
+/// the target is kept. A zero direction, or one that is not finite, becomes no difference.
+fn delta(from: [f32; 4], [x, y, z, _]: [f64; 4]) -> ([f32; 4], bool) {
+    let to = DVec3::new(x, y, z);
+    if to == DVec3::ZERO || !to.is_finite() {
+        return ([0.0; 4], false);
+    }
+    let from = from.map(f64::from);
+    narrow([x - from[0], y - from[1], z - from[2], 0.0], true)
 }
 
 /// The value of a column at a corner. Components that the value does not have are 0.

@@ -92,13 +92,15 @@ fn parts_of_an_unused_node_are_left_out_too() {
 fn texture_coordinates_and_colors_of_morph_targets_are_left_out_with_a_note() {
     let mut json = asset();
     json["meshes"][0]["primitives"][0]["targets"] = json!([
-        { "POSITION": 0, "TEXCOORD_0": 2 }, { "POSITION": 0, "TEXCOORD_0": 2, "COLOR_0": 0 },
+        { "POSITION": 0, "TEXCOORD_0": 2 }, { "POSITION": 0, "TEXCOORD_0": 2, "COLOR_0": 0, "TANGENT": 0 },
     ]);
     let notes = read_json(&json).unwrap().notes;
     let notes: Vec<_> = notes.iter().map(ToString::to_string).collect();
-    assert_eq!(notes.len(), 2, "{notes:?}");
+    assert_eq!(notes.len(), 3, "{notes:?}");
     assert!(notes[0].ends_with("1 attribute COLOR_0 of morph targets left out"));
-    assert!(notes[1].ends_with("2 attributes TEXCOORD_0 of morph targets left out"));
+    // The primitive has no tangents.
+    assert!(notes[1].ends_with("1 attribute TANGENT of morph targets left out"));
+    assert!(notes[2].ends_with("2 attributes TEXCOORD_0 of morph targets left out"));
 }
 
 #[test]

@@ -39,7 +39,7 @@ fn folded(normals: [[f32; 3]; 6], changes: Option<[[f32; 3]; 6]>) -> Value {
     }))
 }
 
-fn scene(json: &Value) -> Scene {
+pub(crate) fn scene(json: &Value) -> Scene {
     let loaded = read_json(json).unwrap();
     assert_eq!(loaded.notes, []);
     let mut scene = Scene::new();
@@ -47,12 +47,12 @@ fn scene(json: &Value) -> Scene {
     scene
 }
 
-fn only_mesh(scene: &Scene) -> &mesh::Mesh {
+pub(crate) fn only_mesh(scene: &Scene) -> &mesh::Mesh {
     scene.objects()[0].as_mesh().unwrap()
 }
 
 /// Writes a scene and reads it again.
-fn written(scene: &Scene) -> Scene {
+pub(crate) fn written(scene: &Scene) -> Scene {
     let folder = Folder::new();
     let path = folder.path("a.glb");
     let report = mesh_io::write(&Disk, &path, scene, &WriteOptions::default()).unwrap();

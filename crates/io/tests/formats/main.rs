@@ -14,6 +14,7 @@ mod gltf_limits;
 mod gltf_materials;
 mod gltf_meshopt;
 mod gltf_morph_normals;
+mod gltf_morph_tangents;
 mod gltf_nodes;
 mod gltf_packed;
 mod gltf_read;

@@ -8,6 +8,9 @@
 //! The attribute `morph_normal:t` has the normals of the vertices or corners when morph target t has the weight 1. The
 //! values are the normals themselves, not their differences from the normals of the mesh. Like all normals, they follow
 //! the rule [`Rule::Normal`](crate::Rule::Normal).
+//!
+//! The attribute `morph_tangent:t` has the tangents of the corners when morph target t has the weight 1, with the rule and
+//! the signs of [`CORNER_TANGENT`](crate::CORNER_TANGENT).
 
 use super::{Attributes, Values};
 use crate::{DVec3, Domain};
@@ -15,6 +18,7 @@ use crate::{DVec3, Domain};
 const JOINT: &str = "joint:";
 const MORPH: &str = "morph:";
 const MORPH_NORMAL: &str = "morph_normal:";
+const MORPH_TANGENT: &str = "morph_tangent:";
 
 /// Returns the name of the attribute with the weights of a joint, one `f64` for each vertex.
 pub fn joint_name(joint: usize) -> String {
@@ -29,6 +33,11 @@ pub fn morph_name(target: usize) -> String {
 /// Returns the name of the attribute with the normals that the mesh has when a morph target has the weight 1.
 pub fn morph_normal_name(target: usize) -> String {
     format!("{MORPH_NORMAL}{target}")
+}
+
+/// Returns the name of the attribute with the tangents that the mesh has when a morph target has the weight 1.
+pub fn morph_tangent_name(target: usize) -> String {
+    format!("{MORPH_TANGENT}{target}")
 }
 
 /// Returns the joint whose weights the attribute with this name stores; `None` if the name is not that of a joint.
@@ -48,9 +57,15 @@ pub fn morph_normal_of(name: &str) -> Option<usize> {
     number(name.strip_prefix(MORPH_NORMAL)?)
 }
 
+/// Returns the morph target whose tangents the attribute with this name stores; `None` if an attribute with this name
+/// does not store tangents of a morph target.
+pub fn morph_tangent_of(name: &str) -> Option<usize> {
+    number(name.strip_prefix(MORPH_TANGENT)?)
+}
+
 /// Whether this is the name of an attribute of a joint or a morph target.
 pub fn is_rig_name(name: &str) -> bool {
-    let numbers = [joint_of, morph_of, morph_normal_of];
+    let numbers = [joint_of, morph_of, morph_normal_of, morph_tangent_of];
     numbers.iter().any(|number| number(name).is_some())
 }
 
@@ -96,6 +111,7 @@ mod tests {
             assert_eq!(joint_of(&joint_name(n)), Some(n));
             assert_eq!(morph_of(&morph_name(n)), Some(n));
             assert_eq!(morph_normal_of(&morph_normal_name(n)), Some(n));
+            assert_eq!(morph_tangent_of(&morph_tangent_name(n)), Some(n));
         }
         for name in [
             "joint:", "joint:01", "joint:+1", "joint:-1", "morph:0", "joint", "joint:a",

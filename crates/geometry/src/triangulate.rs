@@ -15,9 +15,11 @@
 //! Corner indices start at 0 and follow the face. The corners of a triangle are in ascending order, so a triangle
 //! has the orientation of the face.
 
+mod flips;
 mod monotone;
 
-use earcut::{Earcut, Refiner};
+use earcut::Earcut;
+use flips::Flips;
 
 use mesh::{DVec3, FaceId, Mesh};
 
@@ -128,7 +130,7 @@ pub struct Cutter {
     flat: Vec<[f64; 2]>,
     indices: Vec<u32>,
     earcut: Earcut<f64>,
-    refiner: Refiner,
+    flips: Flips,
 }
 
 impl Cutter {
@@ -202,11 +204,8 @@ impl Cutter {
         } else {
             clip(&mut self.earcut, &mut self.indices, &self.flat)?
         };
-        self.indices.clear();
-        self.indices.extend(triangles.iter().flatten());
-        self.refiner.refine(&mut self.indices, &self.flat);
-        let mut refined = to_triangles(&self.indices);
-        refined.sort_unstable();
+        let mut refined = triangles.clone();
+        self.flips.improve(&self.flat, &mut refined, is_cancelled);
         Some(if is_triangulation(n, &refined) {
             refined
         } else {

@@ -228,7 +228,7 @@ fn invalid_sweeps_are_refused_with_a_reason() {
             )),
             "cells, expected at most 10000",
         ),
-        (fields("over: {}"), "the value needs `keep`"),
+        (fields("over: {}"), "`keep` is missing"),
         (
             format!("(sweep: 1, recipe: \"none.ron\", {keep})"),
             "the file none.ron does not exist",

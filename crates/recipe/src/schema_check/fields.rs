@@ -53,10 +53,12 @@ impl Checker {
             self.unknown_field(value, field, schema, place, &mut missing);
         }
         if complete && !missing.is_empty() {
-            let subject = place
-                .name
-                .map_or("the value".to_owned(), |name| format!("`{name}`"));
-            let message = format!("{subject} needs {}", listed(missing.iter().copied()));
+            let names = listed(missing.iter().copied());
+            let message = match (place.name, &missing[..]) {
+                (Some(name), _) => format!("`{name}` needs {names}"),
+                (None, [_]) => format!("{names} is missing"),
+                (None, _) => format!("{names} are missing"),
+            };
             let help = format!("write {}", usage_of(&missing, schema));
             self.report(value, owner, message, Some(help));
         }

@@ -74,7 +74,7 @@ pub fn did_you_mean<'n>(name: &str, known: impl IntoIterator<Item = &'n str>) ->
     if !near.is_empty() {
         format!("did you mean {}?", listed(near))
     } else if known.is_empty() {
-        "there are none".to_owned()
+        "no names are defined".to_owned()
     } else {
         let rest = if known.len() > MAX_NAMES {
             " and others"

@@ -145,7 +145,7 @@ fn unknown_fields_of_recipes_and_steps_are_errors() {
         "did you mean `note`?",
     );
     let missing = read("(recipe: 1)");
-    assert_eq!(missing.diagnostics[0].message, "the value needs `steps`");
+    assert_eq!(missing.diagnostics[0].message, "`steps` is missing");
 }
 
 #[test]
@@ -168,7 +168,7 @@ fn the_help_says_where_fields_of_steps_and_expectations_are_written() {
 fn a_step_must_be_an_operation() {
     has_one_error(&steps("7"), "7", "expected an operation, found 7", "");
     let reading = read(&steps("(id: \"a\")"));
-    assert_eq!(reading.diagnostics[0].message, "the value needs `run`");
+    assert_eq!(reading.diagnostics[0].message, "`run` is missing");
     assert_eq!(reading.recipe.steps.len(), 1);
 }
 

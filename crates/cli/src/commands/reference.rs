@@ -109,7 +109,8 @@ fn description(schema: &Json) -> &str {
 
 /// Formats a string as one cell of a table.
 fn cell(text: &str) -> String {
-    text.replace('\n', " ").replace('|', "\\|")
+    let words: Vec<&str> = text.split_whitespace().collect();
+    words.join(" ").replace('|', "\\|")
 }
 
 #[cfg(test)]

@@ -26,7 +26,8 @@ impl<'a> Writer<'a> {
             let n_written = self.animation(graph, animation)?;
             lost += animation.channels.len() - n_written;
         }
-        let reason = "animation channels with invalid values, or for morph targets that do not exist";
+        let reason =
+            "animation channels with invalid values, or for morph targets that do not exist";
         losses.add(None, "animations", lost, reason);
         Ok(())
     }

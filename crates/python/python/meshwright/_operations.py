@@ -84,13 +84,13 @@ class SceneOperations:
             ``"Keep"``: Keep them.
             ``"Drop"``: Leave them out, and list them.
         :param placements: What to do with the nodes of a glTF or ``.mws`` file. If the nodes are kept, steps change a
-            mesh in its own space, once for all nodes that reference the mesh. Defaults to ``"Keep"``.
+            mesh in its own space, and each change applies to all nodes that reference the mesh. Defaults to ``"Keep"``.
             ``"Keep"``: Keep the nodes.
             ``"Bake"``: Apply the transforms of nodes to the points.
         :param strict: If true, the step fails if anything in the file would be left out. Defaults to ``False``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Load', {'path': path, 'name': name, 'non_manifold': non_manifold, 'orientation': orientation, 'duplicates': duplicates, 'degenerate': degenerate, 'isolated': isolated, 'placements': placements, 'strict': strict}, None, id, progress)
 
@@ -119,11 +119,11 @@ class SceneOperations:
         Example: ``scene.save(path="a.obj")``, in a recipe ``Save(path: "a.obj")``
 
         :param path: The file. For a scene, a relative path is relative to the working directory; in a recipe, to the
-            output folder. ``{name.stem}`` is replaced by the name, without extension, of the file in the recipe
-            parameter ``name``.
+            output folder. If ``name`` is a recipe parameter whose value is a file, ``{name.stem}`` is replaced by the
+            name of this file without its extension.
         :param images: What to do with the images of materials. If omitted, images are embedded in ``.glb`` files. For
             ``.gltf`` and ``.obj``, images in the folder of the source model are copied to the folder of the output
-            file. OBJ cannot embed images, so embedded images are also written to files.
+            file. OBJ cannot embed images, so images that are embedded in the source model are also written to files.
             ``"Embed"``: Store the images in the file or, for ``.gltf``, in its ``.bin`` file.
             ``"Copy"``: Write the images to files in the folder of the written file.
             ``"Keep"``: Write only the paths of the images, as in the original model.
@@ -133,25 +133,26 @@ class SceneOperations:
         :param quantize: The number of bits for each attribute of the geometry in ``.glb`` and ``.gltf`` files. If
             omitted, numbers are stored as 32-bit floats. ``quantize={}`` uses the default of each attribute. The report
             states the largest errors of positions, of normals and tangents, and of texture coordinates.
-            ``"position"``: The bits of each coordinate of a position. Positions are rounded to a grid that covers the
-                bounding box of the object and has the same step along all axes. The longest side of the box has 2^bits
-                - 1 steps. Positions of objects with joints or morph targets are not quantized. Defaults to 16.
-            ``"normal"``: The bits of each of the two numbers that represent a normal or a tangent as a point of an
-                octahedron. Defaults to 8.
-            ``"uv"``: The bits of each texture coordinate. A set with coordinates outside the range from 0 to 1 is not
-                quantized. Defaults to 16.
-            ``"color"``: The bits of each component of a color. Defaults to 8.
+            ``"position"``: The number of bits of each coordinate of a position. Positions are rounded to a grid that
+                covers the bounding box of the object and has the same step along all axes. The longest side of the box
+                has 2^bits - 1 steps. Positions of objects with joints or morph targets are not quantized. Defaults to
+                16.
+            ``"normal"``: The number of bits of each of the two numbers that represent a normal or a tangent. The two
+                numbers locate a point on an octahedron. Defaults to 8.
+            ``"uv"``: The number of bits of each texture coordinate. A set of texture coordinates is not quantized if a
+                coordinate is outside the range from 0 to 1. Defaults to 16.
+            ``"color"``: The number of bits of each component of a color. Defaults to 8.
         :param weight_sets: For ``.gltf`` and ``.glb``, the number of sets of four joints that are written for each
-            vertex of a skinned mesh. If omitted, the number of sets in the file that the mesh comes from, or 1 if the
-            mesh does not come from such a file.
-        :param rows: For ``.csv``, the elements that the rows list. If omitted, vertices.
+            vertex of a skinned mesh. If omitted, the number of sets in the file from which the mesh was read, or 1 if
+            this number is not known.
+        :param rows: For ``.csv``, the kind of elements that the rows list. If omitted, vertices.
             ``"Vertices"``: Vertices.
-            ``"Faces"``: Faces, at the means of their corners.
+            ``"Faces"``: Faces.
             ``"Corners"``: The corners of the faces, face by face.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Save', {'path': path, 'images': images, 'compress': compress, 'quantize': quantize, 'weight_sets': weight_sets, 'rows': rows}, on, id, progress)
 
@@ -181,8 +182,8 @@ class SceneOperations:
         :param name: The name of the new object. Defaults to the name of the operation in lower case, followed by a
             number if this name is taken.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Polygons', {'name': name, 'points': points, 'faces': faces}, None, id, progress)
 
@@ -214,8 +215,8 @@ class SceneOperations:
             b, c) and (a, c, d). Square f becomes the faces 2 f and 2 f + 1. The diagonals are 0-3, 4-7, 0-5, 1-7, 3-6
             and 2-4. Defaults to ``False``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Cube', {'name': name, 'size': size, 'center': center, 'triangles': triangles}, None, id, progress)
 
@@ -240,8 +241,8 @@ class SceneOperations:
         :param radius: The distance from the center to the vertices, in scene units. More than 0. Defaults to ``1.0``.
         :param center: The center of the tetrahedron, in scene units.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Tetrahedron', {'name': name, 'radius': radius, 'center': center}, None, id, progress)
 
@@ -265,8 +266,8 @@ class SceneOperations:
         :param radius: The distance from the center to the vertices, in scene units. More than 0. Defaults to ``1.0``.
         :param center: The center of the octahedron, in scene units.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Octahedron', {'name': name, 'radius': radius, 'center': center}, None, id, progress)
 
@@ -291,8 +292,8 @@ class SceneOperations:
         :param radius: The distance from the center to the vertices, in scene units. More than 0. Defaults to ``1.0``.
         :param center: The center of the icosahedron, in scene units.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Icosahedron', {'name': name, 'radius': radius, 'center': center}, None, id, progress)
 
@@ -320,8 +321,8 @@ class SceneOperations:
         :param size: The side length of a square, in scene units. More than 0. Defaults to ``1.0``.
         :param center: The center of the sheet, in scene units.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Grid', {'name': name, 'columns': columns, 'rows': rows, 'size': size, 'center': center}, None, id, progress)
 
@@ -339,8 +340,9 @@ class SceneOperations:
     ) -> Self:
         """Creates a torus of quadrilaterals around the z axis.
 
-        The vertices form ``around`` rings across the tube, and each ring has ``across`` vertices. Vertex j of ring i
-        has the id ``i * across + j``. Ring 0 is in the direction +x, and its vertex 0 is farthest from the axis.
+        The vertices form ``around`` rings, one for each cross section of the tube. Each ring has ``across`` vertices.
+        Vertex j of ring i has the id ``i * across + j``. Ring 0 is in the direction +x, and its vertex 0 is farthest
+        from the axis.
 
         Example: ``scene.torus(name="new", around=7, across=5, major=2, minor=0.5)``, in a recipe ``Torus(name: "new",
         around: 7, across: 5, major: 2, minor: 0.5)``
@@ -355,8 +357,8 @@ class SceneOperations:
             tube intersects itself. Defaults to ``0.25``.
         :param center: The center of the torus, in scene units.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Torus', {'name': name, 'around': around, 'across': across, 'major': major, 'minor': minor, 'center': center}, None, id, progress)
 
@@ -384,14 +386,13 @@ class SceneOperations:
         :param name: The name of the new object. Defaults to the name of the operation in lower case, followed by a
             number if this name is taken.
         :param around: The number of sides. At least 3. Defaults to 32.
-        :param radius: The distance from the axis to the edges along z, in scene units. More than 0. Defaults to
-            ``1.0``.
+        :param radius: The distance from the axis to the vertices, in scene units. More than 0. Defaults to ``1.0``.
         :param height: The height along z, in scene units. More than 0. Defaults to ``2.0``.
         :param caps: Whether the ends are closed. Defaults to ``True``.
         :param center: The center of the cylinder, in scene units.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Cylinder', {'name': name, 'around': around, 'radius': radius, 'height': height, 'caps': caps, 'center': center}, None, id, progress)
 
@@ -421,8 +422,8 @@ class SceneOperations:
         :param radius: The distance from the center to the vertices, in scene units. More than 0. Defaults to ``1.0``.
         :param center: The center of the sphere, in scene units.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('UvSphere', {'name': name, 'around': around, 'rings': rings, 'radius': radius, 'center': center}, None, id, progress)
 
@@ -441,10 +442,10 @@ class SceneOperations:
 
         Acts on all objects that consist of patches, or on the objects in ``on``. Each object becomes one mesh of the
         same name. Every patch is divided into ``segments`` x ``segments`` cells. The ids of elements follow the order
-        of the patches. Patches share no vertices, but if they have the same control points on a common side, the
-        positions of their vertices there are identical bit for bit, so that ``weld(distance=0)`` joins them. A side
-        whose points coincide, as at the pole of a teapot's lid, becomes one vertex. Zero-area patches give no faces.
-        The report counts these patches. The mesh has UVs and normals only if they are requested.
+        of the patches. Patches share no vertices. If two patches have the same control points on a common side, their
+        vertices on this side have bitwise equal positions, so that ``weld(distance=0)`` joins the patches. A side whose
+        points coincide, as at the pole of a teapot's lid, becomes one vertex. Zero-area patches give no faces. The
+        report counts these patches. The mesh has UVs and normals only if they are requested.
 
         Example: ``scene.tessellate(segments=3)``, in a recipe ``Tessellate(segments: 3)``
 
@@ -457,8 +458,8 @@ class SceneOperations:
         :param normals: Whether to store the exact unit normals of the patches as vertex normals. Defaults to ``False``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Tessellate', {'segments': segments, 'faces': faces, 'uvs': uvs, 'normals': normals}, on, id, progress)
 
@@ -473,15 +474,16 @@ class SceneOperations:
         """Replaces curves with polylines whose points lie on the curves.
 
         Each curve becomes one polyline with ``segments`` + 1 points in the plane z = 0, at the parameters 0, 1 /
-        segments, 2 / segments and so on, up to 1. The first and the last point are exactly the end control points.
+        segments, 2 / segments and so on, up to 1. The first and the last point are exactly the first and the last
+        control point of the curve.
 
         Example: ``scene.sample_curve(segments=1)``, in a recipe ``SampleCurve(segments: 1)``
 
         :param segments: The number of straight segments.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('SampleCurve', {'segments': segments}, on, id, progress)
 
@@ -504,8 +506,8 @@ class SceneOperations:
         :param t: The parameter of the point, from 0 (the start of the curve) to 1 (its end).
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('CurveLevels', {'t': t}, on, id, progress)
 
@@ -520,8 +522,8 @@ class SceneOperations:
     ) -> Self:
         """Moves one control point of curves.
 
-        The other control points do not move. The point of the curve at a parameter t moves by the offset of the control
-        point, multiplied by the value at t of the Bernstein polynomial of the control point.
+        The other control points do not move. The point of the curve at a parameter t moves by B(t) times the offset of
+        the control point, where B is the Bernstein polynomial of the control point.
 
         Example: ``scene.move_control_point(index=1, to=(2, -3.5))``, in a recipe ``MoveControlPoint(index: 1, to: (2,
         -3.5))``
@@ -531,8 +533,8 @@ class SceneOperations:
         :param to: The new position: ``(x, y)`` in the plane z = 0, in scene units.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('MoveControlPoint', {'index': index, 'to': to}, on, id, progress)
 
@@ -549,8 +551,8 @@ class SceneOperations:
 
         Acts on all objects that consist of patches, or on the objects in ``on``. Control points of the same object that
         are at the same position move together, so that patches with a common side stay joined. The point of a patch at
-        the parameters (u, v) moves by the offset of the control point, multiplied by the values at u and v of the
-        Bernstein polynomials of the control point. The report counts the objects.
+        the parameters (u, v) moves by B(u) C(v) times the offset of the control point, where B and C are the Bernstein
+        polynomials of its column and its row. The report counts the objects.
 
         Example: ``scene.move_patch_point(index=5, to=(1, 2, 0.5))``, in a recipe ``MovePatchPoint(index: 5, to: (1, 2,
         0.5))``
@@ -560,8 +562,8 @@ class SceneOperations:
         :param to: The new position ``(x, y, z)``, in scene units.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('MovePatchPoint', {'index': index, 'to': to}, on, id, progress)
 
@@ -583,8 +585,8 @@ class SceneOperations:
         :param from_: The name of the object to copy.
         :param to: The name of the new object.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Copy', {'from': from_, 'to': to}, None, id, progress)
 
@@ -604,8 +606,8 @@ class SceneOperations:
 
         :param objects: The names of the objects. All of these objects must exist.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Delete', {'objects': objects}, None, id, progress)
 
@@ -619,16 +621,16 @@ class SceneOperations:
     ) -> Self:
         """Renames an object.
 
-        The order of the objects does not change. If a node or mesh of the object has the same name as the object, it
-        also gets the new name.
+        The order of the objects does not change. If a node or mesh of the object has the same name as the object, this
+        node or mesh also gets the new name.
 
         Example: ``scene.rename(from_="mesh", to="new")``, in a recipe ``Rename(from: "mesh", to: "new")``
 
         :param from_: The current name.
         :param to: The new name.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Rename', {'from': from_, 'to': to}, None, id, progress)
 
@@ -646,10 +648,10 @@ class SceneOperations:
         Each mesh becomes a part of the result. The ids of vertices, edges and faces follow the parts, in the order of
         the list. The parts are not connected, even where they touch. The result replaces the first mesh of the list in
         the scene; the other meshes are removed. If nodes place a part, the result contains a copy of the part for each
-        node, with the transform of the node applied to its points. If there are skinned parts, and all skinned parts
-        have the same skin and one node each, the result keeps this skin and one node. The parts without a skin then
-        follow the first joint. Otherwise, no node places the result. The names and default weights of morph targets are
-        kept if they are the same for all parts with morph targets.
+        node, with the transform of the node applied to its points. If there are skinned parts, and they all have the
+        same skin and one node each, the result keeps this skin and one of these nodes. The parts without a skin then
+        follow the first joint of the skin. In all other cases, no node places the result. The names and default weights
+        of morph targets are kept if they are the same for all parts with morph targets.
 
         If a part lacks an attribute that another part has, the elements of this part get the value zero, or -1 (no
         material) for material indices. Normals are dropped and reported as lost unless all parts have them. If an
@@ -664,8 +666,8 @@ class SceneOperations:
         :param tag_parts: Whether to tag the faces of each part with the name of the part, so that
             ``sel.Tagged("head")`` selects them in later steps. Defaults to ``True``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Join', {'objects': objects, 'name': name, 'tag_parts': tag_parts}, None, id, progress)
 
@@ -685,11 +687,12 @@ class SceneOperations:
         all materials. Vertices without a face are dropped. The report counts them. The step fails if the mesh has no
         faces.
 
-        If nodes place the object, they place the first part after the step. Each of these nodes gets children that
-        place the other parts.
+        Nodes that placed the object place the first part instead. Each of these nodes gets children that place the
+        other parts.
 
-        If parts of one component are separated, the edges and vertices between them are copied to both parts. If the
-        faces of a part around a vertex form several fans, each fan gets a separate copy of the vertex.
+        If parts of one component are separated, the edges and vertices between two parts are copied, so that each part
+        has its own. If the faces of a part around a vertex form several fans, each fan gets a separate copy of the
+        vertex.
 
         Example: ``scene.separate(object="mesh")``, in a recipe ``Separate(object: "mesh")``
 
@@ -703,8 +706,8 @@ class SceneOperations:
             parts are not known before the recipe runs, so the object names in later steps cannot be checked before the
             run.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Separate', {'object': object, 'by': by, 'count': count}, None, id, progress)
 
@@ -749,13 +752,13 @@ class SceneOperations:
             ``"Origin"``: The origin.
             ``"Center"``: The center of the bounding box of each object.
             ``choice.Point(..)``: A point with the coordinates x, y, z.
-        :param space: The coordinates in which objects move. Defaults to ``"Scene"``.
+        :param space: The coordinate system in which objects are scaled, rotated and moved. Defaults to ``"Scene"``.
             ``"Scene"``: The space of the scene.
             ``"Object"``: The space of each object.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Transform', {'scale': scale, 'rotate': rotate, 'move': move, 'about': about, 'space': space}, on, id, progress)
 
@@ -773,11 +776,11 @@ class SceneOperations:
     ) -> Self:
         """Places copies of an object on a surface, at random and evenly spread.
 
-        Exactly ``count`` points are chosen so that they keep their distance from each other (Yuksel, "Sample
-        Elimination for Generating Poisson Disk Sample Sets", 2015). Each copy is a node that references the object (an
-        instance), so copies need almost no memory, and almost no space in ``.gltf``, ``.glb`` and ``.mws`` files. The
-        node moves the origin of the object to the point. To make one mesh of all copies, use ``join()`` afterwards. If
-        no node placed the object before the step, the object then appears only at the points.
+        Exactly ``count`` points are chosen so that no two of them are close together (Yuksel, "Sample Elimination for
+        Generating Poisson Disk Sample Sets", 2015). Each copy is a node that references the object (an instance), so
+        copies need almost no memory, and almost no space in ``.gltf``, ``.glb`` and ``.mws`` files. The node moves the
+        origin of the object to the point. To make one mesh of all copies, use ``join()`` afterwards. If no node placed
+        the object before the step, the object then appears only at the points.
 
         Without ``object``, the result is a mesh that consists of the points and has no faces. The normals of its
         vertices are those of the surface.
@@ -797,8 +800,8 @@ class SceneOperations:
             ``"Z"``: The z axis.
         :param name: Without ``object``, the name of the mesh of points. Defaults to ``points``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Scatter', {'object': object, 'surface': surface, 'count': count, 'seed': seed, 'align': align, 'name': name}, None, id, progress)
 
@@ -814,16 +817,17 @@ class SceneOperations:
 
         Vertices at most ``distance`` apart are linked, and vertices that are connected by a chain of links merge into
         one, even if the ends of the chain are farther apart than ``distance``. The merged vertex has the position and
-        the values of the vertex with the lowest id. The other vertices are removed, so the ids of later vertices
-        change. Edges between the same two vertices become one edge with the values of the first edge. Corner values
-        stay with their corners, so UV seams are kept.
+        the values of the vertex with the lowest id. The other vertices are removed, so the ids of the vertices after
+        them change. Edges between the same two vertices become one edge with the values of the first edge. Corner
+        values stay with their corners, so UV seams are kept.
 
         If neighboring corners of a face merge, the face loses a corner. A face is removed if it has fewer than three
-        corners left or would contain a vertex twice. If joined faces have opposite orientations, the smaller group is
-        reversed, provided that all orientations then agree. If faces are reversed, the report counts them, and the
-        normals of vertices and corners are dropped. Where the result would still not be manifold, vertices and edges
-        are copied. For example, a third face at an edge gets a copy of the edge. The report counts the copies. If no
-        vertices merge, the mesh does not change.
+        corners left or would contain a vertex twice. Joined faces may have opposite orientations. If the orientations
+        in a connected part can be made to agree, its faces form two groups of equal orientation, and all faces of the
+        smaller group are reversed. If faces are reversed, the report counts them, and the normals of vertices and
+        corners are dropped. Where the result would still not be manifold, vertices and edges are copied. For example, a
+        third face at an edge gets a copy of the edge. The report counts the copies. If no vertices merge, the mesh does
+        not change.
 
         Example: ``scene.weld(distance=0)``, in a recipe ``Weld(distance: 0)``
 
@@ -831,8 +835,8 @@ class SceneOperations:
             positions merge.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Weld', {'distance': distance}, on, id, progress)
 
@@ -858,8 +862,8 @@ class SceneOperations:
             ``"Boundary"``, ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Reverse', {'faces': faces}, on, id, progress)
 
@@ -874,17 +878,18 @@ class SceneOperations:
         """Cuts polygons into triangles.
 
         A quadrilateral is cut along its shorter diagonal. If both diagonals have the same length (the relative
-        difference of their squared lengths is at most 1e-12), it is cut along the diagonal at its vertex with the
-        lowest id. A diagonal that gives a zero-area triangle, or a triangle that is turned over relative to the normal
-        of the face, is avoided, unless the other diagonal has the same problem. A quadrilateral with a reflex corner is
-        therefore cut at that corner. If a diagonal would join two vertices that are already joined by an edge or
-        another diagonal, the other diagonal is chosen where possible. The report counts the duplicate diagonals that
-        remain.
+        difference of their squared lengths is at most 1e-12), the quadrilateral is cut along the diagonal at its vertex
+        with the lowest id. A diagonal is avoided if it gives a zero-area triangle or a triangle that is turned over
+        relative to the normal of the face, unless the other diagonal has the same problem. A quadrilateral with a
+        reflex corner is therefore cut at that corner. If a diagonal would join two vertices that are already joined by
+        an edge or another diagonal, the other diagonal is chosen where possible. The report counts the duplicate
+        diagonals that remain.
 
-        A face with more than four corners is projected along its normal and cut by ear clipping. Then diagonals are
-        flipped until the triangulation is a constrained Delaunay triangulation. A face that cannot be triangulated in
-        this way, because it has zero area, its sides cross, or it has more than ten million corners, becomes a triangle
-        fan around its vertex with the lowest id. The report counts these faces.
+        A face with more than four corners is projected along its normal. It is then cut by ear clipping, or into
+        monotone pieces if it has more than 4096 corners. Then diagonals are flipped until the triangulation is a
+        constrained Delaunay triangulation. Some faces cannot be triangulated in this way, because they have zero area,
+        their sides cross, or they have more than ten million corners. Each of these faces becomes a triangle fan around
+        its vertex with the lowest id. The report counts them.
 
         The triangles of a face take its place in the order of the faces and have its values. Vertices and edges keep
         their ids. The corners of the triangles have the values of the corners of the face at the same vertices.
@@ -895,8 +900,8 @@ class SceneOperations:
             value of ``meshwright.sel``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Triangulate', {'faces': faces}, on, id, progress)
 
@@ -951,8 +956,8 @@ class SceneOperations:
             ``"Drop"``: Edit anyway.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('FlipEdges', {'edges': edges, 'until': until, 'passes': passes, 'on_refusal': on_refusal, 'seams': seams}, on, id, progress)
 
@@ -968,11 +973,11 @@ class SceneOperations:
     ) -> Self:
         """Inserts a vertex on each edge and joins it to the opposite corners of the triangles beside the edge.
 
-        In a mesh of triangles, a split adds 1 vertex, 3 edges and 2 faces, or 1 vertex, 2 edges and 1 face on the
-        boundary. If a face beside the edge has more than three corners, the face is not cut and only gains the new
-        vertex as a corner. Edges are split in order of their ids; new edges are not split again. New vertices get the
-        highest ids, in the order of the splits. Values at the new vertex and its corners are interpolated between the
-        ends, on each side of a seam separately.
+        In a mesh of triangles, a split adds 1 vertex, 3 edges and 2 faces. A split of a boundary edge adds 1 vertex, 2
+        edges and 1 face. If a face beside the edge has more than three corners, the face is not cut and only gains the
+        new vertex as a corner. Edges are split in order of their ids; new edges are not split again. New vertices get
+        the highest ids, in the order of the splits. Values at the new vertex and its corners are interpolated between
+        the ends of the edge, on each side of a seam separately.
 
         Example: ``scene.split_edges(edges="All")``, in a recipe ``SplitEdges(edges: All)``
 
@@ -985,8 +990,8 @@ class SceneOperations:
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('SplitEdges', {'edges': edges, 'at': at, 'on_refusal': on_refusal}, on, id, progress)
 
@@ -1002,10 +1007,10 @@ class SceneOperations:
     ) -> Self:
         """Collapses edges, so that the two ends of each edge become one vertex.
 
-        In a mesh of triangles, a collapse removes 1 vertex, 3 edges and 2 faces or, on the boundary, 1 vertex, 2 edges
-        and 1 face. If a face beside the edge has more than three corners, the face is not removed and only loses a
-        corner. Of the two ends, the vertex with the lower id is kept. Edges are collapsed in order of their ids. An
-        edge that an earlier collapse removed counts as refused.
+        In a mesh of triangles, a collapse removes 1 vertex, 3 edges and 2 faces. A collapse of a boundary edge removes
+        1 vertex, 2 edges and 1 face. If a face beside the edge has more than three corners, the face is not removed and
+        only loses a corner. Of the two ends, the vertex with the lower id is kept. Edges are collapsed in order of
+        their ids. An edge that an earlier collapse removed counts as refused.
 
         A collapse is refused if it would change the topology of the surface or make elements coincide:
 
@@ -1019,9 +1024,9 @@ class SceneOperations:
         - ``SameFace``: the same face is on both sides of the edge, or would be on both sides of another edge.
         - ``SameOpposite``: the two triangles beside the edge share another edge.
 
-        Values at the remaining vertex and its corners are interpolated between the ends, on each side of a seam
-        separately. When two edges become one, the remaining edge has the larger of the two creases, and the tags of
-        both. Normals are dropped.
+        Values at the remaining vertex and its corners are interpolated between the ends of the edge, on each side of a
+        seam separately. When two edges become one, the remaining edge has the larger of the two creases, and the tags
+        of both. Normals are dropped.
 
         Example: ``scene.collapse_edges(edges="All", on_refusal="Skip")``, in a recipe ``CollapseEdges(edges: All,
         on_refusal: Skip)``
@@ -1034,8 +1039,8 @@ class SceneOperations:
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('CollapseEdges', {'edges': edges, 'at': at, 'on_refusal': on_refusal}, on, id, progress)
 
@@ -1072,8 +1077,8 @@ class SceneOperations:
             ``"Drop"``: Edit anyway.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('DissolveEdges', {'edges': edges, 'on_refusal': on_refusal, 'seams': seams}, on, id, progress)
 
@@ -1090,18 +1095,18 @@ class SceneOperations:
     ) -> Self:
         """Replaces edges with faces of constant width.
 
-        A selected edge and both of its ends are removed, and a new face replaces the edge. In both faces beside the
-        edge, the new face ends at the distance ``width`` from the old edge. An edge that is not selected, but shares an
-        end with a selected edge, is cut near this end. If the two edges are neighboring sides of a face, the cut is
-        where the distance from the selected edge is ``width``, but at most four times ``width`` from the end.
+        A selected edge and both of its ends are removed, and a new face replaces the edge. The new face extends into
+        both faces beside the old edge, up to the distance ``width`` from this edge. An edge that is not selected, but
+        shares an end with a selected edge, is cut near this end. If the two edges are neighboring sides of a face, the
+        cut is where the distance from the selected edge is ``width``, but at most four times ``width`` from the end.
         Otherwise, the cut is at the distance ``width`` from the end. Where two selected edges are neighboring sides of
         a face, the new vertex lies inside this face. If three or more new vertices surround an old vertex, another new
         face joins them. All edges are beveled together, so a cube that is beveled at all edges keeps all of its
         symmetries.
 
-        The ends of the edges are removed, so the ids of later vertices change. New vertices get the highest ids. Faces
-        keep their ids. New faces get the highest ids: first the faces of edges, in order of the edges, then the faces
-        of vertices. Edges get new ids.
+        The ends of the edges are removed, so the ids of the vertices after them change. New vertices get the highest
+        ids. Faces keep their ids. New faces get the highest ids: first the faces of edges, in order of the edges, then
+        the faces of vertices. Edges get new ids.
 
         A new vertex has the values of the old face at its position, so textures do not change. A new face has the
         values (material, tags) of one of the old faces beside it. Which face is not specified, but the choice is the
@@ -1115,8 +1120,8 @@ class SceneOperations:
         2), width: 0.25)``
 
         :param edges: The edges to bevel. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
-        :param width: The distance between the beveled edge and the new edges in each of its two faces, in scene units.
-            Either ``width`` or ``fraction`` must be given.
+        :param width: The distance from the beveled edge to the new edge in each of the two faces beside it, in scene
+            units. Either ``width`` or ``fraction`` must be given.
         :param fraction: The width as a fraction of the length of the shortest edge at the ends of the selected edges.
             From 0 to 1, exclusive.
         :param on_refusal: What to do when an edge cannot be beveled. Defaults to ``"Error"``.
@@ -1124,8 +1129,8 @@ class SceneOperations:
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('BevelEdges', {'edges': edges, 'width': width, 'fraction': fraction, 'on_refusal': on_refusal}, on, id, progress)
 
@@ -1143,9 +1148,9 @@ class SceneOperations:
 
         Sets the edge attribute ``crease`` of the selected edges and the vertex attribute ``corner`` of the selected
         vertices to ``sharpness``. Other elements keep their values, or get 0 if the attribute did not exist. Loop and
-        Catmull-Clark subdivision keep an edge or a vertex sharp for this number of levels and smooth it in later
-        levels. For example, an edge with sharpness 2.5 is sharp for two levels and half sharp in the third level. With
-        sharpness 10, an edge is sharp at every level. Boundary edges are always sharp.
+        Catmull-Clark subdivision keep an edge or a vertex sharp for as many levels as its sharpness, and smooth it in
+        later levels. For example, an edge with sharpness 2.5 is sharp for two levels and half sharp in the third level.
+        With sharpness 10, an edge is sharp at every level. Boundary edges are always sharp.
 
         At least one of ``edges`` and ``vertices`` must be given. The geometry does not change. The report counts the
         elements whose value changed.
@@ -1161,8 +1166,8 @@ class SceneOperations:
             a value of ``meshwright.sel``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Crease', {'edges': edges, 'vertices': vertices, 'sharpness': sharpness}, on, id, progress)
 
@@ -1181,11 +1186,11 @@ class SceneOperations:
         A face with n corners becomes n triangles. Each poked face adds 1 vertex, n edges and n - 1 faces. The first
         triangle keeps the id of the face; the other triangles and the new vertices and edges get the highest ids, in
         order of the faces. The new vertex is at the mean of the corners, moved along the normal of the face by
-        ``distance``. If edits interpolate a vertex or corner attribute, its value at the new vertex is also the mean of
-        the values at the corners. The triangles have the values of their face, and the new edges have zero values (no
-        crease, no tags). If ``distance`` is not 0, normals are dropped.
+        ``distance``. For vertex and corner attributes that edits interpolate, the value at the new vertex is also the
+        mean of the values at the corners. The triangles have the values of their face, and the new edges have zero
+        values (no crease, no tags). If ``distance`` is not 0, normals are dropped.
 
-        A face cannot be split if it contains a vertex twice, if the position of the new vertex would not be finite, or
+        A face cannot be poked if it contains a vertex twice, if the position of the new vertex would not be finite, or
         if the mesh already has the largest supported number of elements.
 
         Example: ``scene.poke_faces()``, in a recipe ``PokeFaces()``
@@ -1195,13 +1200,13 @@ class SceneOperations:
         :param distance: The distance of the vertex from the center along the normal of the face, in scene units. A
             negative distance moves the vertex inwards. A zero-area face has no normal, so its vertex is at the center.
             Defaults to ``0.0``.
-        :param on_refusal: What to do when a face cannot be split. Defaults to ``"Error"``.
+        :param on_refusal: What to do when a face cannot be poked. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('PokeFaces', {'faces': faces, 'distance': distance, 'on_refusal': on_refusal}, on, id, progress)
 
@@ -1233,8 +1238,8 @@ class SceneOperations:
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('SplitFaces', {'between': between, 'on_refusal': on_refusal}, on, id, progress)
 
@@ -1270,8 +1275,8 @@ class SceneOperations:
         :param keep_vertices: Whether to keep vertices that are left without an edge. Defaults to ``False``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('DeleteFaces', {'faces': faces, 'on_refusal': on_refusal, 'keep_vertices': keep_vertices}, on, id, progress)
 
@@ -1304,10 +1309,10 @@ class SceneOperations:
         face.
 
         A side face has the values of the adjacent moved face (material, tags). The corners of a side face have the
-        values of the corners of the moved face, so textures have no seam there. Each side face, however, shows only one
-        line of the texture (the line along its edge), stretched over the face. The new edges of the rim have the values
-        of the old ones (creases, tags), and the edges between the old and the new rim have zero values (no crease, no
-        tags). Normals are dropped.
+        values of the corners of the moved face, so textures have no seam between the two faces. However, a side face
+        shows only the line of the texture along the edge of the moved face, stretched over the side face. The new edges
+        of the rim have the values of the old ones (creases, tags), and the edges between the old and the new rim have
+        zero values (no crease, no tags). Normals are dropped.
 
         Example: ``scene.extrude_faces(faces=sel.Faces([0]), by=choice.Distance(0.5))``, in a recipe
         ``ExtrudeFaces(faces: Faces([0]), by: Distance(0.5))``
@@ -1326,8 +1331,8 @@ class SceneOperations:
             If omitted, no faces are tagged.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('ExtrudeFaces', {'faces': faces, 'by': by, 'scale': scale, 'rotate': rotate, 'tag': tag}, on, id, progress)
 
@@ -1359,15 +1364,15 @@ class SceneOperations:
 
         :param faces: The faces to inset. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
             ``meshwright.sel``.
-        :param fraction: The position of the corners of the inner face on the lines from the old corners to the center
-            of the face. From 0 (the corner) to 1 (the center), exclusive.
+        :param fraction: The position of each corner of the inner face on the line from the old corner to the center of
+            the face. From 0 (the old corner) to 1 (the center), exclusive.
         :param on_refusal: What to do when a face cannot be inset. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('InsetFaces', {'faces': faces, 'fraction': fraction, 'on_refusal': on_refusal}, on, id, progress)
 
@@ -1401,8 +1406,8 @@ class SceneOperations:
 
         :param faces: The faces to bevel. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
             ``meshwright.sel``.
-        :param fraction: The position of the corners of the inner face on the lines from the old corners to the center
-            of the face. From 0 (the corner) to 1 (the center), exclusive.
+        :param fraction: The position of each corner of the inner face on the line from the old corner to the center of
+            the face. From 0 (the old corner) to 1 (the center), exclusive.
         :param distance: The distance by which the inner face moves along its normal, in scene units. A negative
             distance moves the inner face inwards.
         :param on_refusal: What to do when a face cannot be beveled. Defaults to ``"Error"``.
@@ -1410,8 +1415,8 @@ class SceneOperations:
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('BevelFaces', {'faces': faces, 'fraction': fraction, 'distance': distance, 'on_refusal': on_refusal}, on, id, progress)
 
@@ -1451,8 +1456,8 @@ class SceneOperations:
             ``"Drop"``: Edit anyway.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('DissolveVertices', {'vertices': vertices, 'on_refusal': on_refusal, 'seams': seams}, on, id, progress)
 
@@ -1472,9 +1477,9 @@ class SceneOperations:
         joins the cuts. The new face has as many corners as the vertex had edges. If both ends of an edge are selected,
         the fraction must be below 0.5. For example, a fraction of 0.25 turns a cube into a truncated cube.
 
-        The selected vertices are removed, so the ids of later vertices change. New vertices get the highest ids, in
-        order of the selected vertices and clockwise around each vertex. Faces keep their ids; new faces get the highest
-        ids, in order of the vertices.
+        The selected vertices are removed, so the ids of the vertices after them change. New vertices get the highest
+        ids, in order of the selected vertices and clockwise around each vertex. Faces keep their ids; new faces get the
+        highest ids, in order of the vertices.
 
         Values at the cuts are interpolated between the ends of the edge, so textures do not change. A new face has the
         values (material, tags) of one of the faces at the vertex. Which of the faces is not specified, but the choice
@@ -1495,8 +1500,8 @@ class SceneOperations:
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('BevelVertices', {'vertices': vertices, 'fraction': fraction, 'on_refusal': on_refusal}, on, id, progress)
 
@@ -1522,8 +1527,8 @@ class SceneOperations:
             ``"Uniform"``: The same weight for all faces.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('VertexNormals', {'weight': weight}, on, id, progress)
 
@@ -1550,8 +1555,8 @@ class SceneOperations:
         :param uv: The name of the texture coordinates of the normal map. Defaults to ``uv``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Tangents', {'uv': uv}, on, id, progress)
 
@@ -1572,10 +1577,10 @@ class SceneOperations:
         a boundary loop; use ``around`` or ``max_edges`` to exclude it. No vertices are added, and existing elements
         keep their ids. A hole with n edges gets 1 face with n corners, or n - 2 triangles and n - 3 edges.
 
-        For holes with up to 500 edges, the triangles have the smallest possible total area. Larger holes are filled by
-        cutting off one corner after the other, in each case the corner whose two neighbors are closest to each other;
-        straight and reflex corners come last. If the hole is far from convex, the triangles may overlap. Two vertices
-        that are already joined by an edge are not joined again. If no triangulation without such a second edge is
+        For holes with up to 500 edges, the triangles have the smallest possible total area. In larger holes, a triangle
+        is added at one corner after the other, each time at the corner whose two neighbors are closest to each other.
+        Straight and reflex corners come last. If the hole is far from convex, the triangles may overlap. Two vertices
+        that are already joined by an edge are not joined by a second edge. If no triangulation without second edges is
         found, the hole cannot be filled (``DuplicateEdge``). A hole with two edges cannot be filled either
         (``WrongPlace``); ``stitch()`` closes it.
 
@@ -1595,8 +1600,8 @@ class SceneOperations:
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('FillHoles', {'around': around, 'max_edges': max_edges, 'with': with_, 'on_refusal': on_refusal}, on, id, progress)
 
@@ -1630,8 +1635,8 @@ class SceneOperations:
         :param second: The id of the vertex on the second hole that is joined to ``first``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('BridgeLoops', {'first': first, 'second': second}, on, id, progress)
 
@@ -1647,13 +1652,13 @@ class SceneOperations:
         """Joins boundary edges that coincide.
 
         Two boundary edges coincide if both pairs of corresponding ends are at most ``distance`` apart. Two edges that
-        coincide only with each other form a pair. Choose a distance below the lengths of the edges. An edge that
-        coincides with several edges cannot be joined (``NonManifold``), and none of these edges are joined. Unlike
-        ``weld()``, this operation never merges vertices inside the surface or vertices whose edges do not coincide.
+        coincide only with each other form a pair. Choose a distance below the lengths of the edges. If an edge
+        coincides with several edges, neither this edge nor the others are joined (``NonManifold``). Unlike ``weld()``,
+        this operation never merges vertices inside the surface or vertices whose edges do not coincide.
 
         Of each pair of vertices or edges, the one with the lower id keeps its position and its values. The other vertex
-        or edge is removed, so the ids of later elements change. Faces and corners do not change, so an edge whose sides
-        have different UVs becomes a seam. Remaining holes with two edges are also closed.
+        or edge is removed, so the ids of the vertices or edges after it change. Faces and corners do not change, so an
+        edge whose sides have different UVs becomes a seam. Remaining holes with two edges are also closed.
 
         A pair cannot be joined if both edges belong to the same face (``SameFace``), if the ends of an edge would
         become one vertex or a face would contain a vertex twice (``WrongPlace``), or if two edges would join the same
@@ -1669,8 +1674,8 @@ class SceneOperations:
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Stitch', {'distance': distance, 'on_refusal': on_refusal}, on, id, progress)
 
@@ -1703,8 +1708,8 @@ class SceneOperations:
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Cut', {'edges': edges, 'on_refusal': on_refusal}, on, id, progress)
 
@@ -1733,8 +1738,8 @@ class SceneOperations:
             ``"Isolated"``, or a value of ``meshwright.sel``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('TagVertices', {'name': name, 'vertices': vertices}, on, id, progress)
 
@@ -1762,8 +1767,8 @@ class SceneOperations:
             ``meshwright.sel``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('TagEdges', {'name': name, 'edges': edges}, on, id, progress)
 
@@ -1791,8 +1796,8 @@ class SceneOperations:
             ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('TagFaces', {'name': name, 'faces': faces}, on, id, progress)
 
@@ -1858,8 +1863,8 @@ class SceneOperations:
             or a value of ``meshwright.sel``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('LoopSubdivide', {'levels': levels, 'until': until, 'weights': weights, 'boundary': boundary, 'creasing': creasing, 'face_varying': face_varying, 'to_limit': to_limit, 'faces': faces}, on, id, progress)
 
@@ -1922,8 +1927,8 @@ class SceneOperations:
             value of ``meshwright.sel``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('CatmullClark', {'levels': levels, 'until': until, 'boundary': boundary, 'creasing': creasing, 'face_varying': face_varying, 'to_limit': to_limit, 'faces': faces}, on, id, progress)
 
@@ -1947,8 +1952,8 @@ class SceneOperations:
         edges 2e and 2e + 1. Triangle f becomes faces 4f to 4f + 3. The ids of quads follow the order of the faces, and
         the vertex at the center of face f has the id V + E + f.
 
-        Vertex attributes are interpolated. Corner values are interpolated within one old face. Parts of an edge or a
-        face copy the values of the old edge or face, including sharpness. Normals are dropped.
+        Vertex attributes are interpolated. Corner values are interpolated within each old face separately. Parts of an
+        edge or a face copy the values of the old edge or face, including sharpness. Normals are dropped.
 
         Example: ``scene.midpoint(levels=2, into="Quads")``, in a recipe ``Midpoint(levels: 2, into: Quads)``
 
@@ -1968,8 +1973,8 @@ class SceneOperations:
             ``meshwright.sel``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Midpoint', {'levels': levels, 'until': until, 'into': into, 'faces': faces}, on, id, progress)
 
@@ -1990,8 +1995,8 @@ class SceneOperations:
         2e and 2e + 1, and face f becomes faces 4f to 4f + 3. All faces must be triangles.
 
         Vertex attributes are interpolated with the weights of the positions, and corner values are interpolated
-        linearly within one old triangle. Parts of an edge or a triangle copy the values of the old edge or triangle.
-        Normals are dropped, because they would be wrong. Sharpness has no effect and is copied unchanged.
+        linearly within each old triangle separately. Parts of an edge or a triangle copy the values of the old edge or
+        triangle. Normals are dropped, because they would be wrong. Sharpness has no effect and is copied unchanged.
 
         Example: ``scene.butterfly(levels=1)``, in a recipe ``Butterfly(levels: 1)``
 
@@ -2003,8 +2008,8 @@ class SceneOperations:
                 than ``below``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Butterfly', {'levels': levels, 'until': until}, on, id, progress)
 
@@ -2026,10 +2031,10 @@ class SceneOperations:
         boundary edges, but two steps of one level leave the boundary unchanged.
 
         Vertex attributes are smoothed with the weights of the positions. Corner values are interpolated linearly within
-        one old triangle. A triangle next to a flipped edge covers parts of two old triangles. If the old edge was a
-        seam, the triangle mixes texture coordinates of both sides, which distorts textures. New triangles copy the
-        values of their old triangle. Parts of a boundary edge copy the values of the edge; other edges have zero values
-        (no crease, no tags). Normals are dropped, because they would be wrong.
+        each old triangle separately. A triangle next to a flipped edge covers parts of two old triangles. If the old
+        edge was a seam, the triangle mixes texture coordinates of both sides, which distorts textures. New triangles
+        copy the values of their old triangle. Parts of a boundary edge copy the values of the edge; other edges have
+        zero values (no crease, no tags). Normals are dropped, because they would be wrong.
 
         Example: ``scene.sqrt3(levels=1)``, in a recipe ``Sqrt3(levels: 1)``
 
@@ -2041,8 +2046,8 @@ class SceneOperations:
                 than ``below``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Sqrt3', {'levels': levels, 'until': until}, on, id, progress)
 
@@ -2063,11 +2068,11 @@ class SceneOperations:
         vertices follow. Isolated vertices are kept. Their ids follow the ids of all other vertices. Isolated vertices
         and inner vertices of valence 2 do not become faces.
 
-        Vertex attributes are smoothed with the weights of the positions. Corner values are smoothed within one old
-        face. The new faces at edges and vertices mix corner values of several old faces. At a seam, this distorts
-        textures. A face inside an old face copies the values of the old face; the face of an edge or a vertex copies
-        the values of an adjacent face. The two edges along an old edge copy its values; other edges have zero values
-        (no crease, no tags). Normals are dropped, because they would be wrong.
+        Vertex attributes are smoothed with the weights of the positions. Corner values are smoothed within each old
+        face separately. The new faces at edges and vertices mix corner values of several old faces. At a seam, this
+        distorts textures. A face inside an old face copies the values of the old face; the face of an edge or a vertex
+        copies the values of an adjacent face. The two edges along an old edge copy its values; other edges have zero
+        values (no crease, no tags). Normals are dropped, because they would be wrong.
 
         Example: ``scene.doo_sabin(levels=1)``, in a recipe ``DooSabin(levels: 1)``
 
@@ -2079,8 +2084,8 @@ class SceneOperations:
                 than ``below``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('DooSabin', {'levels': levels, 'until': until}, on, id, progress)
 
@@ -2123,8 +2128,8 @@ class SceneOperations:
             no edges are tagged.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Bisect', {'point': point, 'normal': normal, 'keep': keep, 'tag': tag}, on, id, progress)
 
@@ -2159,8 +2164,8 @@ class SceneOperations:
             ``"Back"``: The side that the normal points away from.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Symmetrize', {'point': point, 'normal': normal, 'from': from_}, on, id, progress)
 
@@ -2196,7 +2201,8 @@ class SceneOperations:
           (Hoppe, 1999), and new vertices get the values that fit best. Values are never mixed across a line, and no
           triangle is turned over in the texture. Normals are kept, so that a simplified mesh is shaded like the
           original.
-        - Vertex tags: vertices with different tags, whole numbers or sharpness are not merged.
+        - Vertex tags: vertices with different tags, different sharpness, or different values of a whole-number
+          attribute are not merged.
 
         In a texture, the border of a chart is also simplified, and can then cross a chart that is close to it. The
         report counts the faces that overlap. To leave more space between charts, use ``pack_uvs()`` with a larger
@@ -2230,8 +2236,8 @@ class SceneOperations:
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Simplify', {'faces': faces, 'ratio': ratio, 'error': error, 'features': features, 'pin': pin, 'intersections': intersections, 'on_refusal': on_refusal}, on, id, progress)
 
@@ -2246,7 +2252,7 @@ class SceneOperations:
         id: str | None = None,
         progress: bool | Progress | None = None,
     ) -> Self:
-        """Makes simplified copies of an object, its levels of detail.
+        """Makes levels of detail: simplified copies of an object.
 
         The copies are named after the object, for example ``rock_lod1``, ``rock_lod2`` and so on. Each copy is made
         from the previous copy in the same way as with ``simplify()``, and keeps the same attributes, materials and
@@ -2259,7 +2265,7 @@ class SceneOperations:
         :param from_: The name of the object.
         :param ratios: The number of faces of each copy, as a fraction of the number of faces of the object. Each
             fraction must be smaller than the previous one.
-        :param to: The text before the number in the names of the copies. If omitted, the name of the object and
+        :param to: The text before the number in the names of the copies. If omitted, the name of the object followed by
             ``_lod``.
         :param features: Edges to keep as lines, in addition to the lines that ``simplify()`` always keeps. For example,
             ``sel.Sharp(above=30)``. If omitted, no additional edges. ``"All"``, ``"Boundary"``, or a value of
@@ -2268,8 +2274,8 @@ class SceneOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Lods', {'from': from_, 'ratios': ratios, 'to': to, 'features': features, 'on_refusal': on_refusal}, None, id, progress)
 
@@ -2343,8 +2349,8 @@ class SceneOperations:
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Remesh', {'length': length, 'curvature': curvature, 'features': features, 'error': error, 'pin': pin, 'passes': passes, 'on_refusal': on_refusal}, on, id, progress)
 
@@ -2397,8 +2403,8 @@ class SceneOperations:
             all moved vertices along their normals by the same distance. The mesh must be closed. Defaults to ``False``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Smooth', {'by': by, 'passes': passes, 'vertices': vertices, 'pin': pin, 'boundary': boundary, 'keep_volume': keep_volume}, on, id, progress)
 
@@ -2415,11 +2421,11 @@ class SceneOperations:
         """Copies attributes from the nearest points of another object.
 
         An attribute of vertices, corners or faces of the object ``from_`` becomes an attribute of the same kind of
-        elements of the changed mesh. Numbers and vectors of vertices and corners are interpolated inside the face of
-        the nearest point. Whole numbers, tags, and attributes that edits do not interpolate are copied from the nearest
-        corner of this face. Values of faces are copied from the face of the nearest point. If the attribute already
-        exists with the same type of values, it is overwritten. If its type is different, the step fails. Without
-        ``on``, the step acts on all meshes except ``from_``.
+        elements of the changed mesh. Numbers and vectors of vertices and corners are interpolated inside the face that
+        contains the nearest point. Whole numbers, tags, and attributes that edits do not interpolate are copied from
+        the nearest corner of this face. Values of faces are copied from the face that contains the nearest point. If
+        the attribute already exists with the same type of values, it is overwritten. If its type is different, the step
+        fails. Without ``on``, the step acts on all meshes except ``from_``.
 
         All corners of a face take their values from one side of each seam, so no triangle is stretched across a seam of
         texture coordinates. Usually this is the side at the center of the face. Seams divide the source into charts. If
@@ -2427,8 +2433,8 @@ class SceneOperations:
         the corner are used. This happens where parts of the source intersect.
 
         Elements whose distance from the source exceeds ``within`` keep their values, or get zeros if the attribute is
-        new. If the distance of a corner or of the center of a face exceeds ``within``, this applies to all corners of
-        the face. The report counts these elements.
+        new. If the distance of a corner or of the center of a face exceeds ``within``, all corners of the face keep
+        their values or get zeros. The report counts these elements.
 
         Example: ``scene.transfer(from_="scan", attributes=["uv", "color"], within=0.01)``, in a recipe ``Transfer(from:
         "scan", attributes: ["uv", "color"], within: 0.01)``
@@ -2438,8 +2444,8 @@ class SceneOperations:
         :param within: The largest distance from the source, in scene units. If omitted, there is no limit.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Transfer', {'from': from_, 'attributes': attributes, 'within': within}, on, id, progress)
 
@@ -2473,15 +2479,15 @@ class SceneOperations:
         :param by: How the vertices move.
             ``choice.Offset(..)``: By this offset along x, y and z, in scene units.
             ``choice.Distance(..)``: By this distance along the normal of each vertex, in scene units.
-            ``choice.To(..)``: By one offset for all selected vertices.
+            ``choice.To(..)``: By one common offset, so that the mean of the selected vertices arrives at this point.
             ``choice.Rotate(..)``: By a rotation around an axis through the mean of the selected vertices.
             ``choice.Scale(..)``: By scaling along x, y and z about the mean of the selected vertices.
         :param falloff: The distance from the selected vertices at which the movement has fallen to 0, in scene units.
             If omitted, only the selected vertices move.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('MoveVertices', {'vertices': vertices, 'by': by, 'falloff': falloff}, on, id, progress)
 
@@ -2509,7 +2515,7 @@ class SceneOperations:
 
         :param by: The values by which ``distance`` is multiplied.
             ``choice.Noise(..)``: Smooth noise from -1 to 1 (Perlin, "Improving Noise", 2002).
-            ``choice.Random(..)``: A random number from -1 to 1 for each vertex, which depends on the id of the vertex.
+            ``choice.Random(..)``: A random number from -1 to 1 for each vertex.
             ``choice.Attribute(..)``: A vertex attribute that holds one number for each vertex.
             ``choice.Image(..)``: The brightness of an image (a height map), from 0 (black) to 1 (white), at the texture
                 coordinates of the vertex.
@@ -2519,8 +2525,8 @@ class SceneOperations:
             value of ``meshwright.sel``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Displace', {'by': by, 'distance': distance, 'vertices': vertices}, on, id, progress)
 
@@ -2540,8 +2546,8 @@ class SceneOperations:
     ) -> Self:
         """Bends a mesh, so that an axis becomes an arc of a circle.
 
-        Vertices at or below ``from_`` do not move. Between ``from_`` and ``to``, the axis becomes an arc that keeps its
-        length and turns by ``angle`` in total. Vertices above ``to`` move rigidly. Vertices between the axis and the
+        Vertices at or below ``from_`` do not move. Between ``from_`` and ``to``, the axis becomes an arc of the same
+        length, which turns by ``angle`` in total. Vertices above ``to`` move rigidly. Vertices between the axis and the
         center of the circle move closer together, and vertices on the other side of the axis move apart. The distance
         between the center and the axis is (to - from) / angle, with the angle in radians. Parts of the mesh beyond the
         center turn inside out. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
@@ -2555,7 +2561,8 @@ class SceneOperations:
             ``"X"``: The x axis.
             ``"Y"``: The y axis.
             ``"Z"``: The z axis.
-        :param angle: The angle between the ends of the axis, in degrees. A negative angle bends to the other side.
+        :param angle: The angle by which the axis turns from ``from_`` to ``to``, in degrees. A negative angle bends to
+            the other side.
         :param towards: The axis towards which the upper end bends. If omitted, the axis after ``axis`` in the order x,
             y, z, x.
             ``"X"``: The x axis.
@@ -2570,8 +2577,8 @@ class SceneOperations:
             value of ``meshwright.sel``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Bend', {'axis': axis, 'angle': angle, 'towards': towards, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, on, id, progress)
 
@@ -2614,8 +2621,8 @@ class SceneOperations:
             value of ``meshwright.sel``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Twist', {'axis': axis, 'angle': angle, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, on, id, progress)
 
@@ -2657,8 +2664,8 @@ class SceneOperations:
             value of ``meshwright.sel``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Taper', {'axis': axis, 'factor': factor, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, on, id, progress)
 
@@ -2698,8 +2705,8 @@ class SceneOperations:
             value of ``meshwright.sel``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Lattice', {'size': size, 'moves': moves, 'min': min, 'max': max, 'vertices': vertices}, on, id, progress)
 
@@ -2739,8 +2746,8 @@ class SceneOperations:
         :param distance: The largest distance that a vertex moves, in scene units. If omitted, any distance.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Project', {'onto': onto, 'along': along, 'vertices': vertices, 'pin': pin, 'distance': distance}, on, id, progress)
 
@@ -2756,10 +2763,10 @@ class SceneOperations:
     ) -> Self:
         """Stores a quantity, such as a curvature or a distance, as an attribute of vertices or faces.
 
-        Later steps can select elements by the attribute with ``sel.Where``, ``displace()`` vertices by it, show it in a
-        ``picture()``, and save it to files. The attribute is not updated when the mesh changes. Positions and other
-        attributes do not change. Quantities are computed in the space of the mesh, without the transforms of nodes. The
-        report states the lowest, the mean and the highest value of each object.
+        Later steps can select elements by the attribute (``sel.Where``), move vertices by it (``displace()``), show it
+        in a picture (``picture()``), and save it to files (``save()``). The attribute is not updated when the mesh
+        changes. Positions and other attributes do not change. Quantities are computed in the space of the mesh, without
+        the transforms of nodes. The report states the lowest, the mean and the highest value of each object.
 
         An attribute of the same name is replaced if it belongs to the same elements (vertices or faces) and has one
         floating-point number for each element. Otherwise the step fails.
@@ -2796,8 +2803,8 @@ class SceneOperations:
             for all others.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Measure', {'of': of, 'name': name, 'missing': missing}, on, id, progress)
 
@@ -2838,7 +2845,7 @@ class SceneOperations:
         :param max_angle: The largest angle between the normal of a face and the mean normal of its chart, in degrees.
             Smaller angles give more charts with less stretch. Defaults to ``70.0``.
         :param max_stretch: The largest ratio between the area scale of a triangle and the area scale of its whole
-            chart. Defaults to ``4.0``.
+            chart. The area scale is the area in the texture divided by the area on the surface. Defaults to ``4.0``.
         :param page: The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for any size.
             The size only determines how large the padding is. Defaults to ``1024``.
         :param padding: The number of empty texels around each chart. The distance between two charts is at least twice
@@ -2849,8 +2856,8 @@ class SceneOperations:
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Unwrap', {'seams': seams, 'max_angle': max_angle, 'max_stretch': max_stretch, 'page': page, 'padding': padding, 'uv': uv, 'on_refusal': on_refusal}, on, id, progress)
 
@@ -2881,8 +2888,8 @@ class SceneOperations:
             this number. Defaults to 2.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('PackUvs', {'uv': uv, 'page': page, 'padding': padding}, on, id, progress)
 
@@ -2916,8 +2923,8 @@ class SceneOperations:
         Edges(Sharp(above: 30)), color_by: (of: Valence), style: (wireframe: ()))``
 
         :param path: The file. For a scene, a relative path is relative to the working directory; in a recipe, to the
-            output folder. ``{name.stem}`` is replaced by the name, without extension, of the file in the recipe
-            parameter ``name``.
+            output folder. If ``name`` is a recipe parameter whose value is a file, ``{name.stem}`` is replaced by the
+            name of this file without its extension.
         :param size: The width and the height of each view in pixels.
         :param camera: The camera.
             ``choice.Fit(..)``: Looks from a side, at the distance from which the picture shows the whole scene.
@@ -2956,11 +2963,12 @@ class SceneOperations:
             ``"width"``: The width of edges and the diameter of vertices, in pixels. If omitted, the defaults of
                 ``highlight_width``.
         :param color_by: The quantity to show as colors of the surface.
-            ``"of"``: The numbers.
+            ``"of"``: The quantity that the colors show.
             ``"map"``: The color map. If omitted, ``Classes`` for valences, ``Diverging`` for curvatures, else
                 ``Viridis``.
-            ``"range"``: The numbers of the first and the last color, as in ``(0, 60)``. If omitted, the range is chosen
-                from the numbers; for curvatures, without the lowest and the highest 2 %.
+            ``"range"``: The values that the first and the last color represent, as in ``(0, 60)``. If omitted, the
+                range depends on the values of the quantity. For curvatures, the range is symmetric about 0 and leaves
+                out the lowest and the highest eighth of the values, or fewer values if the others are all 0.
             ``"legend"``: Whether a legend in a corner explains the colors.
         :param turntable: If given, the picture is an animation in which the camera moves once around the scene.
             ``"frames"``: The number of images.
@@ -2970,8 +2978,8 @@ class SceneOperations:
             lists them.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('Picture', {'path': path, 'size': size, 'camera': camera, 'views': views, 'columns': columns, 'style': style, 'highlight': highlight, 'highlight_width': highlight_width, 'marks': marks, 'color_by': color_by, 'turntable': turntable, 'images': images}, on, id, progress)
 
@@ -3004,8 +3012,8 @@ class SceneOperations:
         t: [0.25, 0.5])``
 
         :param path: The file. For a scene, a relative path is relative to the working directory; in a recipe, to the
-            output folder. ``{name.stem}`` is replaced by the name, without extension, of the file in the recipe
-            parameter ``name``.
+            output folder. If ``name`` is a recipe parameter whose value is a file, ``{name.stem}`` is replaced by the
+            name of this file without its extension.
         :param t: The parameters of the constructed points, from 0 (start) to 1 (end). If empty, only the curves and
             their control polygons are drawn.
         :param by_level: Whether each level of the algorithm has its own panel. If false, one panel shows all levels.
@@ -3020,8 +3028,8 @@ class SceneOperations:
         :param legend: Whether there is a legend below the panels. Defaults to ``True``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('CurveFigure', {'path': path, 't': t, 'by_level': by_level, 'before': before, 'width': width, 'columns': columns, 'scale': scale, 'labels': labels, 'legend': legend}, on, id, progress)
 
@@ -3051,16 +3059,16 @@ class SceneOperations:
         Example: ``scene.half_edge_figure(path="figure.svg")``, in a recipe ``HalfEdgeFigure(path: "figure.svg")``
 
         :param path: The file. For a scene, a relative path is relative to the working directory; in a recipe, to the
-            output folder. ``{name.stem}`` is replaced by the name, without extension, of the file in the recipe
-            parameter ``name``.
+            output folder. If ``name`` is a recipe parameter whose value is a file, ``{name.stem}`` is replaced by the
+            name of this file without its extension.
         :param faces: The faces to draw, at most 200. Defaults to ``"All"``. ``"All"``, ``"Boundary"``,
             ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
         :param width: The width of the figure in SVG pixels. Defaults to ``640``.
         :param scale: The number of PNG pixels per SVG pixel. Has no effect on ``.svg`` files. Defaults to ``2``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('HalfEdgeFigure', {'path': path, 'faces': faces, 'width': width, 'scale': scale}, on, id, progress)
 
@@ -3080,15 +3088,15 @@ class SceneOperations:
         """Draws the charts of the texture coordinates of a mesh into an image file.
 
         A gray frame shows the page of the texture, where u and v are from 0 to 1; v points upwards. Thick lines are the
-        borders of charts, and thin lines are the other edges. Coordinates outside the page are also drawn, so the
-        figure becomes higher or its scale becomes smaller. The extension of the file determines the format: ``.svg`` or
-        ``.png``. The file is written only if the whole recipe succeeds. The scene does not change.
+        borders of charts, and thin lines are the other edges. Coordinates outside the page are also drawn. To make room
+        for them, the figure becomes higher or its scale becomes smaller. The extension of the file determines the
+        format: ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The scene does not change.
 
         Example: ``scene.uv_picture(path="uv.svg")``, in a recipe ``UvPicture(path: "uv.svg")``
 
         :param path: The file. For a scene, a relative path is relative to the working directory; in a recipe, to the
-            output folder. ``{name.stem}`` is replaced by the name, without extension, of the file in the recipe
-            parameter ``name``.
+            output folder. If ``name`` is a recipe parameter whose value is a file, ``{name.stem}`` is replaced by the
+            name of this file without its extension.
         :param uv: The name of the texture coordinates. Defaults to ``uv``.
         :param fill: What the colors inside charts show. Defaults to ``"Charts"``.
             ``"None"``: No colors.
@@ -3099,8 +3107,8 @@ class SceneOperations:
         :param scale: The number of PNG pixels per SVG pixel. Has no effect on ``.svg`` files. Defaults to ``2``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
         """
         return self._apply('UvPicture', {'path': path, 'uv': uv, 'fill': fill, 'edges': edges, 'width': width, 'scale': scale}, on, id, progress)
 
@@ -3144,7 +3152,7 @@ class MeshOperations:
         :param path: The file. A relative path is relative to the working directory.
         :param images: What to do with the images of materials. If omitted, images are embedded in ``.glb`` files. For
             ``.gltf`` and ``.obj``, images in the folder of the source model are copied to the folder of the output
-            file. OBJ cannot embed images, so embedded images are also written to files.
+            file. OBJ cannot embed images, so images that are embedded in the source model are also written to files.
             ``"Embed"``: Store the images in the file or, for ``.gltf``, in its ``.bin`` file.
             ``"Copy"``: Write the images to files in the folder of the written file.
             ``"Keep"``: Write only the paths of the images, as in the original model.
@@ -3154,24 +3162,25 @@ class MeshOperations:
         :param quantize: The number of bits for each attribute of the geometry in ``.glb`` and ``.gltf`` files. If
             omitted, numbers are stored as 32-bit floats. ``quantize={}`` uses the default of each attribute. The report
             states the largest errors of positions, of normals and tangents, and of texture coordinates.
-            ``"position"``: The bits of each coordinate of a position. Positions are rounded to a grid that covers the
-                bounding box of the object and has the same step along all axes. The longest side of the box has 2^bits
-                - 1 steps. Positions of objects with joints or morph targets are not quantized. Defaults to 16.
-            ``"normal"``: The bits of each of the two numbers that represent a normal or a tangent as a point of an
-                octahedron. Defaults to 8.
-            ``"uv"``: The bits of each texture coordinate. A set with coordinates outside the range from 0 to 1 is not
-                quantized. Defaults to 16.
-            ``"color"``: The bits of each component of a color. Defaults to 8.
+            ``"position"``: The number of bits of each coordinate of a position. Positions are rounded to a grid that
+                covers the bounding box of the object and has the same step along all axes. The longest side of the box
+                has 2^bits - 1 steps. Positions of objects with joints or morph targets are not quantized. Defaults to
+                16.
+            ``"normal"``: The number of bits of each of the two numbers that represent a normal or a tangent. The two
+                numbers locate a point on an octahedron. Defaults to 8.
+            ``"uv"``: The number of bits of each texture coordinate. A set of texture coordinates is not quantized if a
+                coordinate is outside the range from 0 to 1. Defaults to 16.
+            ``"color"``: The number of bits of each component of a color. Defaults to 8.
         :param weight_sets: For ``.gltf`` and ``.glb``, the number of sets of four joints that are written for each
-            vertex of a skinned mesh. If omitted, the number of sets in the file that the mesh comes from, or 1 if the
-            mesh does not come from such a file.
-        :param rows: For ``.csv``, the elements that the rows list. If omitted, vertices.
+            vertex of a skinned mesh. If omitted, the number of sets in the file from which the mesh was read, or 1 if
+            this number is not known.
+        :param rows: For ``.csv``, the kind of elements that the rows list. If omitted, vertices.
             ``"Vertices"``: Vertices.
-            ``"Faces"``: Faces, at the means of their corners.
+            ``"Faces"``: Faces.
             ``"Corners"``: The corners of the faces, face by face.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Save', {'path': path, 'images': images, 'compress': compress, 'quantize': quantize, 'weight_sets': weight_sets, 'rows': rows}, None, id, progress)
@@ -3190,10 +3199,10 @@ class MeshOperations:
 
         Acts on all objects that consist of patches, or on the objects in ``on``. Each object becomes one mesh of the
         same name. Every patch is divided into ``segments`` x ``segments`` cells. The ids of elements follow the order
-        of the patches. Patches share no vertices, but if they have the same control points on a common side, the
-        positions of their vertices there are identical bit for bit, so that ``weld(distance=0)`` joins them. A side
-        whose points coincide, as at the pole of a teapot's lid, becomes one vertex. Zero-area patches give no faces.
-        The report counts these patches. The mesh has UVs and normals only if they are requested.
+        of the patches. Patches share no vertices. If two patches have the same control points on a common side, their
+        vertices on this side have bitwise equal positions, so that ``weld(distance=0)`` joins the patches. A side whose
+        points coincide, as at the pole of a teapot's lid, becomes one vertex. Zero-area patches give no faces. The
+        report counts these patches. The mesh has UVs and normals only if they are requested.
 
         Example: ``mesh.tessellate(segments=3)``
 
@@ -3205,8 +3214,8 @@ class MeshOperations:
             the whole square from 0 to 1. Defaults to ``False``.
         :param normals: Whether to store the exact unit normals of the patches as vertex normals. Defaults to ``False``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Tessellate', {'segments': segments, 'faces': faces, 'uvs': uvs, 'normals': normals}, None, id, progress)
@@ -3221,14 +3230,15 @@ class MeshOperations:
         """Replaces curves with polylines whose points lie on the curves.
 
         Each curve becomes one polyline with ``segments`` + 1 points in the plane z = 0, at the parameters 0, 1 /
-        segments, 2 / segments and so on, up to 1. The first and the last point are exactly the end control points.
+        segments, 2 / segments and so on, up to 1. The first and the last point are exactly the first and the last
+        control point of the curve.
 
         Example: ``mesh.sample_curve(segments=1)``
 
         :param segments: The number of straight segments.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('SampleCurve', {'segments': segments}, None, id, progress)
@@ -3250,8 +3260,8 @@ class MeshOperations:
 
         :param t: The parameter of the point, from 0 (the start of the curve) to 1 (its end).
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('CurveLevels', {'t': t}, None, id, progress)
@@ -3266,8 +3276,8 @@ class MeshOperations:
     ) -> Self:
         """Moves one control point of curves.
 
-        The other control points do not move. The point of the curve at a parameter t moves by the offset of the control
-        point, multiplied by the value at t of the Bernstein polynomial of the control point.
+        The other control points do not move. The point of the curve at a parameter t moves by B(t) times the offset of
+        the control point, where B is the Bernstein polynomial of the control point.
 
         Example: ``mesh.move_control_point(index=1, to=(2, -3.5))``
 
@@ -3275,8 +3285,8 @@ class MeshOperations:
             point with this index.
         :param to: The new position: ``(x, y)`` in the plane z = 0, in scene units.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('MoveControlPoint', {'index': index, 'to': to}, None, id, progress)
@@ -3293,8 +3303,8 @@ class MeshOperations:
 
         Acts on all objects that consist of patches, or on the objects in ``on``. Control points of the same object that
         are at the same position move together, so that patches with a common side stay joined. The point of a patch at
-        the parameters (u, v) moves by the offset of the control point, multiplied by the values at u and v of the
-        Bernstein polynomials of the control point. The report counts the objects.
+        the parameters (u, v) moves by B(u) C(v) times the offset of the control point, where B and C are the Bernstein
+        polynomials of its column and its row. The report counts the objects.
 
         Example: ``mesh.move_patch_point(index=5, to=(1, 2, 0.5))``
 
@@ -3302,8 +3312,8 @@ class MeshOperations:
             plus the column. Every object on which the step acts must have a control point with this index.
         :param to: The new position ``(x, y, z)``, in scene units.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('MovePatchPoint', {'index': index, 'to': to}, None, id, progress)
@@ -3347,12 +3357,12 @@ class MeshOperations:
             ``"Origin"``: The origin.
             ``"Center"``: The center of the bounding box of each object.
             ``choice.Point(..)``: A point with the coordinates x, y, z.
-        :param space: The coordinates in which objects move. Defaults to ``"Scene"``.
+        :param space: The coordinate system in which objects are scaled, rotated and moved. Defaults to ``"Scene"``.
             ``"Scene"``: The space of the scene.
             ``"Object"``: The space of each object.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Transform', {'scale': scale, 'rotate': rotate, 'move': move, 'about': about, 'space': space}, None, id, progress)
@@ -3368,24 +3378,25 @@ class MeshOperations:
 
         Vertices at most ``distance`` apart are linked, and vertices that are connected by a chain of links merge into
         one, even if the ends of the chain are farther apart than ``distance``. The merged vertex has the position and
-        the values of the vertex with the lowest id. The other vertices are removed, so the ids of later vertices
-        change. Edges between the same two vertices become one edge with the values of the first edge. Corner values
-        stay with their corners, so UV seams are kept.
+        the values of the vertex with the lowest id. The other vertices are removed, so the ids of the vertices after
+        them change. Edges between the same two vertices become one edge with the values of the first edge. Corner
+        values stay with their corners, so UV seams are kept.
 
         If neighboring corners of a face merge, the face loses a corner. A face is removed if it has fewer than three
-        corners left or would contain a vertex twice. If joined faces have opposite orientations, the smaller group is
-        reversed, provided that all orientations then agree. If faces are reversed, the report counts them, and the
-        normals of vertices and corners are dropped. Where the result would still not be manifold, vertices and edges
-        are copied. For example, a third face at an edge gets a copy of the edge. The report counts the copies. If no
-        vertices merge, the mesh does not change.
+        corners left or would contain a vertex twice. Joined faces may have opposite orientations. If the orientations
+        in a connected part can be made to agree, its faces form two groups of equal orientation, and all faces of the
+        smaller group are reversed. If faces are reversed, the report counts them, and the normals of vertices and
+        corners are dropped. Where the result would still not be manifold, vertices and edges are copied. For example, a
+        third face at an edge gets a copy of the edge. The report counts the copies. If no vertices merge, the mesh does
+        not change.
 
         Example: ``mesh.weld(distance=0)``
 
         :param distance: The largest distance between linked vertices, in scene units. With 0, only vertices at equal
             positions merge.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Weld', {'distance': distance}, None, id, progress)
@@ -3410,8 +3421,8 @@ class MeshOperations:
         :param faces: The faces to reverse. They must form whole connected components. Defaults to ``"All"``. ``"All"``,
             ``"Boundary"``, ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Reverse', {'faces': faces}, None, id, progress)
@@ -3426,17 +3437,18 @@ class MeshOperations:
         """Cuts polygons into triangles.
 
         A quadrilateral is cut along its shorter diagonal. If both diagonals have the same length (the relative
-        difference of their squared lengths is at most 1e-12), it is cut along the diagonal at its vertex with the
-        lowest id. A diagonal that gives a zero-area triangle, or a triangle that is turned over relative to the normal
-        of the face, is avoided, unless the other diagonal has the same problem. A quadrilateral with a reflex corner is
-        therefore cut at that corner. If a diagonal would join two vertices that are already joined by an edge or
-        another diagonal, the other diagonal is chosen where possible. The report counts the duplicate diagonals that
-        remain.
+        difference of their squared lengths is at most 1e-12), the quadrilateral is cut along the diagonal at its vertex
+        with the lowest id. A diagonal is avoided if it gives a zero-area triangle or a triangle that is turned over
+        relative to the normal of the face, unless the other diagonal has the same problem. A quadrilateral with a
+        reflex corner is therefore cut at that corner. If a diagonal would join two vertices that are already joined by
+        an edge or another diagonal, the other diagonal is chosen where possible. The report counts the duplicate
+        diagonals that remain.
 
-        A face with more than four corners is projected along its normal and cut by ear clipping. Then diagonals are
-        flipped until the triangulation is a constrained Delaunay triangulation. A face that cannot be triangulated in
-        this way, because it has zero area, its sides cross, or it has more than ten million corners, becomes a triangle
-        fan around its vertex with the lowest id. The report counts these faces.
+        A face with more than four corners is projected along its normal. It is then cut by ear clipping, or into
+        monotone pieces if it has more than 4096 corners. Then diagonals are flipped until the triangulation is a
+        constrained Delaunay triangulation. Some faces cannot be triangulated in this way, because they have zero area,
+        their sides cross, or they have more than ten million corners. Each of these faces becomes a triangle fan around
+        its vertex with the lowest id. The report counts them.
 
         The triangles of a face take its place in the order of the faces and have its values. Vertices and edges keep
         their ids. The corners of the triangles have the values of the corners of the face at the same vertices.
@@ -3446,8 +3458,8 @@ class MeshOperations:
         :param faces: The faces to cut. Defaults to ``"All"``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a
             value of ``meshwright.sel``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Triangulate', {'faces': faces}, None, id, progress)
@@ -3501,8 +3513,8 @@ class MeshOperations:
             ``"Refuse"``: Refuse the edit.
             ``"Drop"``: Edit anyway.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('FlipEdges', {'edges': edges, 'until': until, 'passes': passes, 'on_refusal': on_refusal, 'seams': seams}, None, id, progress)
@@ -3518,11 +3530,11 @@ class MeshOperations:
     ) -> Self:
         """Inserts a vertex on each edge and joins it to the opposite corners of the triangles beside the edge.
 
-        In a mesh of triangles, a split adds 1 vertex, 3 edges and 2 faces, or 1 vertex, 2 edges and 1 face on the
-        boundary. If a face beside the edge has more than three corners, the face is not cut and only gains the new
-        vertex as a corner. Edges are split in order of their ids; new edges are not split again. New vertices get the
-        highest ids, in the order of the splits. Values at the new vertex and its corners are interpolated between the
-        ends, on each side of a seam separately.
+        In a mesh of triangles, a split adds 1 vertex, 3 edges and 2 faces. A split of a boundary edge adds 1 vertex, 2
+        edges and 1 face. If a face beside the edge has more than three corners, the face is not cut and only gains the
+        new vertex as a corner. Edges are split in order of their ids; new edges are not split again. New vertices get
+        the highest ids, in the order of the splits. Values at the new vertex and its corners are interpolated between
+        the ends of the edge, on each side of a seam separately.
 
         Example: ``mesh.split_edges(edges="All")``
 
@@ -3534,8 +3546,8 @@ class MeshOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('SplitEdges', {'edges': edges, 'at': at, 'on_refusal': on_refusal}, None, id, progress)
@@ -3551,10 +3563,10 @@ class MeshOperations:
     ) -> Self:
         """Collapses edges, so that the two ends of each edge become one vertex.
 
-        In a mesh of triangles, a collapse removes 1 vertex, 3 edges and 2 faces or, on the boundary, 1 vertex, 2 edges
-        and 1 face. If a face beside the edge has more than three corners, the face is not removed and only loses a
-        corner. Of the two ends, the vertex with the lower id is kept. Edges are collapsed in order of their ids. An
-        edge that an earlier collapse removed counts as refused.
+        In a mesh of triangles, a collapse removes 1 vertex, 3 edges and 2 faces. A collapse of a boundary edge removes
+        1 vertex, 2 edges and 1 face. If a face beside the edge has more than three corners, the face is not removed and
+        only loses a corner. Of the two ends, the vertex with the lower id is kept. Edges are collapsed in order of
+        their ids. An edge that an earlier collapse removed counts as refused.
 
         A collapse is refused if it would change the topology of the surface or make elements coincide:
 
@@ -3568,9 +3580,9 @@ class MeshOperations:
         - ``SameFace``: the same face is on both sides of the edge, or would be on both sides of another edge.
         - ``SameOpposite``: the two triangles beside the edge share another edge.
 
-        Values at the remaining vertex and its corners are interpolated between the ends, on each side of a seam
-        separately. When two edges become one, the remaining edge has the larger of the two creases, and the tags of
-        both. Normals are dropped.
+        Values at the remaining vertex and its corners are interpolated between the ends of the edge, on each side of a
+        seam separately. When two edges become one, the remaining edge has the larger of the two creases, and the tags
+        of both. Normals are dropped.
 
         Example: ``mesh.collapse_edges(edges="All", on_refusal="Skip")``
 
@@ -3581,8 +3593,8 @@ class MeshOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('CollapseEdges', {'edges': edges, 'at': at, 'on_refusal': on_refusal}, None, id, progress)
@@ -3618,8 +3630,8 @@ class MeshOperations:
             ``"Refuse"``: Refuse the edit.
             ``"Drop"``: Edit anyway.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('DissolveEdges', {'edges': edges, 'on_refusal': on_refusal, 'seams': seams}, None, id, progress)
@@ -3636,18 +3648,18 @@ class MeshOperations:
     ) -> Self:
         """Replaces edges with faces of constant width.
 
-        A selected edge and both of its ends are removed, and a new face replaces the edge. In both faces beside the
-        edge, the new face ends at the distance ``width`` from the old edge. An edge that is not selected, but shares an
-        end with a selected edge, is cut near this end. If the two edges are neighboring sides of a face, the cut is
-        where the distance from the selected edge is ``width``, but at most four times ``width`` from the end.
+        A selected edge and both of its ends are removed, and a new face replaces the edge. The new face extends into
+        both faces beside the old edge, up to the distance ``width`` from this edge. An edge that is not selected, but
+        shares an end with a selected edge, is cut near this end. If the two edges are neighboring sides of a face, the
+        cut is where the distance from the selected edge is ``width``, but at most four times ``width`` from the end.
         Otherwise, the cut is at the distance ``width`` from the end. Where two selected edges are neighboring sides of
         a face, the new vertex lies inside this face. If three or more new vertices surround an old vertex, another new
         face joins them. All edges are beveled together, so a cube that is beveled at all edges keeps all of its
         symmetries.
 
-        The ends of the edges are removed, so the ids of later vertices change. New vertices get the highest ids. Faces
-        keep their ids. New faces get the highest ids: first the faces of edges, in order of the edges, then the faces
-        of vertices. Edges get new ids.
+        The ends of the edges are removed, so the ids of the vertices after them change. New vertices get the highest
+        ids. Faces keep their ids. New faces get the highest ids: first the faces of edges, in order of the edges, then
+        the faces of vertices. Edges get new ids.
 
         A new vertex has the values of the old face at its position, so textures do not change. A new face has the
         values (material, tags) of one of the old faces beside it. Which face is not specified, but the choice is the
@@ -3660,16 +3672,16 @@ class MeshOperations:
         Example: ``mesh.bevel_edges(edges=sel.Between(0, 2), width=0.25)``
 
         :param edges: The edges to bevel. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
-        :param width: The distance between the beveled edge and the new edges in each of its two faces, in scene units.
-            Either ``width`` or ``fraction`` must be given.
+        :param width: The distance from the beveled edge to the new edge in each of the two faces beside it, in scene
+            units. Either ``width`` or ``fraction`` must be given.
         :param fraction: The width as a fraction of the length of the shortest edge at the ends of the selected edges.
             From 0 to 1, exclusive.
         :param on_refusal: What to do when an edge cannot be beveled. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('BevelEdges', {'edges': edges, 'width': width, 'fraction': fraction, 'on_refusal': on_refusal}, None, id, progress)
@@ -3687,9 +3699,9 @@ class MeshOperations:
 
         Sets the edge attribute ``crease`` of the selected edges and the vertex attribute ``corner`` of the selected
         vertices to ``sharpness``. Other elements keep their values, or get 0 if the attribute did not exist. Loop and
-        Catmull-Clark subdivision keep an edge or a vertex sharp for this number of levels and smooth it in later
-        levels. For example, an edge with sharpness 2.5 is sharp for two levels and half sharp in the third level. With
-        sharpness 10, an edge is sharp at every level. Boundary edges are always sharp.
+        Catmull-Clark subdivision keep an edge or a vertex sharp for as many levels as its sharpness, and smooth it in
+        later levels. For example, an edge with sharpness 2.5 is sharp for two levels and half sharp in the third level.
+        With sharpness 10, an edge is sharp at every level. Boundary edges are always sharp.
 
         At least one of ``edges`` and ``vertices`` must be given. The geometry does not change. The report counts the
         elements whose value changed.
@@ -3703,8 +3715,8 @@ class MeshOperations:
         :param vertices: The vertices to change. If omitted, no vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or
             a value of ``meshwright.sel``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Crease', {'edges': edges, 'vertices': vertices, 'sharpness': sharpness}, None, id, progress)
@@ -3723,11 +3735,11 @@ class MeshOperations:
         A face with n corners becomes n triangles. Each poked face adds 1 vertex, n edges and n - 1 faces. The first
         triangle keeps the id of the face; the other triangles and the new vertices and edges get the highest ids, in
         order of the faces. The new vertex is at the mean of the corners, moved along the normal of the face by
-        ``distance``. If edits interpolate a vertex or corner attribute, its value at the new vertex is also the mean of
-        the values at the corners. The triangles have the values of their face, and the new edges have zero values (no
-        crease, no tags). If ``distance`` is not 0, normals are dropped.
+        ``distance``. For vertex and corner attributes that edits interpolate, the value at the new vertex is also the
+        mean of the values at the corners. The triangles have the values of their face, and the new edges have zero
+        values (no crease, no tags). If ``distance`` is not 0, normals are dropped.
 
-        A face cannot be split if it contains a vertex twice, if the position of the new vertex would not be finite, or
+        A face cannot be poked if it contains a vertex twice, if the position of the new vertex would not be finite, or
         if the mesh already has the largest supported number of elements.
 
         Example: ``mesh.poke_faces()``
@@ -3737,12 +3749,12 @@ class MeshOperations:
         :param distance: The distance of the vertex from the center along the normal of the face, in scene units. A
             negative distance moves the vertex inwards. A zero-area face has no normal, so its vertex is at the center.
             Defaults to ``0.0``.
-        :param on_refusal: What to do when a face cannot be split. Defaults to ``"Error"``.
+        :param on_refusal: What to do when a face cannot be poked. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('PokeFaces', {'faces': faces, 'distance': distance, 'on_refusal': on_refusal}, None, id, progress)
@@ -3773,8 +3785,8 @@ class MeshOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('SplitFaces', {'between': between, 'on_refusal': on_refusal}, None, id, progress)
@@ -3809,8 +3821,8 @@ class MeshOperations:
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param keep_vertices: Whether to keep vertices that are left without an edge. Defaults to ``False``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('DeleteFaces', {'faces': faces, 'on_refusal': on_refusal, 'keep_vertices': keep_vertices}, None, id, progress)
@@ -3843,10 +3855,10 @@ class MeshOperations:
         face.
 
         A side face has the values of the adjacent moved face (material, tags). The corners of a side face have the
-        values of the corners of the moved face, so textures have no seam there. Each side face, however, shows only one
-        line of the texture (the line along its edge), stretched over the face. The new edges of the rim have the values
-        of the old ones (creases, tags), and the edges between the old and the new rim have zero values (no crease, no
-        tags). Normals are dropped.
+        values of the corners of the moved face, so textures have no seam between the two faces. However, a side face
+        shows only the line of the texture along the edge of the moved face, stretched over the side face. The new edges
+        of the rim have the values of the old ones (creases, tags), and the edges between the old and the new rim have
+        zero values (no crease, no tags). Normals are dropped.
 
         Example: ``mesh.extrude_faces(faces=sel.Faces([0]), by=choice.Distance(0.5))``
 
@@ -3863,8 +3875,8 @@ class MeshOperations:
         :param tag: The name of a tag for the moved faces and their side faces. Faces that already have the tag keep it.
             If omitted, no faces are tagged.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('ExtrudeFaces', {'faces': faces, 'by': by, 'scale': scale, 'rotate': rotate, 'tag': tag}, None, id, progress)
@@ -3895,14 +3907,14 @@ class MeshOperations:
 
         :param faces: The faces to inset. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
             ``meshwright.sel``.
-        :param fraction: The position of the corners of the inner face on the lines from the old corners to the center
-            of the face. From 0 (the corner) to 1 (the center), exclusive.
+        :param fraction: The position of each corner of the inner face on the line from the old corner to the center of
+            the face. From 0 (the old corner) to 1 (the center), exclusive.
         :param on_refusal: What to do when a face cannot be inset. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('InsetFaces', {'faces': faces, 'fraction': fraction, 'on_refusal': on_refusal}, None, id, progress)
@@ -3935,16 +3947,16 @@ class MeshOperations:
 
         :param faces: The faces to bevel. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
             ``meshwright.sel``.
-        :param fraction: The position of the corners of the inner face on the lines from the old corners to the center
-            of the face. From 0 (the corner) to 1 (the center), exclusive.
+        :param fraction: The position of each corner of the inner face on the line from the old corner to the center of
+            the face. From 0 (the old corner) to 1 (the center), exclusive.
         :param distance: The distance by which the inner face moves along its normal, in scene units. A negative
             distance moves the inner face inwards.
         :param on_refusal: What to do when a face cannot be beveled. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('BevelFaces', {'faces': faces, 'fraction': fraction, 'distance': distance, 'on_refusal': on_refusal}, None, id, progress)
@@ -3982,8 +3994,8 @@ class MeshOperations:
             ``"Refuse"``: Refuse the edit.
             ``"Drop"``: Edit anyway.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('DissolveVertices', {'vertices': vertices, 'on_refusal': on_refusal, 'seams': seams}, None, id, progress)
@@ -4003,9 +4015,9 @@ class MeshOperations:
         joins the cuts. The new face has as many corners as the vertex had edges. If both ends of an edge are selected,
         the fraction must be below 0.5. For example, a fraction of 0.25 turns a cube into a truncated cube.
 
-        The selected vertices are removed, so the ids of later vertices change. New vertices get the highest ids, in
-        order of the selected vertices and clockwise around each vertex. Faces keep their ids; new faces get the highest
-        ids, in order of the vertices.
+        The selected vertices are removed, so the ids of the vertices after them change. New vertices get the highest
+        ids, in order of the selected vertices and clockwise around each vertex. Faces keep their ids; new faces get the
+        highest ids, in order of the vertices.
 
         Values at the cuts are interpolated between the ends of the edge, so textures do not change. A new face has the
         values (material, tags) of one of the faces at the vertex. Which of the faces is not specified, but the choice
@@ -4024,8 +4036,8 @@ class MeshOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('BevelVertices', {'vertices': vertices, 'fraction': fraction, 'on_refusal': on_refusal}, None, id, progress)
@@ -4050,8 +4062,8 @@ class MeshOperations:
             ``"Angle"``: The angle of the face at the vertex, at most 180 degrees.
             ``"Uniform"``: The same weight for all faces.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change. Its ``attributes["normal"]`` has the normals.
         """
         return self._apply('VertexNormals', {'weight': weight}, None, id, progress)
@@ -4077,8 +4089,8 @@ class MeshOperations:
 
         :param uv: The name of the texture coordinates of the normal map. Defaults to ``uv``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Tangents', {'uv': uv}, None, id, progress)
@@ -4099,10 +4111,10 @@ class MeshOperations:
         a boundary loop; use ``around`` or ``max_edges`` to exclude it. No vertices are added, and existing elements
         keep their ids. A hole with n edges gets 1 face with n corners, or n - 2 triangles and n - 3 edges.
 
-        For holes with up to 500 edges, the triangles have the smallest possible total area. Larger holes are filled by
-        cutting off one corner after the other, in each case the corner whose two neighbors are closest to each other;
-        straight and reflex corners come last. If the hole is far from convex, the triangles may overlap. Two vertices
-        that are already joined by an edge are not joined again. If no triangulation without such a second edge is
+        For holes with up to 500 edges, the triangles have the smallest possible total area. In larger holes, a triangle
+        is added at one corner after the other, each time at the corner whose two neighbors are closest to each other.
+        Straight and reflex corners come last. If the hole is far from convex, the triangles may overlap. Two vertices
+        that are already joined by an edge are not joined by a second edge. If no triangulation without second edges is
         found, the hole cannot be filled (``DuplicateEdge``). A hole with two edges cannot be filled either
         (``WrongPlace``); ``stitch()`` closes it.
 
@@ -4121,8 +4133,8 @@ class MeshOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('FillHoles', {'around': around, 'max_edges': max_edges, 'with': with_, 'on_refusal': on_refusal}, None, id, progress)
@@ -4155,8 +4167,8 @@ class MeshOperations:
         :param first: The id of a vertex on the first hole.
         :param second: The id of the vertex on the second hole that is joined to ``first``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('BridgeLoops', {'first': first, 'second': second}, None, id, progress)
@@ -4172,13 +4184,13 @@ class MeshOperations:
         """Joins boundary edges that coincide.
 
         Two boundary edges coincide if both pairs of corresponding ends are at most ``distance`` apart. Two edges that
-        coincide only with each other form a pair. Choose a distance below the lengths of the edges. An edge that
-        coincides with several edges cannot be joined (``NonManifold``), and none of these edges are joined. Unlike
-        ``weld()``, this operation never merges vertices inside the surface or vertices whose edges do not coincide.
+        coincide only with each other form a pair. Choose a distance below the lengths of the edges. If an edge
+        coincides with several edges, neither this edge nor the others are joined (``NonManifold``). Unlike ``weld()``,
+        this operation never merges vertices inside the surface or vertices whose edges do not coincide.
 
         Of each pair of vertices or edges, the one with the lower id keeps its position and its values. The other vertex
-        or edge is removed, so the ids of later elements change. Faces and corners do not change, so an edge whose sides
-        have different UVs becomes a seam. Remaining holes with two edges are also closed.
+        or edge is removed, so the ids of the vertices or edges after it change. Faces and corners do not change, so an
+        edge whose sides have different UVs becomes a seam. Remaining holes with two edges are also closed.
 
         A pair cannot be joined if both edges belong to the same face (``SameFace``), if the ends of an edge would
         become one vertex or a face would contain a vertex twice (``WrongPlace``), or if two edges would join the same
@@ -4193,8 +4205,8 @@ class MeshOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Stitch', {'distance': distance, 'on_refusal': on_refusal}, None, id, progress)
@@ -4226,8 +4238,8 @@ class MeshOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Cut', {'edges': edges, 'on_refusal': on_refusal}, None, id, progress)
@@ -4254,8 +4266,8 @@ class MeshOperations:
         :param vertices: The vertices to tag. An empty selection gives an empty tag. ``"All"``, ``"Boundary"``,
             ``"Isolated"``, or a value of ``meshwright.sel``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change. Its ``tag("vertex", name)`` is an array of Booleans.
         """
         return self._apply('TagVertices', {'name': name, 'vertices': vertices}, None, id, progress)
@@ -4281,8 +4293,8 @@ class MeshOperations:
         :param edges: The edges to tag. An empty selection gives an empty tag. ``"All"``, ``"Boundary"``, or a value of
             ``meshwright.sel``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change. Its ``tag("edge", name)`` is an array of Booleans.
         """
         return self._apply('TagEdges', {'name': name, 'edges': edges}, None, id, progress)
@@ -4308,8 +4320,8 @@ class MeshOperations:
         :param faces: The faces to tag. An empty selection gives an empty tag. ``"All"``, ``"Boundary"``,
             ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change. Its ``tag("face", name)`` is an array of Booleans.
         """
         return self._apply('TagFaces', {'name': name, 'faces': faces}, None, id, progress)
@@ -4374,8 +4386,8 @@ class MeshOperations:
             ids of new elements, see ``subdivision::refine_faces``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``,
             or a value of ``meshwright.sel``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('LoopSubdivide', {'levels': levels, 'until': until, 'weights': weights, 'boundary': boundary, 'creasing': creasing, 'face_varying': face_varying, 'to_limit': to_limit, 'faces': faces}, None, id, progress)
@@ -4437,8 +4449,8 @@ class MeshOperations:
             new elements, see ``subdivision::refine_faces``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a
             value of ``meshwright.sel``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('CatmullClark', {'levels': levels, 'until': until, 'boundary': boundary, 'creasing': creasing, 'face_varying': face_varying, 'to_limit': to_limit, 'faces': faces}, None, id, progress)
@@ -4462,8 +4474,8 @@ class MeshOperations:
         edges 2e and 2e + 1. Triangle f becomes faces 4f to 4f + 3. The ids of quads follow the order of the faces, and
         the vertex at the center of face f has the id V + E + f.
 
-        Vertex attributes are interpolated. Corner values are interpolated within one old face. Parts of an edge or a
-        face copy the values of the old edge or face, including sharpness. Normals are dropped.
+        Vertex attributes are interpolated. Corner values are interpolated within each old face separately. Parts of an
+        edge or a face copy the values of the old edge or face, including sharpness. Normals are dropped.
 
         Example: ``mesh.midpoint(levels=2, into="Quads")``
 
@@ -4482,8 +4494,8 @@ class MeshOperations:
             ``subdivision::refine_faces``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
             ``meshwright.sel``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Midpoint', {'levels': levels, 'until': until, 'into': into, 'faces': faces}, None, id, progress)
@@ -4504,8 +4516,8 @@ class MeshOperations:
         2e and 2e + 1, and face f becomes faces 4f to 4f + 3. All faces must be triangles.
 
         Vertex attributes are interpolated with the weights of the positions, and corner values are interpolated
-        linearly within one old triangle. Parts of an edge or a triangle copy the values of the old edge or triangle.
-        Normals are dropped, because they would be wrong. Sharpness has no effect and is copied unchanged.
+        linearly within each old triangle separately. Parts of an edge or a triangle copy the values of the old edge or
+        triangle. Normals are dropped, because they would be wrong. Sharpness has no effect and is copied unchanged.
 
         Example: ``mesh.butterfly(levels=1)``
 
@@ -4516,8 +4528,8 @@ class MeshOperations:
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
                 than ``below``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Butterfly', {'levels': levels, 'until': until}, None, id, progress)
@@ -4539,10 +4551,10 @@ class MeshOperations:
         boundary edges, but two steps of one level leave the boundary unchanged.
 
         Vertex attributes are smoothed with the weights of the positions. Corner values are interpolated linearly within
-        one old triangle. A triangle next to a flipped edge covers parts of two old triangles. If the old edge was a
-        seam, the triangle mixes texture coordinates of both sides, which distorts textures. New triangles copy the
-        values of their old triangle. Parts of a boundary edge copy the values of the edge; other edges have zero values
-        (no crease, no tags). Normals are dropped, because they would be wrong.
+        each old triangle separately. A triangle next to a flipped edge covers parts of two old triangles. If the old
+        edge was a seam, the triangle mixes texture coordinates of both sides, which distorts textures. New triangles
+        copy the values of their old triangle. Parts of a boundary edge copy the values of the edge; other edges have
+        zero values (no crease, no tags). Normals are dropped, because they would be wrong.
 
         Example: ``mesh.sqrt3(levels=1)``
 
@@ -4553,8 +4565,8 @@ class MeshOperations:
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
                 than ``below``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Sqrt3', {'levels': levels, 'until': until}, None, id, progress)
@@ -4575,11 +4587,11 @@ class MeshOperations:
         vertices follow. Isolated vertices are kept. Their ids follow the ids of all other vertices. Isolated vertices
         and inner vertices of valence 2 do not become faces.
 
-        Vertex attributes are smoothed with the weights of the positions. Corner values are smoothed within one old
-        face. The new faces at edges and vertices mix corner values of several old faces. At a seam, this distorts
-        textures. A face inside an old face copies the values of the old face; the face of an edge or a vertex copies
-        the values of an adjacent face. The two edges along an old edge copy its values; other edges have zero values
-        (no crease, no tags). Normals are dropped, because they would be wrong.
+        Vertex attributes are smoothed with the weights of the positions. Corner values are smoothed within each old
+        face separately. The new faces at edges and vertices mix corner values of several old faces. At a seam, this
+        distorts textures. A face inside an old face copies the values of the old face; the face of an edge or a vertex
+        copies the values of an adjacent face. The two edges along an old edge copy its values; other edges have zero
+        values (no crease, no tags). Normals are dropped, because they would be wrong.
 
         Example: ``mesh.doo_sabin(levels=1)``
 
@@ -4590,8 +4602,8 @@ class MeshOperations:
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
                 than ``below``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('DooSabin', {'levels': levels, 'until': until}, None, id, progress)
@@ -4633,8 +4645,8 @@ class MeshOperations:
         :param tag: The name of a tag for the edges on the plane. Edges that already have the tag keep it. If omitted,
             no edges are tagged.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Bisect', {'point': point, 'normal': normal, 'keep': keep, 'tag': tag}, None, id, progress)
@@ -4668,8 +4680,8 @@ class MeshOperations:
             ``"Front"``: The side that the normal points to.
             ``"Back"``: The side that the normal points away from.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Symmetrize', {'point': point, 'normal': normal, 'from': from_}, None, id, progress)
@@ -4705,7 +4717,8 @@ class MeshOperations:
           (Hoppe, 1999), and new vertices get the values that fit best. Values are never mixed across a line, and no
           triangle is turned over in the texture. Normals are kept, so that a simplified mesh is shaded like the
           original.
-        - Vertex tags: vertices with different tags, whole numbers or sharpness are not merged.
+        - Vertex tags: vertices with different tags, different sharpness, or different values of a whole-number
+          attribute are not merged.
 
         In a texture, the border of a chart is also simplified, and can then cross a chart that is close to it. The
         report counts the faces that overlap. To leave more space between charts, use ``pack_uvs()`` with a larger
@@ -4738,8 +4751,8 @@ class MeshOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Simplify', {'faces': faces, 'ratio': ratio, 'error': error, 'features': features, 'pin': pin, 'intersections': intersections, 'on_refusal': on_refusal}, None, id, progress)
@@ -4812,8 +4825,8 @@ class MeshOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Remesh', {'length': length, 'curvature': curvature, 'features': features, 'error': error, 'pin': pin, 'passes': passes, 'on_refusal': on_refusal}, None, id, progress)
@@ -4865,8 +4878,8 @@ class MeshOperations:
         :param keep_volume: Whether to restore the original volume of the mesh. To restore it, the step finally shifts
             all moved vertices along their normals by the same distance. The mesh must be closed. Defaults to ``False``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Smooth', {'by': by, 'passes': passes, 'vertices': vertices, 'pin': pin, 'boundary': boundary, 'keep_volume': keep_volume}, None, id, progress)
@@ -4883,11 +4896,11 @@ class MeshOperations:
         """Copies attributes from the nearest points of another object.
 
         An attribute of vertices, corners or faces of the object ``from_`` becomes an attribute of the same kind of
-        elements of the changed mesh. Numbers and vectors of vertices and corners are interpolated inside the face of
-        the nearest point. Whole numbers, tags, and attributes that edits do not interpolate are copied from the nearest
-        corner of this face. Values of faces are copied from the face of the nearest point. If the attribute already
-        exists with the same type of values, it is overwritten. If its type is different, the step fails. Without
-        ``on``, the step acts on all meshes except ``from_``.
+        elements of the changed mesh. Numbers and vectors of vertices and corners are interpolated inside the face that
+        contains the nearest point. Whole numbers, tags, and attributes that edits do not interpolate are copied from
+        the nearest corner of this face. Values of faces are copied from the face that contains the nearest point. If
+        the attribute already exists with the same type of values, it is overwritten. If its type is different, the step
+        fails. Without ``on``, the step acts on all meshes except ``from_``.
 
         All corners of a face take their values from one side of each seam, so no triangle is stretched across a seam of
         texture coordinates. Usually this is the side at the center of the face. Seams divide the source into charts. If
@@ -4895,8 +4908,8 @@ class MeshOperations:
         the corner are used. This happens where parts of the source intersect.
 
         Elements whose distance from the source exceeds ``within`` keep their values, or get zeros if the attribute is
-        new. If the distance of a corner or of the center of a face exceeds ``within``, this applies to all corners of
-        the face. The report counts these elements.
+        new. If the distance of a corner or of the center of a face exceeds ``within``, all corners of the face keep
+        their values or get zeros. The report counts these elements.
 
         Example: ``mesh.transfer(from_=scan, attributes=["uv", "color"], within=0.01)``
 
@@ -4904,8 +4917,8 @@ class MeshOperations:
         :param attributes: The names of the attributes, for example ``["uv", "color"]``.
         :param within: The largest distance from the source, in scene units. If omitted, there is no limit.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Transfer', {'from': from_, 'attributes': attributes, 'within': within}, None, id, progress)
@@ -4938,14 +4951,14 @@ class MeshOperations:
         :param by: How the vertices move.
             ``choice.Offset(..)``: By this offset along x, y and z, in scene units.
             ``choice.Distance(..)``: By this distance along the normal of each vertex, in scene units.
-            ``choice.To(..)``: By one offset for all selected vertices.
+            ``choice.To(..)``: By one common offset, so that the mean of the selected vertices arrives at this point.
             ``choice.Rotate(..)``: By a rotation around an axis through the mean of the selected vertices.
             ``choice.Scale(..)``: By scaling along x, y and z about the mean of the selected vertices.
         :param falloff: The distance from the selected vertices at which the movement has fallen to 0, in scene units.
             If omitted, only the selected vertices move.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('MoveVertices', {'vertices': vertices, 'by': by, 'falloff': falloff}, None, id, progress)
@@ -4972,7 +4985,7 @@ class MeshOperations:
 
         :param by: The values by which ``distance`` is multiplied.
             ``choice.Noise(..)``: Smooth noise from -1 to 1 (Perlin, "Improving Noise", 2002).
-            ``choice.Random(..)``: A random number from -1 to 1 for each vertex, which depends on the id of the vertex.
+            ``choice.Random(..)``: A random number from -1 to 1 for each vertex.
             ``choice.Attribute(..)``: A vertex attribute that holds one number for each vertex.
             ``choice.Image(..)``: The brightness of an image (a height map), from 0 (black) to 1 (white), at the texture
                 coordinates of the vertex.
@@ -4981,8 +4994,8 @@ class MeshOperations:
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Displace', {'by': by, 'distance': distance, 'vertices': vertices}, None, id, progress)
@@ -5002,8 +5015,8 @@ class MeshOperations:
     ) -> Self:
         """Bends a mesh, so that an axis becomes an arc of a circle.
 
-        Vertices at or below ``from_`` do not move. Between ``from_`` and ``to``, the axis becomes an arc that keeps its
-        length and turns by ``angle`` in total. Vertices above ``to`` move rigidly. Vertices between the axis and the
+        Vertices at or below ``from_`` do not move. Between ``from_`` and ``to``, the axis becomes an arc of the same
+        length, which turns by ``angle`` in total. Vertices above ``to`` move rigidly. Vertices between the axis and the
         center of the circle move closer together, and vertices on the other side of the axis move apart. The distance
         between the center and the axis is (to - from) / angle, with the angle in radians. Parts of the mesh beyond the
         center turn inside out. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
@@ -5017,7 +5030,8 @@ class MeshOperations:
             ``"X"``: The x axis.
             ``"Y"``: The y axis.
             ``"Z"``: The z axis.
-        :param angle: The angle between the ends of the axis, in degrees. A negative angle bends to the other side.
+        :param angle: The angle by which the axis turns from ``from_`` to ``to``, in degrees. A negative angle bends to
+            the other side.
         :param towards: The axis towards which the upper end bends. If omitted, the axis after ``axis`` in the order x,
             y, z, x.
             ``"X"``: The x axis.
@@ -5031,8 +5045,8 @@ class MeshOperations:
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Bend', {'axis': axis, 'angle': angle, 'towards': towards, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, None, id, progress)
@@ -5074,8 +5088,8 @@ class MeshOperations:
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Twist', {'axis': axis, 'angle': angle, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, None, id, progress)
@@ -5116,8 +5130,8 @@ class MeshOperations:
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Taper', {'axis': axis, 'factor': factor, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, None, id, progress)
@@ -5155,8 +5169,8 @@ class MeshOperations:
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Lattice', {'size': size, 'moves': moves, 'min': min, 'max': max, 'vertices': vertices}, None, id, progress)
@@ -5195,8 +5209,8 @@ class MeshOperations:
             value of ``meshwright.sel``.
         :param distance: The largest distance that a vertex moves, in scene units. If omitted, any distance.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Project', {'onto': onto, 'along': along, 'vertices': vertices, 'pin': pin, 'distance': distance}, None, id, progress)
@@ -5212,10 +5226,10 @@ class MeshOperations:
     ) -> Self:
         """Stores a quantity, such as a curvature or a distance, as an attribute of vertices or faces.
 
-        Later steps can select elements by the attribute with ``sel.Where``, ``displace()`` vertices by it, show it in a
-        ``picture()``, and save it to files. The attribute is not updated when the mesh changes. Positions and other
-        attributes do not change. Quantities are computed in the space of the mesh, without the transforms of nodes. The
-        report states the lowest, the mean and the highest value of each object.
+        Later steps can select elements by the attribute (``sel.Where``), move vertices by it (``displace()``), show it
+        in a picture (``picture()``), and save it to files (``save()``). The attribute is not updated when the mesh
+        changes. Positions and other attributes do not change. Quantities are computed in the space of the mesh, without
+        the transforms of nodes. The report states the lowest, the mean and the highest value of each object.
 
         An attribute of the same name is replaced if it belongs to the same elements (vertices or faces) and has one
         floating-point number for each element. Otherwise the step fails.
@@ -5251,10 +5265,10 @@ class MeshOperations:
             without faces. The report counts these elements. If omitted, 0 for quantities that can be negative, and -1
             for all others.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
-        :returns: The new mesh. This mesh does not change. Its ``attributes["mean_curvature"]``, or another name, has
-            the values as an array.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
+        :returns: The new mesh. This mesh does not change. Its ``attributes["mean_curvature"]``, or the attribute of the
+            given name, is an array of the values.
         """
         return self._apply('Measure', {'of': of, 'name': name, 'missing': missing}, None, id, progress)
 
@@ -5294,7 +5308,7 @@ class MeshOperations:
         :param max_angle: The largest angle between the normal of a face and the mean normal of its chart, in degrees.
             Smaller angles give more charts with less stretch. Defaults to ``70.0``.
         :param max_stretch: The largest ratio between the area scale of a triangle and the area scale of its whole
-            chart. Defaults to ``4.0``.
+            chart. The area scale is the area in the texture divided by the area on the surface. Defaults to ``4.0``.
         :param page: The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for any size.
             The size only determines how large the padding is. Defaults to ``1024``.
         :param padding: The number of empty texels around each chart. The distance between two charts is at least twice
@@ -5304,10 +5318,10 @@ class MeshOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
-        :returns: The new mesh. This mesh does not change. Its ``attributes["uv"]`` has the coordinates of each corner,
-            and ``corners`` its vertex.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
+        :returns: The new mesh. This mesh does not change. Its ``attributes["uv"]`` has the coordinates of the corners,
+            and ``corners`` has their vertices.
         """
         return self._apply('Unwrap', {'seams': seams, 'max_angle': max_angle, 'max_stretch': max_stretch, 'page': page, 'padding': padding, 'uv': uv, 'on_refusal': on_refusal}, None, id, progress)
 
@@ -5336,8 +5350,8 @@ class MeshOperations:
         :param padding: The number of empty texels around each chart. The distance between two charts is at least twice
             this number. Defaults to 2.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('PackUvs', {'uv': uv, 'page': page, 'padding': padding}, None, id, progress)
@@ -5408,11 +5422,12 @@ class MeshOperations:
             ``"width"``: The width of edges and the diameter of vertices, in pixels. If omitted, the defaults of
                 ``highlight_width``.
         :param color_by: The quantity to show as colors of the surface.
-            ``"of"``: The numbers.
+            ``"of"``: The quantity that the colors show.
             ``"map"``: The color map. If omitted, ``Classes`` for valences, ``Diverging`` for curvatures, else
                 ``Viridis``.
-            ``"range"``: The numbers of the first and the last color, as in ``(0, 60)``. If omitted, the range is chosen
-                from the numbers; for curvatures, without the lowest and the highest 2 %.
+            ``"range"``: The values that the first and the last color represent, as in ``(0, 60)``. If omitted, the
+                range depends on the values of the quantity. For curvatures, the range is symmetric about 0 and leaves
+                out the lowest and the highest eighth of the values, or fewer values if the others are all 0.
             ``"legend"``: Whether a legend in a corner explains the colors.
         :param turntable: If given, the picture is an animation in which the camera moves once around the scene.
             ``"frames"``: The number of images.
@@ -5421,8 +5436,8 @@ class MeshOperations:
             folder of the recipe. If omitted, the folder of the recipe. Missing images are not drawn, and the report
             lists them.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Picture', {'path': path, 'size': size, 'camera': camera, 'views': views, 'columns': columns, 'style': style, 'highlight': highlight, 'highlight_width': highlight_width, 'marks': marks, 'color_by': color_by, 'turntable': turntable, 'images': images}, None, id, progress)
@@ -5467,8 +5482,8 @@ class MeshOperations:
         :param labels: Whether points are labeled with their names. Defaults to ``True``.
         :param legend: Whether there is a legend below the panels. Defaults to ``True``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('CurveFigure', {'path': path, 't': t, 'by_level': by_level, 'before': before, 'width': width, 'columns': columns, 'scale': scale, 'labels': labels, 'legend': legend}, None, id, progress)
@@ -5503,8 +5518,8 @@ class MeshOperations:
         :param width: The width of the figure in SVG pixels. Defaults to ``640``.
         :param scale: The number of PNG pixels per SVG pixel. Has no effect on ``.svg`` files. Defaults to ``2``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('HalfEdgeFigure', {'path': path, 'faces': faces, 'width': width, 'scale': scale}, None, id, progress)
@@ -5524,9 +5539,9 @@ class MeshOperations:
         """Draws the charts of the texture coordinates of a mesh into an image file.
 
         A gray frame shows the page of the texture, where u and v are from 0 to 1; v points upwards. Thick lines are the
-        borders of charts, and thin lines are the other edges. Coordinates outside the page are also drawn, so the
-        figure becomes higher or its scale becomes smaller. The extension of the file determines the format: ``.svg`` or
-        ``.png``. The file is written only if the whole recipe succeeds. The scene does not change.
+        borders of charts, and thin lines are the other edges. Coordinates outside the page are also drawn. To make room
+        for them, the figure becomes higher or its scale becomes smaller. The extension of the file determines the
+        format: ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The scene does not change.
 
         Example: ``mesh.uv_picture(path="uv.svg")``
 
@@ -5540,8 +5555,8 @@ class MeshOperations:
         :param width: The width of the figure in SVG pixels. Defaults to ``640``.
         :param scale: The number of PNG pixels per SVG pixel. Has no effect on ``.svg`` files. Defaults to ``2``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of parts that are done and of all parts; or `True`
-            for a bar of tqdm.
+        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+            `True` for a bar of tqdm.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('UvPicture', {'path': path, 'uv': uv, 'fill': fill, 'edges': edges, 'width': width, 'scale': scale}, None, id, progress)

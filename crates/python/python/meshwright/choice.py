@@ -27,8 +27,8 @@ def Angles(*, azimuth: float | Arg | Ron, elevation: float | Arg | Ron) -> Choic
 def Attribute(*, name: str | Arg | Ron, component: int | Arg | Ron | None = None) -> Choice:
     """A vertex attribute that holds one number for each vertex.
 
-    An attribute. If several domains have an attribute of this name, the first of vertices, faces, corners and edges is
-    used.
+    An attribute. If several domains have an attribute of this name, the first of these domains that has it is used:
+    vertices, faces, corners, edges.
 
     :param name: The name of the attribute.
     :param component: The index of the component of a vector, from 0. If omitted, the length of the vector.
@@ -107,8 +107,8 @@ def Fit(
     :param from_: The side from which the camera looks. Defaults to ``"ThreeQuarter"``.
         ``"Front"``: From the front.
         ``"Back"``: From the back.
-        ``"Left"``: From the side of small x.
-        ``"Right"``: From the side of large x.
+        ``"Left"``: From the side where x is small.
+        ``"Right"``: From the side where x is large.
         ``"Top"``: From above.
         ``"Bottom"``: From below.
         ``"Isometric"``: From the front, right and above, so that the three axes are equally long in the picture.
@@ -135,8 +135,8 @@ def Geodesic(*, from_: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | R
     On fine meshes of smooth surfaces, the mean error is below 1 %. A vertex that no path of edges joins to a selected
     vertex has no distance.
 
-    :param from_: The vertices to start from. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of
-        ``meshwright.sel``.
+    :param from_: The vertices from which distances are measured. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value
+        of ``meshwright.sel``.
     """
     return Choice('Geodesic', from_=from_)
 
@@ -146,8 +146,9 @@ def Image(*, path: str | Arg | Ron, uv: str | Arg | Ron | None = None) -> Choice
     """The brightness of an image (a height map), from 0 (black) to 1 (white), at the texture coordinates of the vertex.
 
     Brightness is the mean of red, green and blue as they are stored in the file. The step interpolates between the
-    pixels. Outside of 0 to 1, the image is repeated. A vertex on a seam moves by the mean over its corners. Gray PNG
-    files with 16 bits per pixel give smoother surfaces than files with 8 bits.
+    pixels. Where the texture coordinates are less than 0 or more than 1, the image is repeated. A vertex on a seam
+    moves by the mean of the values at its corners. Gray PNG files with 16 bits per pixel give smoother surfaces than
+    files with 8 bits.
 
     :param path: The PNG or JPEG file. A relative path is relative to the folder of the recipe.
     :param uv: The name of the texture coordinates. Defaults to ``uv``.
@@ -176,7 +177,7 @@ def Laplacian(
 
     :param weights: The weights of the neighbors. Defaults to ``"Uniform"``.
         ``"Uniform"``: All vertices that share an edge with the vertex have the same weight.
-        ``"Cotangent"``: The weights follow the shape of the faces.
+        ``"Cotangent"``: The weights depend on the angles of the faces (cotangent weights).
     :param factor: The distance of the movement, as a fraction of the distance to the mean. From 0 to 1. Defaults to
         0.5.
     """
@@ -210,8 +211,8 @@ def LookAt(
         ``"Y"``: The y axis, as in glTF.
         ``"Z"``: The z axis, as in most CAD programs.
         ``"Auto"``: The z axis if the scene stands on the plane z = 0 but not on the plane y = 0; else the y axis.
-    :param projection: The projection. With ``Orthographic``, the picture is as high, in scene units, as a perspective
-        picture of 30 degrees at the distance of ``to``.
+    :param projection: The projection. With ``Orthographic``, the picture shows the same height, in scene units, that a
+        perspective picture with a field of view of 30 degrees shows at the distance of ``to``.
         ``"Orthographic"``: Parallel projection: the size of an object does not depend on its distance.
         ``choice.Perspective(..)``: Perspective projection, as in a photograph.
     """
@@ -289,7 +290,9 @@ def PrincipalCurvature(value: Literal['Largest', 'Smallest'] | Arg | Ron, /) -> 
 
 
 def Random(*, seed: int | Arg | Ron | None = None) -> Choice:
-    """A random number from -1 to 1 for each vertex, which depends on the id of the vertex.
+    """A random number from -1 to 1 for each vertex.
+
+    The number depends on the id of the vertex.
 
     :param seed: The seed. A different seed gives different numbers. The same seed gives the same numbers in every step.
         Defaults to 0.
@@ -314,7 +317,7 @@ def Rotate(*, axis: Literal['X', 'Y', 'Z'] | Arg | Ron, angle: float | Arg | Ron
 def Scale(value: Sequence[float] | NDArray[Any] | Arg | Ron, /) -> Choice:
     """By scaling along x, y and z about the mean of the selected vertices.
 
-    With the factor 0, all selected vertices get the same coordinate.
+    A factor of 0 along an axis gives all selected vertices the same coordinate along this axis.
     """
     return Choice('Scale', value)
 
@@ -341,7 +344,7 @@ def Taubin(
 
     :param weights: The weights of the neighbors. Defaults to ``"Uniform"``.
         ``"Uniform"``: All vertices that share an edge with the vertex have the same weight.
-        ``"Cotangent"``: The weights follow the shape of the faces.
+        ``"Cotangent"``: The weights depend on the angles of the faces (cotangent weights).
     :param factor: The distance of the first step, as a fraction of the distance to the mean. From 0 to 1, exclusive.
         Factors that would amplify noise are refused. With the default ``pass_band``, these are the factors of more than
         about 0.7. Defaults to 0.33.
@@ -353,10 +356,7 @@ def Taubin(
 
 
 def To(value: Sequence[float] | NDArray[Any] | Arg | Ron, /) -> Choice:
-    """By one offset for all selected vertices.
-
-    The offset moves the mean of the selected vertices to this point.
-    """
+    """By one common offset, so that the mean of the selected vertices arrives at this point."""
     return Choice('To', value)
 
 

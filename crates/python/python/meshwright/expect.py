@@ -396,7 +396,9 @@ def Point(
     line: int | Arg | Ron | None = None,
     tolerance: float | Arg | Ron | None = None,
 ) -> Choice:
-    """The position of one point of a polyline, in object space, because nodes place only meshes.
+    """The position of one point of a polyline.
+
+    The position is in object space, because nodes place only meshes.
 
     :param index: The index of the point in the polyline, counted from 0.
     :param is_: The expected position.
@@ -495,7 +497,7 @@ def Thickness(
     max: float | Arg | Ron | None = None,
 ) -> Choice:
     """The thickness of the solid at each selected vertex, in scene units, as ``measure(of="Thickness", ..)`` measures
-    it. Infinite where the surface has no opposite side, as on an open sheet.
+    it. The thickness is infinite where the surface has no opposite side, as on an open sheet.
 
     Fails if the selection is empty.
 

@@ -110,6 +110,10 @@ impl Flips {
     /// is flipped.
     fn flip(&mut self, points: &[[f64; 2]], corners: &mut [u32], a: u32) -> bool {
         let b = self.mates[a as usize];
+        if b == NONE {
+            // After the side was queued, another flip has moved it to the boundary.
+            return false;
+        }
         let turned = |side: u32, by: u32| side - side % 3 + (side + by) % 3;
         let [a_next, a_last] = [turned(a, 1), turned(a, 2)];
         let [b_next, b_last] = [turned(b, 1), turned(b, 2)];

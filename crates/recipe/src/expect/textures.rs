@@ -1,5 +1,7 @@
 //! Measures of texture coordinates.
 
+use std::collections::BTreeMap;
+
 use geometry::uv;
 use mesh::{DVec2, Domain, FaceId, Mesh, Value};
 use op::Progress;
@@ -49,12 +51,18 @@ pub(super) fn stretched_faces(mesh: &Mesh, name: &str, max: f64) -> Vec<FaceId> 
     let Some(uvs) = coordinates(mesh, name) else {
         return Vec::new();
     };
-    let face_aspects = uv::aspects(mesh, uvs)
-        .filter_map(|(triangle, aspect)| Some((aspect, mesh.face(triangle[0])?)));
-    let mut stretched: Vec<(f64, FaceId)> =
-        face_aspects.filter(|(aspect, _)| *aspect > max).collect();
-    stretched.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-    stretched.into_iter().map(|(_, f)| f).collect()
+    let mut worst: BTreeMap<FaceId, f64> = BTreeMap::new();
+    for (triangle, aspect) in uv::aspects(mesh, uvs) {
+        if let Some(f) = mesh.face(triangle[0])
+            && aspect > max
+        {
+            let worst = worst.entry(f).or_default();
+            *worst = worst.max(aspect);
+        }
+    }
+    let mut stretched: Vec<(FaceId, f64)> = worst.into_iter().collect();
+    stretched.sort_by(|a, b| b.1.total_cmp(&a.1));
+    stretched.into_iter().map(|(f, _)| f).collect()
 }
 
 /// Returns the faces that overlap another face of the mesh.

@@ -113,7 +113,7 @@ fn a_first_build_compiles_at_most_max_packages() {
     let packages: BTreeSet<&str> = tree
         .lines()
         .map(|line| line.trim_end_matches(" (*)"))
-        // Leaves out packages of this workspace, which have a path.
+        // Leaves out packages of this workspace: `cargo tree` prints their paths.
         .filter(|line| !line.contains(" (") || line.ends_with("(proc-macro)"))
         .collect();
     let n = packages.len();

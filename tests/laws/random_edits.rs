@@ -338,8 +338,8 @@ impl Polygons {
         }
     }
 
-    /// Collapses the edge from a to b, if the topology does not change and no new elements coincide. The checks are in
-    /// the same order as in the mesh.
+    /// Collapses the edge from a to b, unless this would change the topology or make more elements coincide. The checks
+    /// are in the same order as in the mesh.
     fn collapse(&self, [a, b]: [u32; 2], t: f64, e: EdgeId) -> Result<Self, EditError> {
         if t > 1.0 {
             return Err(EditError::OutsideEdge(t));

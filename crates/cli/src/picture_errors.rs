@@ -47,7 +47,7 @@ const MAX_FILE_SIZE: u64 = 64 << 20;
 /// Draws the failures of a run, if requested, and keeps the list of pictures.
 #[derive(Default)]
 pub(crate) struct Pictures {
-    /// The start of the paths of all pictures; `None` if nothing is drawn.
+    /// The paths of all pictures without their endings, such as `-error-1.png`; `None` if nothing is drawn.
     base: Option<PathBuf>,
     /// The memory budget of each picture, in bytes.
     budget: u64,

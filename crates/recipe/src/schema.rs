@@ -236,7 +236,7 @@ fn step_fields(operation: &Json, defined: &mut SchemaGenerator) -> Json {
             "note": { "type": "string", "description": "A comment on the step, which `meshwright run --explain` and `check --explain` print." },
             "refused": described(
                 &reference::<Refusal>(defined),
-                "The reason for which the step must be refused. The scene stays unchanged.",
+                "The step must be refused for this reason, and leave the scene unchanged.",
             ),
             "on_loss": described(
                 &reference::<OnLoss>(defined),

@@ -50,7 +50,7 @@ impl Parts {
         }));
     }
 
-    /// Shows the edit whose image is drawn next.
+    /// Shows the mesh at the moment whose image is drawn next.
     pub(crate) fn show_exported(&mut self) {
         if let (Some(Export::Drawing(drawing)), Some(player)) = (&self.export, &mut self.player) {
             player.go_to(drawing.moments[drawing.images.len()]);

@@ -70,10 +70,9 @@ fn recipe_of(
     match candidates.into_iter().find(is_named) {
         Some(path) => Ok((Source::open(&path)?, run)),
         None => anyhow::bail!(
-            "{shown} was written by the recipe {} with the digest {}; this recipe was not found below the working \
-             directory: name it with --recipe",
-            run.file,
-            stamp.recipe
+            "{shown} was written by the recipe {}, which was not found below the working directory: name the recipe with \
+             --recipe",
+            run.file
         ),
     }
 }

@@ -119,7 +119,7 @@ fn a_file_without_provenance_needs_the_option_recipe() {
     folder.run("run scenes/r.ron").with_code(0);
     std::fs::remove_file(folder.path("scenes/r.ron")).unwrap();
     folder.run("reproduce out/a.obj").with_code(1).complains(&[
-        "was written by the recipe r.ron with the digest",
+        "was written by the recipe r.ron, which was not found below the working directory",
         "--recipe",
     ]);
 }

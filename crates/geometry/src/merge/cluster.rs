@@ -159,8 +159,8 @@ impl Reach {
         }
     }
 
-    /// Whether the difference is at most one step. If so, every difference with smaller absolute coordinates is
-    /// also at most one step.
+    /// Whether the length of the difference is at most the distance. If so, this also holds for every difference with
+    /// smaller absolute coordinates.
     fn covers(&self, difference: DVec3) -> bool {
         if self.squared == 0.0 {
             // Squares are not compared, because the square of a tiny difference is also 0.

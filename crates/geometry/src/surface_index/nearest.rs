@@ -187,8 +187,8 @@ impl SurfaceIndex {
         Ok(found)
     }
 
-    /// Continues the search and visits the nodes in order of their distances from `p`. If the search stops
-    /// early, this order gives the best lower bound.
+    /// Searches again from the root, starting with the best point found so far. The nodes are visited in order of their
+    /// distances from `p`, because this order gives the best lower bound if the search stops early.
     fn nearly_nearest(&self, p: DVec3, mut best: Best) -> (Best, Option<f64>, u32) {
         // Squares are non-negative, so they have the same order as their bits.
         let mut waiting = BinaryHeap::from([Reverse((0_u64, 0_usize))]);

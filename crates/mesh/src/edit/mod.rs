@@ -119,7 +119,9 @@ pub enum EditError {
     #[error("{0} and {1} are the same corner, adjacent, or at the same vertex")]
     Adjacent(HalfEdgeId, HalfEdgeId),
     /// The edit needs whole components, and this face shares an edge with a face that was not listed.
-    #[error("{0} shares an edge with a face that was not listed")]
+    #[error(
+        "{0} shares an edge with a face that was not listed; the faces must form whole components"
+    )]
     PartOfComponent(FaceId),
     /// The edge was listed twice.
     #[error("{0} was listed twice")]

@@ -47,8 +47,8 @@ impl Checker {
         place: Place,
     ) {
         if number.has_base() {
-            let help = Some("only whole numbers can be written with `0x`, `0o` or `0b`".to_owned());
-            return self.mismatch(value, "a number", place, help);
+            let help = "`0x`, `0o` and `0b` are allowed only where a whole number is required";
+            return self.mismatch(value, "a decimal number", place, Some(help.to_owned()));
         }
         let float = number.to_float();
         let single = schema.format() == Some("float");

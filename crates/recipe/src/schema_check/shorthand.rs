@@ -96,9 +96,8 @@ impl Checker {
                 Some(help),
             );
         }
-        // The variant that fits best is the variant whose content type declares the most names that occur in the value.
-        // If several variants declare equally many of these names, the variant with the fewest errors fits best. If
-        // these variants also have equally many errors, the first of them fits best.
+        // For each variant, counts the names in the value that are selections of this variant. The variant with the highest
+        // count fits best; among variants with equal counts, the variant with the fewest errors; and among these, the first.
         let fit = |((_, _, trial), names): &((&str, Schema, Self), Vec<String>)| {
             (n_known(value, names), Reverse(trial.diagnostics.len()))
         };

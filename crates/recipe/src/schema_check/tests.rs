@@ -262,7 +262,7 @@ fn a_wrong_type_tells_what_was_expected_and_found() {
         ),
         (
             "single: 0x10",
-            "0x10: expected a number for `single`, found 0x10",
+            "0x10: expected a decimal number for `single`, found 0x10",
         ),
         (
             "single: None",

@@ -104,7 +104,7 @@ pub enum Elements {
 pub struct Coloring {
     /// The name of the object, which must be a mesh.
     pub object: String,
-    /// The domain: the elements that have numbers. The numbers of edges are shown as colored lines.
+    /// The elements that have values. Values of edges are shown as colored lines.
     pub domain: ::mesh::Domain,
     /// One number for each element, by index. NaN if the element has no number.
     pub values: Vec<f64>,

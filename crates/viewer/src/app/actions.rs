@@ -150,7 +150,7 @@ impl Parts {
             Selected::Faces(list) => list.first().map(|&f| mesh.face_half_edge(f)),
         });
         if let Some(h) = start.filter(|h| mesh.has_edge(h.edge())) {
-            // If a vertex or a face is picked, the first walk only picks its half-edge.
+            // If no half-edge is picked yet, the first walk only picks a half-edge of the picked element.
             let to = if picked.half_edge.is_some() {
                 walk(&mesh, h, step)
             } else {

@@ -1,13 +1,17 @@
 //! Keys that do something in the whole window.
 
 use editor::{Action, Keys};
-use eframe::egui::{Context, Event, Id, Key, Modifiers};
+use eframe::egui::{Context, Event, Id, Key, Modifiers, Popup};
 
 /// Removes the keys with an action from the input, and returns the actions.
 ///
 /// While a text is edited, only F1, Escape and keys with Ctrl have an action, and only if the action is about the
-/// window or the file. While a widget other than the view has the focus, Space and Enter belong to that widget.
+/// window or the file. While a widget other than the view has the focus, Space and Enter belong to that widget. While a
+/// menu or a list of choices is open, all keys belong to it.
 pub(crate) fn actions(ctx: &Context, keys: &Keys, is_modal: bool, view: Option<Id>) -> Vec<Action> {
+    if Popup::is_any_open(ctx) {
+        return Vec::new();
+    }
     let is_text = ctx.text_edit_focused();
     let has_focus = ctx.memory(|memory| memory.focused().is_some_and(|id| Some(id) != view));
     let mut actions = Vec::new();

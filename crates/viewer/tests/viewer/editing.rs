@@ -322,3 +322,23 @@ fn the_teapot_is_colored_by_curvature_in_a_light_window() {
     window.press(Key::Space);
     window.check_picture("curvature");
 }
+
+#[test]
+fn keys_belong_to_an_open_list_of_choices_and_escape_closes_it() {
+    let Some(mut window) = Window::open("cube.ron", CUBE) else {
+        return;
+    };
+    window
+        .harness
+        .get_by_role_and_label(Role::ComboBox, "Color by")
+        .click();
+    window.settle();
+    let text = window.text();
+    window.press(Key::L);
+    assert_eq!(window.text(), text);
+    assert!(window.harness.query_by_label("mean curvature").is_some());
+    window.press(Key::Escape);
+    assert!(window.harness.query_by_label("mean curvature").is_none());
+    window.press(Key::L);
+    assert_ne!(window.text(), text);
+}

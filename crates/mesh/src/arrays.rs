@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::attribute::{
     Attribute, Attributes, CORNER_NORMAL, CORNER_TANGENT, Column, TANGENT, VERTEX_NORMAL, Value,
-    Values, morph_normal_of, morph_tangent_of,
+    Values, is_morph_direction,
 };
 use crate::journal::{Entry, Journal};
 use crate::marks::Marks;
@@ -366,18 +366,16 @@ impl Mesh {
         removed
     }
 
-    /// Removes [`VERTEX_NORMAL`], [`CORNER_NORMAL`], [`TANGENT`], [`CORNER_TANGENT`], and the normals and tangents of morph
-    /// targets ([`crate::morph_normal_name`], [`crate::morph_tangent_name`]), which are wrong after the shape has changed.
+    /// Removes [`VERTEX_NORMAL`], [`CORNER_NORMAL`], [`TANGENT`], [`CORNER_TANGENT`], and the normals and tangents of
+    /// morph targets ([`crate::morph_normal_name`], [`crate::morph_tangent_name`]), which are wrong after the shape has
+    /// changed.
     pub fn remove_normals(&mut self) {
         self.remove_column(Domain::Vertex, VERTEX_NORMAL.name);
         self.remove_column(Domain::Corner, CORNER_NORMAL.name);
         self.remove_column(Domain::Vertex, TANGENT.name);
         self.remove_column(Domain::Corner, CORNER_TANGENT.name);
         let columns = self.attributes.iter();
-        let morphs = columns.filter(|(_, column)| {
-            let name = &column.name;
-            morph_normal_of(name).or(morph_tangent_of(name)).is_some()
-        });
+        let morphs = columns.filter(|(_, column)| is_morph_direction(&column.name));
         let morphs: Vec<_> = morphs.map(|(domain, c)| (domain, c.name.clone())).collect();
         for (domain, name) in morphs {
             self.remove_column(domain, &name);

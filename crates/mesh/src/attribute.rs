@@ -19,8 +19,8 @@ use crate::{EdgeId, FaceId, HalfEdgeId, VertexId};
 
 pub use columns::{Attributes, Column, Sources};
 pub use rig::{
-    is_rig_name, joint_name, joint_of, morph_name, morph_normal_name, morph_normal_of, morph_of,
-    morph_tangent_name, morph_tangent_of,
+    is_morph_direction, is_rig_name, joint_name, joint_of, morph_name, morph_normal_name,
+    morph_normal_of, morph_of, morph_tangent_name, morph_tangent_of,
 };
 pub(crate) use values::pop_value;
 pub use values::{Value, Values};

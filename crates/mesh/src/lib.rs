@@ -129,9 +129,9 @@ mod zeroed;
 pub use arrays::{Connectivity, Mesh};
 pub use attribute::{
     Attribute, Attributes, COLOR, CORNER_NORMAL, CORNER_TANGENT, CREASE, Column, MATERIAL, Rule,
-    SMOOTHING, Sources, TANGENT, UV, VERTEX_NORMAL, VERTEX_SHARPNESS, Value, Values, is_rig_name,
-    joint_name, joint_of, morph_name, morph_normal_name, morph_normal_of, morph_of,
-    morph_tangent_name, morph_tangent_of,
+    SMOOTHING, Sources, TANGENT, UV, VERTEX_NORMAL, VERTEX_SHARPNESS, Value, Values,
+    is_morph_direction, is_rig_name, joint_name, joint_of, morph_name, morph_normal_name,
+    morph_normal_of, morph_of, morph_tangent_name, morph_tangent_of,
 };
 pub use build::{BuildError, BuildOutput, BuildReport, Elements, NonManifold, Repair, build};
 pub use compact::Renumbering;

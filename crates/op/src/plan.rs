@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use indexmap::IndexSet;
 use mesh::{
-    CORNER_NORMAL, CORNER_TANGENT, DVec3, Domain, Rule, TANGENT, VERTEX_NORMAL, joint_of,
-    morph_normal_of, morph_of, morph_tangent_of,
+    CORNER_NORMAL, CORNER_TANGENT, DVec3, Domain, Rule, TANGENT, VERTEX_NORMAL, is_morph_direction,
+    joint_of, morph_of,
 };
 use scene::{Geometry, Graph, Scene};
 
@@ -258,18 +258,14 @@ impl MeshPlan {
             .retain(|a| a.domain != domain || a.name != name);
     }
 
-    /// Removes the normals and tangents of vertices, corners and morph targets. Operations that change the shape use this
-    /// method.
+    /// Removes the normals and tangents of vertices, corners and morph targets. Operations that change the shape use
+    /// this method.
     pub fn drop_normals(&mut self) {
         self.drop_attribute(Domain::Vertex, VERTEX_NORMAL.name);
         self.drop_attribute(Domain::Corner, CORNER_NORMAL.name);
         self.drop_attribute(Domain::Vertex, TANGENT.name);
         self.drop_attribute(Domain::Corner, CORNER_TANGENT.name);
-        (self.attributes).retain(|a| {
-            morph_normal_of(&a.name)
-                .or(morph_tangent_of(&a.name))
-                .is_none()
-        });
+        (self.attributes).retain(|attribute| !is_morph_direction(&attribute.name));
     }
 
     /// Whether one of the known attributes has weights of joints.

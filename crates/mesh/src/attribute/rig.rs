@@ -9,8 +9,8 @@
 //! values are the normals themselves, not their differences from the normals of the mesh. Like all normals, they follow
 //! the rule [`Rule::Normal`](crate::Rule::Normal).
 //!
-//! The attribute `morph_tangent:t` has the tangents of the corners when morph target t has the weight 1, with the rule and
-//! the signs of [`CORNER_TANGENT`](crate::CORNER_TANGENT).
+//! The attribute `morph_tangent:t` has the tangents of the corners when morph target t has the weight 1, with the rule
+//! and the signs of [`CORNER_TANGENT`](crate::CORNER_TANGENT).
 
 use super::{Attributes, Values};
 use crate::{DVec3, Domain};
@@ -61,6 +61,11 @@ pub fn morph_normal_of(name: &str) -> Option<usize> {
 /// does not store tangents of a morph target.
 pub fn morph_tangent_of(name: &str) -> Option<usize> {
     number(name.strip_prefix(MORPH_TANGENT)?)
+}
+
+/// Whether an attribute with this name stores normals or tangents of a morph target.
+pub fn is_morph_direction(name: &str) -> bool {
+    morph_normal_of(name).or(morph_tangent_of(name)).is_some()
 }
 
 /// Whether this is the name of an attribute of a joint or a morph target.

@@ -29,7 +29,8 @@ pub type Triangle = [u32; 3];
 /// Squared lengths whose relative difference is at most this number are treated as equal. An area that is
 /// smaller than this, relative to the size of the face, is treated as 0.
 const TOLERANCE: f64 = 1e-12;
-/// The largest number of corners for which a face is cut by ear clipping, which then takes at most about 50 ms.
+/// The largest number of corners for which a face is cut by ear clipping. Ear clipping of a face with this number of
+/// corners takes at most about 50 ms.
 const MAX_EARS: usize = 4096;
 /// The smallest number of corners for which the cut can be cancelled. Smaller faces take little time.
 const MIN_CANCELLED: usize = 256;
@@ -108,11 +109,13 @@ impl Cut {
 /// A larger face is projected along its normal and cut by ear clipping (Held, "FIST: Fast Industrial-Strength
 /// Triangulation of Polygons", 2001, as implemented by the crate `earcut`). The time of ear clipping can grow with the
 /// square of the number of corners, so a face with more than 4096 corners is cut into monotone pieces instead (de Berg
-/// and others, "Computational Geometry: Algorithms and Applications", 2008, chapter 3). Then diagonals are flipped until
-/// the result is a constrained Delaunay triangulation.
+/// and others, "Computational Geometry: Algorithms and Applications", 2008, chapter 3). Then diagonals are flipped
+/// until the result is a constrained Delaunay triangulation.
 ///
 /// A face becomes a fan around its vertex with the lowest id if it has more than ten million corners or cannot be cut.
-/// A face cannot be cut if its area is zero or its sides cross.
+/// A face cannot be cut if its area is zero or its sides cross. A face with more than 4096 corners can also not be cut
+/// if some of its sides overlap, and some of its triangles are not Delaunay triangles if more than 1024 flips for each
+/// corner are needed.
 ///
 /// # Examples
 ///
@@ -139,8 +142,8 @@ impl Cutter {
         self.cut_unless(&|| false, mesh, f)
     }
 
-    /// Returns how `f` is cut. For a face with many corners, `is_cancelled` is called many times. When it returns `true`,
-    /// the cut is not completed: the face becomes a fan.
+    /// Returns how `f` is cut. For a face with many corners, `is_cancelled` is called many times. When it returns
+    /// `true`, the cut is not completed: the face becomes a fan.
     pub fn cut_unless(&mut self, is_cancelled: &dyn Fn() -> bool, mesh: &Mesh, f: FaceId) -> Cut {
         self.points.clear();
         let corners = mesh.face_vertices(f).map(|v| mesh.position(v));
@@ -184,8 +187,8 @@ impl Cutter {
         turns_left && changes.count() == 2
     }
 
-    /// Triangulates the points, and improves the triangles by flips. Returns `None` if the points cannot be triangulated or
-    /// `is_cancelled` returns `true`.
+    /// Triangulates the points, and improves the triangles by flips. Returns `None` if the points cannot be
+    /// triangulated or `is_cancelled` returns `true`.
     fn ears(&mut self, is_cancelled: &dyn Fn() -> bool) -> Option<Vec<Triangle>> {
         let n = self.points.len();
         let normal = doubled_area(&self.points).try_normalize()?;

@@ -239,8 +239,8 @@ pub fn holds_normals(domain: Domain, column: &Column) -> bool {
     column.rule == Rule::Normal && (domain, &*column.name) != (Domain::Vertex, TANGENT.name)
 }
 
-/// Transforms the directions of [`CORNER_TANGENT`], [`TANGENT`] and the tangents of morph targets, if the mesh has them. A
-/// reflection negates the signs of the tangents of corners.
+/// Transforms the directions of [`CORNER_TANGENT`], [`TANGENT`] and the tangents of morph targets, if the mesh has
+/// them. A reflection negates the signs of the tangents of corners.
 pub fn transform_tangents(mesh: &mut Mesh, linear: &DMat3) {
     change_tangents(mesh, |_| *linear);
 }

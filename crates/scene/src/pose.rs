@@ -86,10 +86,10 @@ impl Pose {
         Some(parallel::collect(n, blend))
     }
 
-    /// Returns the normals and tangents of the mesh and of its morph targets in this pose, before joints move them. These
-    /// columns replace the columns of the same names in `attributes`. Columns that do not change are left out. If one of
-    /// the old columns of normals has values for corners, all new columns of normals have values for corners; otherwise,
-    /// they have values for vertices. `vertex_of` returns the vertex of a corner.
+    /// Returns the normals and tangents of the mesh and of its morph targets in this pose, before joints move them.
+    /// These columns replace the columns of the same names in `attributes`. Columns that do not change are left out. If
+    /// one of the old columns of normals has values for corners, all new columns of normals have values for corners;
+    /// otherwise, they have values for vertices. `vertex_of` returns the vertex of a corner.
     ///
     /// The new normal is the normalized sum of the old normal and the weighted differences between the normals of the
     /// morph targets and the old normal, as in glTF 2.0, section 3.7.2.2. The differences themselves do not change. If

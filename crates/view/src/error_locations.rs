@@ -38,10 +38,10 @@ const TANGENT: f64 = 0.221_694_662_642_939_43;
 
 /// Draws a scene with the locations of errors in a strong color.
 ///
-/// The left view shows all objects that have a location. If a location does not say in which object it is, the left view
-/// shows the whole scene. The right view is a close-up of the first location, with the names of elements. If `locations`
-/// is empty, there is only the left view. `caption` is written below the left view. Returns `None` if
-/// the scene is empty.
+/// The left view shows all objects that have a location. If a location does not say in which object it is, the left
+/// view shows the whole scene. The right view is a close-up of the first location, with the names of elements. If
+/// `locations` is empty, there is only the left view. `caption` is written below the left view. Returns `None` if the
+/// scene is empty.
 ///
 /// # Errors
 ///

@@ -149,7 +149,7 @@ impl Editor {
             None => "this is not a selection".to_owned(),
         })?;
         if picked.is_empty() {
-            return Err("the selection selects no elements".to_owned());
+            return Err("no elements match the selection".to_owned());
         }
         let half_edge = self.picked.as_ref().and_then(|picked| picked.half_edge);
         picked.half_edge = half_edge.filter(|&h| picked.contains(Element::HalfEdge(h)));

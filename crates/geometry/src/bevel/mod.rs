@@ -29,8 +29,8 @@ impl Cuts {
         fraction / self.remaining.get(e.index()).unwrap_or(&1.0)
     }
 
-    /// Records a bevel of a vertex or an edge. `new` is the face that the bevel added. Every edge outside `new` that ends
-    /// at a corner of `new` was shortened by `fraction` of its original length.
+    /// Records a bevel of a vertex or an edge. `new` is the face that the bevel added. Every edge outside `new` that
+    /// ends at a corner of `new` was shortened by `fraction` of its original length.
     pub fn cut(&mut self, mesh: &Mesh, new: FaceId, fraction: f64) {
         for h in mesh.face_half_edges(new) {
             let e = mesh.next(h.twin()).edge();

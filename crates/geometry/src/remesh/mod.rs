@@ -309,8 +309,8 @@ fn run(
 /// Splitting stops at this multiple of the estimated number of faces, so that the splitting ends for every input.
 const ENOUGH: f64 = 4.0;
 
-/// The largest number of faces during remeshing. All half-edges must have ids, including those that are removed during a
-/// pass.
+/// The largest number of faces during remeshing. All half-edges must have ids, including those that are removed during
+/// a pass.
 pub const MAX_FACES: usize = u32::MAX as usize / 12;
 
 impl Default for Options<'_> {

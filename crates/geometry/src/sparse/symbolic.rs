@@ -155,8 +155,8 @@ fn counts<I: Iterator<Item = u32>>(parent: &[u32], row: impl Fn(usize) -> I) -> 
     for i in 0..n {
         let this = as_row(i);
         mark[i] = this;
-        // Row i of the factor has an entry in every column on the paths through the elimination tree from the columns of
-        // row i of the matrix up to i.
+        // Row i of the factor has an entry in every column on the paths through the elimination tree from the columns
+        // of row i of the matrix up to i.
         for mut j in row(i).filter(|&j| j < this) {
             while mark[j as usize] != this {
                 mark[j as usize] = this;

@@ -8,15 +8,15 @@
 //!        r                r
 //! ```
 //!
-//! Source: Lawson, "Software for C1 Surface Interpolation", 1977. The order of the flips and the tolerance are those of the
-//! crate `earcut`, whose function can neither be canceled nor limited.
+//! Source: Lawson, "Software for C1 Surface Interpolation", 1977. The order of the flips and the tolerance are those of
+//! the crate `earcut`, whose function can neither be canceled nor limited.
 
 use mesh::DVec2;
 
 use super::{Triangle, with_sorted_corners};
 
-/// The largest number of flips for each corner. The number of flips can grow with the square of the number of corners, for
-/// example in a long corridor that bends. Polygons with at most 4096 corners never reach the limit.
+/// The largest number of flips for each corner. The number of flips can grow with the square of the number of corners,
+/// for example in a long corridor that bends. Polygons with at most 4096 corners never reach the limit.
 const MAX_FLIPS: usize = 1024;
 /// The number of flips after which cancellation is checked again.
 const CHECK: usize = 1 << 16;
@@ -38,8 +38,9 @@ pub(super) struct Flips {
 }
 
 impl Flips {
-    /// Improves counter-clockwise triangles whose corners are in ascending order, and sorts them. Stops early after many
-    /// flips or if `is_cancelled` returns `true`; the triangulation is then valid, but parts of it may not be Delaunay.
+    /// Improves counter-clockwise triangles whose corners are in ascending order, and sorts them. Stops early after
+    /// many flips or if `is_cancelled` returns `true`; the triangulation is then valid, but parts of it may not be
+    /// Delaunay.
     pub(super) fn improve(
         &mut self,
         points: &[[f64; 2]],
@@ -106,8 +107,8 @@ impl Flips {
         }
     }
 
-    /// Flips the diagonal of the side `a` if the result is closer to a Delaunay triangulation. Returns whether the diagonal
-    /// is flipped.
+    /// Flips the diagonal of the side `a` if the result is closer to a Delaunay triangulation. Returns whether the
+    /// diagonal is flipped.
     fn flip(&mut self, points: &[[f64; 2]], corners: &mut [u32], a: u32) -> bool {
         let b = self.mates[a as usize];
         if b == NONE {

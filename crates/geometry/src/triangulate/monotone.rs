@@ -1,5 +1,5 @@
-//! Triangulates a large polygon in O(n log n), because the time of ear clipping can grow with the square of the number of
-//! corners.
+//! Triangulates a large polygon in O(n log n), because the time of ear clipping can grow with the square of the number
+//! of corners.
 //!
 //! ```text
 //!    a       b              a       b
@@ -12,7 +12,7 @@
 //!  \___/   \___/          \___/   \___/     Here, the diagonal from m to s cuts the polygon into two pieces.
 //! ```
 //!
-//! Source: de Berg, Cheong, van Kreveld, Overmars, "Computational Geometry: Algorithms and Applications", 2008, chapter 3.
+//! Source: de Berg and others, "Computational Geometry: Algorithms and Applications", 2008, chapter 3.
 
 use std::cmp::Ordering::{self, Greater, Less};
 use std::cmp::Reverse;
@@ -37,8 +37,8 @@ pub(super) fn triangulate(
     let polygon = Polygon::new(points);
     let mut diagonals = polygon.diagonals(is_cancelled)?.into_iter().peekable();
     let mut triangles = Vec::with_capacity(points.len());
-    // Diagonals do not cross, so they are nested like brackets. `open` has the corners before corner `j` that no diagonal
-    // has cut off.
+    // Diagonals do not cross, so they are nested like brackets. `open` has the corners before corner `j` that no
+    // diagonal has cut off.
     let mut open: Vec<u32> = Vec::new();
     for j in (0..).take(points.len()) {
         while let Some([i, _]) = diagonals.next_if(|[_, end]| *end == j) {
@@ -84,8 +84,8 @@ impl<'a> Polygon<'a> {
         self.points[corner as usize].into()
     }
 
-    /// Returns the diagonals that cut the polygon into pieces. Each diagonal is a pair of corners, the lower index first.
-    /// The diagonals are in the order in which their brackets close.
+    /// Returns the diagonals that cut the polygon into pieces. Each diagonal is a pair of corners, the lower index
+    /// first. The diagonals are in the order in which their brackets close.
     fn diagonals(&self, is_cancelled: &dyn Fn() -> bool) -> Option<Vec<[u32; 2]>> {
         let n = u32::try_from(self.points.len()).expect("corners fit 32 bits");
         // The sides that the line meets and that have the inside of the polygon on their right.
@@ -136,8 +136,8 @@ impl<'a> Polygon<'a> {
         Some(diagonals)
     }
 
-    /// Adds the triangles of a piece to `triangles`. The corners of the piece are in ascending order. Returns `None` if the
-    /// piece is not valid.
+    /// Adds the triangles of a piece to `triangles`. The corners of the piece are in ascending order. Returns `None` if
+    /// the piece is not valid.
     fn triangulate_piece(&self, piece: &[u32], triangles: &mut Vec<Triangle>) -> Option<()> {
         let rank = |k: usize| self.rank[piece[k % piece.len()] as usize];
         let top = (0..piece.len()).min_by_key(|&k| rank(k))?;
@@ -180,8 +180,8 @@ impl<'a> Polygon<'a> {
     }
 }
 
-/// A side that the line meets. In a search for the left neighbor of a corner, `upper` is the corner and `lower` is one of
-/// the two corners next to it.
+/// A side that the line meets. In a search for the left neighbor of a corner, `upper` is the corner and `lower` is one
+/// of the two corners next to it.
 #[derive(Clone, Copy)]
 struct Side {
     upper: DVec2,
@@ -280,8 +280,8 @@ mod tests {
             .collect()
     }
 
-    /// A rectangle with square holes. Each hole is connected with the lower side by a segment, which the polygon goes along
-    /// in both directions.
+    /// A rectangle with square holes. Each hole is connected with the lower side by a segment, which the polygon goes
+    /// along in both directions.
     fn holes(n: u32) -> Vec<[f64; 2]> {
         let corners = [
             (0, 0),

@@ -260,7 +260,8 @@ impl Directions {
         self.targets.iter().map(|&t| (self.name)(t))
     }
 
-    /// Reads the directions that each morph target gives with the weight 1, into one column of `n` values for each target.
+    /// Reads the directions that each morph target gives with the weight 1, into one column of `n` values for each
+    /// target.
     /// `own` are the directions of the primitive, with three or more numbers, of which morph targets change the first three.
     /// Without them, the columns are zero.
     ///

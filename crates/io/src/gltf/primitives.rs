@@ -149,8 +149,8 @@ impl Triangles {
         ((VERTEX + deformers) * n + (CORNER + values) * self.corners.len()) as u64
     }
 
-    /// Appends the vertices of a primitive. `morphed` are the normals and tangents of the mesh that morph targets change.
-    /// Returns the index of the first vertex, and the number of vertices.
+    /// Appends the vertices of a primitive. `morphed` are the normals and tangents of the mesh that morph targets
+    /// change. Returns the index of the first vertex, and the number of vertices.
     fn push_vertices(
         &mut self,
         reader: &Reader,

@@ -101,7 +101,8 @@ pub(super) fn streams<'a>(
     streams
 }
 
-/// Returns the streams of the normals or the tangents of morph targets. glTF stores the differences from those of the mesh.
+/// Returns the streams of the normals or the tangents of morph targets. glTF stores the differences from those of the
+/// mesh.
 fn deltas<'a>(
     mesh: &'a Mesh,
     meaning: Meaning<'a>,
@@ -225,8 +226,8 @@ fn tangent([x, y, z, w]: [f64; 4]) -> ([f32; 4], bool) {
     narrow([tangent.x, tangent.y, tangent.z, sign], is_kept)
 }
 
-/// Returns the difference of the direction of a morph target from the direction that is written for the mesh, and whether
-/// the target is kept. A zero direction, or one that is not finite, becomes no difference.
+/// Returns the difference of the direction of a morph target from the direction that is written for the mesh, and
+/// whether the target is kept. A zero direction, or one that is not finite, becomes no difference.
 fn delta(from: [f32; 4], [x, y, z, _]: [f64; 4]) -> ([f32; 4], bool) {
     let to = DVec3::new(x, y, z);
     if to == DVec3::ZERO || !to.is_finite() {

@@ -888,8 +888,8 @@ class SceneOperations:
         A face with more than four corners is projected along its normal. It is then cut by ear clipping, or into
         monotone pieces if it has more than 4096 corners. Then diagonals are flipped until the triangulation is a
         constrained Delaunay triangulation. Some faces cannot be triangulated in this way, because they have zero area,
-        their sides cross, or they have more than ten million corners. Each of these faces becomes a triangle fan around
-        its vertex with the lowest id. The report counts them.
+        their sides cross (or overlap, if they have more than 4096 corners), or they have more than ten million corners.
+        Each of these faces becomes a triangle fan around its vertex with the lowest id. The report counts them.
 
         The triangles of a face take its place in the order of the faces and have its values. Vertices and edges keep
         their ids. The corners of the triangles have the values of the corners of the face at the same vertices.
@@ -3447,8 +3447,8 @@ class MeshOperations:
         A face with more than four corners is projected along its normal. It is then cut by ear clipping, or into
         monotone pieces if it has more than 4096 corners. Then diagonals are flipped until the triangulation is a
         constrained Delaunay triangulation. Some faces cannot be triangulated in this way, because they have zero area,
-        their sides cross, or they have more than ten million corners. Each of these faces becomes a triangle fan around
-        its vertex with the lowest id. The report counts them.
+        their sides cross (or overlap, if they have more than 4096 corners), or they have more than ten million corners.
+        Each of these faces becomes a triangle fan around its vertex with the lowest id. The report counts them.
 
         The triangles of a face take its place in the order of the faces and have its values. Vertices and edges keep
         their ids. The corners of the triangles have the values of the corners of the face at the same vertices.

@@ -206,8 +206,9 @@ impl Reader<'_, '_> {
     }
 }
 
-/// Improves the help of errors about unknown parameters: if a parameter is a field of the step or of the expectation around
-/// the call, such as `on`, the help says where to write it. `inner` is the field for the call itself: `run` or `that`.
+/// Improves the help of errors about unknown parameters: if a parameter is a field of the step or of the expectation
+/// around the call, such as `on`, the help says where to write it. `inner` is the field for the call itself: `run` or
+/// `that`.
 pub(super) fn explain_outer_fields(
     wrong: &mut [Diagnostic],
     call: &Value,

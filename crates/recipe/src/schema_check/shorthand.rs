@@ -96,8 +96,9 @@ impl Checker {
                 Some(help),
             );
         }
-        // For each variant, counts the names in the value that are selections of this variant. The variant with the highest
-        // count fits best; among variants with equal counts, the variant with the fewest errors; and among these, the first.
+        // For each variant, counts the names in the value that are selections of this variant. The variant with the
+        // highest count fits best; among variants with equal counts, the variant with the fewest errors; and among
+        // these, the first.
         let fit = |((_, _, trial), names): &((&str, Schema, Self), Vec<String>)| {
             (n_known(value, names), Reverse(trial.diagnostics.len()))
         };

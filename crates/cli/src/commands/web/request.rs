@@ -113,8 +113,8 @@ impl Request {
     }
 }
 
-/// Returns the path of a regular file in the folder, with links resolved. Returns `None` if there is no such file, or
-/// if a link leads out of the folder.
+/// Returns the real path of a file in the folder, after following links. Returns `None` if the file does not exist, is
+/// not a regular file, or is outside of the folder after following links.
 fn inside(folder: &Path, path: &Path) -> Option<PathBuf> {
     let real = folder.join(path).canonicalize().ok()?;
     (real.starts_with(folder) && real.is_file()).then_some(real)

@@ -26,6 +26,8 @@ pub enum Action {
     Extrude,
     /// Dissolve the picked vertices or edges.
     Dissolve,
+    /// Tag the picked elements.
+    Tag,
     /// Show or hide arrows that move the picked elements.
     Move,
     /// Show or hide rings that rotate the picked elements.
@@ -141,6 +143,7 @@ const GROUPS: &[(&str, &[Row])] = &[
                 &["D"],
                 "dissolve the picked vertices or edges",
             ),
+            (Action::Tag, &["M"], "tag the picked elements"),
             (Action::Loop, &["L"], "one level of Loop subdivision"),
             (
                 Action::CatmullClark,

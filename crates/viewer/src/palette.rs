@@ -1,5 +1,8 @@
 //! The search over all operations.
 
+use std::collections::BTreeSet;
+
+use editor::{Editor, Panel, Picked};
 use eframe::egui::{self, Align2, Context, Id, Key, RichText, ScrollArea, TextEdit, Vec2};
 use op::{Entry, Registry};
 
@@ -11,17 +14,39 @@ use crate::theme::Colors;
 pub(crate) struct Palette {
     query: String,
     at: usize,
+    /// The operations that take the picked elements.
+    fitting: BTreeSet<&'static str>,
 }
 
-/// Returns the operations that match a query, the best first. An empty query matches all operations.
-pub(crate) fn search<'r>(registry: &'r Registry, query: &str) -> Vec<&'r Entry> {
+impl Palette {
+    /// Creates a search without a query. Of operations that match equally well, those that take the picked elements
+    /// come first.
+    pub(crate) fn new(editor: &Editor) -> Self {
+        let kind = editor.picked().map(Picked::kind);
+        let entries = editor.registry().entries().iter();
+        let fits = |entry: &&Entry| kind.is_some_and(|kind| Panel::new(entry).takes_picked(kind));
+        Self {
+            fitting: entries.filter(fits).map(|entry| entry.name).collect(),
+            ..Self::default()
+        }
+    }
+}
+
+/// Returns the operations that match a query, the best first. Of equally good ones, those in `first` come first. An
+/// empty query matches all operations.
+pub(crate) fn search<'r>(
+    registry: &'r Registry,
+    query: &str,
+    first: &BTreeSet<&str>,
+) -> Vec<&'r Entry> {
     let words: Vec<String> = query.split_whitespace().map(str::to_lowercase).collect();
-    let mut found: Vec<(u32, &Entry)> = registry
+    let mut found: Vec<((u32, bool), &Entry)> = registry
         .entries()
         .iter()
         .filter_map(|entry| {
             let scores = words.iter().map(|word| score(entry, word));
-            Some((scores.sum::<Option<u32>>()?, entry))
+            let is_last = !first.contains(entry.name);
+            Some(((scores.sum::<Option<u32>>()?, is_last), entry))
         })
         .collect();
     found.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.name.cmp(b.1.name)));
@@ -55,7 +80,7 @@ pub(crate) fn ui(ctx: &Context, parts: &mut Parts) {
         return;
     };
     let registry = parts.editor.registry().clone();
-    let found = search(&registry, &palette.query);
+    let found = search(&registry, &palette.query, &palette.fitting);
     let (up, down, enter, escape) = ctx.input_mut(|input| {
         let mut key = |key| input.consume_key(egui::Modifiers::NONE, key);
         (

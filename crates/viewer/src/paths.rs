@@ -1,9 +1,10 @@
-//! Asks for the path of a file: by a dialog of the system or, if the system shows none, by a line in the window.
+//! Asks for the path of a file: by a dialog of the system or, if the system shows none, by a line and a list of files in
+//! the window.
 
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use eframe::egui::{Context, Id, Key, Modal, RichText, TextEdit};
+use eframe::egui::{Button, Context, Id, Key, Modal, Response, RichText, ScrollArea, TextEdit, Ui};
 use mesh_io::Format;
 
 use crate::app::{Parts, Pending};
@@ -11,6 +12,9 @@ use crate::{files, help};
 
 /// A dialog that ends in less than this time was not shown. This happens on Linux without a desktop portal.
 const SHORTEST_DIALOG: Duration = Duration::from_millis(200);
+
+/// The entry for the folder that contains the listed folder.
+const PARENT: &str = "..";
 
 /// Why the user is asked for the path of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,6 +34,23 @@ impl Purpose {
         }
     }
 
+    /// Returns the extensions of the files that the user can choose.
+    fn extensions(self) -> Vec<&'static str> {
+        if self != Self::Open {
+            return vec![self.extension()];
+        }
+        let formats = Format::all().filter(|format| format.can_read());
+        let formats = formats.map(Format::extension);
+        ["ron", "gz"].into_iter().chain(formats).collect()
+    }
+
+    /// Whether the user can choose this file.
+    fn fits(self, path: &Path) -> bool {
+        let extension = path.extension().unwrap_or_default();
+        let mut extensions = self.extensions().into_iter();
+        extensions.any(|fitting| extension.eq_ignore_ascii_case(fitting))
+    }
+
     /// Returns the extension of the file; empty for a file that is opened.
     fn extension(self) -> &'static str {
         match self {
@@ -45,6 +66,17 @@ impl Purpose {
 pub(crate) struct Prompt {
     purpose: Purpose,
     path: String,
+    /// The folder of the path, and what it contains.
+    listed: (PathBuf, Vec<Listed>),
+    /// Whether the line for the path gets the keys from the next frame on.
+    takes_keys: bool,
+}
+
+/// A folder or a file in the list below the line.
+#[derive(Clone, Debug)]
+struct Listed {
+    is_file: bool,
+    name: String,
 }
 
 /// Asks for the path of a file, and then opens or saves the file, as `purpose` says.
@@ -69,7 +101,90 @@ pub(crate) fn ask(parts: &mut Parts, purpose: Purpose, ctx: &Context) {
     parts.prompt = Some(Prompt {
         purpose,
         path: path.display().to_string(),
+        listed: (PathBuf::new(), Vec::new()),
+        takes_keys: true,
     });
+}
+
+impl Prompt {
+    /// Returns the folder of the path, and the name that the user has typed so far.
+    fn split(&self) -> (PathBuf, String) {
+        let path = Path::new(self.path.trim());
+        if self.path.trim().ends_with(std::path::is_separator) {
+            return (path.to_owned(), String::new());
+        }
+        let folder = path.parent().unwrap_or(path).to_owned();
+        let name = path.file_name().unwrap_or_default();
+        (folder, name.to_string_lossy().into_owned())
+    }
+
+    /// Draws the folders and the files of the folder of the path. For a file to open, only names that contain the
+    /// typed name are shown. A click writes the path of a folder or a file. Returns whether a file was double-clicked.
+    fn list(&mut self, ui: &mut Ui) -> bool {
+        let (folder, typed) = self.split();
+        if self.listed.0 != folder {
+            self.listed = (folder.clone(), entries(&folder, self.purpose));
+        }
+        let all = &self.listed.1;
+        // A click on a file does not shorten the list, so that a second click opens the same file.
+        let shows_all =
+            self.purpose != Purpose::Open || all.iter().any(|entry| entry.name == typed);
+        let typed = typed.to_lowercase();
+        let matches = |entry: &&Listed| shows_all || entry.name.to_lowercase().contains(&typed);
+        let shown: Vec<Listed> = all.iter().filter(matches).cloned().collect();
+        let height = ui.spacing().interact_size.y;
+        let area = ScrollArea::vertical().auto_shrink([false, true]);
+        let mut is_chosen = false;
+        area.max_height(12.0 * height)
+            .show_rows(ui, height, shown.len(), |ui, rows| {
+                for entry in &shown[rows] {
+                    let response = row(ui, entry);
+                    if !response.clicked() {
+                        continue;
+                    }
+                    let path = match folder.parent() {
+                        Some(parent) if entry.name == PARENT => parent.to_owned(),
+                        _ => folder.join(&entry.name),
+                    };
+                    self.path = path.display().to_string();
+                    if !entry.is_file {
+                        self.path.push(std::path::MAIN_SEPARATOR);
+                    }
+                    self.takes_keys = true;
+                    is_chosen = entry.is_file && response.double_clicked();
+                }
+            });
+        is_chosen
+    }
+}
+
+fn row(ui: &mut Ui, entry: &Listed) -> Response {
+    let mut name = entry.name.clone();
+    if !entry.is_file {
+        name.push('/');
+    }
+    ui.add(Button::selectable(false, name).truncate())
+}
+
+/// Returns the folders in a folder, and then its files that fit the purpose, by name. Hidden files are left out. Empty
+/// if the folder cannot be read.
+fn entries(folder: &Path, purpose: Purpose) -> Vec<Listed> {
+    let listed = |entry: std::fs::DirEntry| {
+        let path = entry.path();
+        let name = entry.file_name().to_string_lossy().into_owned();
+        let is_file = !path.is_dir();
+        let fits = !is_file || purpose.fits(&path);
+        (fits && !name.starts_with('.')).then_some(Listed { is_file, name })
+    };
+    let entries = std::fs::read_dir(folder).into_iter().flatten();
+    let mut entries: Vec<Listed> = entries.flatten().filter_map(listed).collect();
+    entries.sort_by_cached_key(|entry| (entry.is_file, entry.name.to_lowercase()));
+    if folder.parent().is_some() {
+        let name = PARENT.to_owned();
+        let is_file = false;
+        entries.insert(0, Listed { is_file, name });
+    }
+    entries
 }
 
 /// Shows a dialog of the system. `None` if it is canceled, or cannot be shown.
@@ -79,10 +194,7 @@ fn dialog(purpose: Purpose, suggested: &Path) -> Option<PathBuf> {
         dialog = dialog.set_directory(folder);
     }
     if purpose == Purpose::Open {
-        let formats = Format::all().filter(|format| format.can_read());
-        let formats = formats.map(Format::extension);
-        let extensions: Vec<&str> = ["ron", "gz"].into_iter().chain(formats).collect();
-        let dialog = dialog.add_filter("Models and recipes", &extensions);
+        let dialog = dialog.add_filter("Models and recipes", &purpose.extensions());
         return dialog.add_filter("All files", &["*"]).pick_file();
     }
     if let Some(name) = suggested.file_name() {
@@ -100,7 +212,7 @@ fn proceed(parts: &mut Parts, purpose: Purpose, path: &Path, ctx: &Context) {
     }
 }
 
-/// The line for a path.
+/// The line for a path, and the list of files.
 pub(crate) fn ui(ctx: &Context, parts: &mut Parts) {
     let Some(mut prompt) = parts.prompt.take() else {
         return;
@@ -112,12 +224,14 @@ pub(crate) fn ui(ctx: &Context, parts: &mut Parts) {
         ui.heading(prompt.purpose.title());
         let edit = TextEdit::singleline(&mut prompt.path).desired_width(f32::INFINITY);
         let line = ui.add(edit).accessible_name("Path of the file");
-        if !line.has_focus() && !line.lost_focus() {
+        if std::mem::take(&mut prompt.takes_keys) {
             line.request_focus();
         }
+        let is_chosen = prompt.list(ui);
         let path = Path::new(prompt.path.trim());
         let (is_open, is_file) = (prompt.purpose == Purpose::Open, path.is_file());
         let problem = match path.parent() {
+            _ if is_open && path.is_dir() => "Choose a file.",
             _ if is_open && !is_file => "This file does not exist.",
             Some(folder) if folder != Path::new("") && !folder.is_dir() => {
                 "The folder does not exist."
@@ -132,8 +246,8 @@ pub(crate) fn ui(ctx: &Context, parts: &mut Parts) {
         ui.horizontal(|ui| {
             let enters = line.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
             let name = if is_open { "Open" } else { "Save" };
-            let button = ui.add_enabled(can, eframe::egui::Button::new(name));
-            is_done = can && (button.clicked() || enters);
+            let button = ui.add_enabled(can, Button::new(name));
+            is_done = can && (button.clicked() || enters || is_chosen);
             ui.button("Cancel").clicked()
         })
         .inner

@@ -1,5 +1,6 @@
 //! The text of the recipe, with colors, errors and completion.
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 use eframe::egui::{
@@ -229,7 +230,7 @@ fn completions(parts: &Parts, ui: &Ui, id: Id) -> Words {
             .filter(|name| name.starts_with(word) && name != word)
             .collect()
     } else if word.starts_with(char::is_uppercase) {
-        let found = palette::search(parts.editor.registry(), word);
+        let found = palette::search(parts.editor.registry(), word, &BTreeSet::new());
         found
             .iter()
             .filter(|entry| entry.name.starts_with(word) && entry.name != word)

@@ -1,7 +1,7 @@
 //! Commands: operations with parameters and a selection that become steps of the text.
 
 use op::ElementKind;
-use ron_tree::string_literal;
+use ron_tree::{parse, string_literal};
 use scene::Geometry;
 
 use super::Editor;
@@ -69,6 +69,32 @@ pub enum CommandError {
     /// The text cannot be edited.
     #[error(transparent)]
     Text(#[from] TextError),
+}
+
+impl SelectionText {
+    /// Returns the selection for the operation `name`. If the step `before` is of the same operation, one step is
+    /// enough: returns the selection of `before`. Otherwise returns `self`.
+    fn without_tag(&self, name: &str) -> Self {
+        let mut selection = self.clone();
+        if let Some(before) = &self.before {
+            let parsed = parse(before);
+            let step = parsed.value.name().filter(|step| step.0 == name);
+            let elements = parsed
+                .value
+                .fields()
+                .iter()
+                .find(|f| &*f.name.text != "name");
+            if let (Some(_), Some(elements)) = (step, elements) {
+                elements
+                    .value
+                    .span
+                    .of(before)
+                    .clone_into(&mut selection.text);
+                selection.before = None;
+            }
+        }
+        selection
+    }
 }
 
 impl Command {
@@ -211,6 +237,7 @@ impl Editor {
             let field = field.clone();
             match &command.selection {
                 Some(selection) => {
+                    let selection = &selection.without_tag(name);
                     let text =
                         converted(selection, kind).ok_or_else(|| CommandError::NothingPicked {
                             operation: name.clone(),
@@ -341,11 +368,17 @@ fn unset_selection(panel: &Panel) -> Option<(&PanelField, Option<ElementKind>)> 
 }
 
 impl Panel {
+    /// Whether a command sets a parameter of this operation to picked elements of this kind, without a conversion.
+    pub fn takes_picked(&self, kind: ElementKind) -> bool {
+        unset_selection(self).is_some_and(|(_, wanted)| wanted.is_none_or(|wanted| wanted == kind))
+    }
+
     /// Returns the parameter that a command with this selection sets, and the value that it gets as RON. `None` if the
     /// operation has no such parameter, or if the picked elements do not fit.
     pub fn picked_value(&self, selection: &SelectionText) -> Option<(String, String)> {
         let (field, kind) = unset_selection(self)?;
-        Some((field.name.clone(), converted(selection, kind)?))
+        let selection = selection.without_tag(&self.operation);
+        Some((field.name.clone(), converted(&selection, kind)?))
     }
 }
 

@@ -118,6 +118,18 @@ fn picks_without_a_meaning_become_a_tag_and_a_step() {
     );
     editor.set_picked(Some(set.unwrap()));
     assert_eq!(editor.proposals().len(), 1);
+    // A step that tags the elements needs no other tag.
+    let selection = editor.selection();
+    let tag = Command {
+        selection,
+        ..Command::new("TagFaces").with("name", "\"mine\"")
+    };
+    let steps = editor.steps_of(&tag).unwrap();
+    let [step] = &steps[..] else {
+        panic!("{steps:?}");
+    };
+    assert!(step.starts_with("TagFaces(faces: Faces(["), "{step}");
+    assert!(step.ends_with("]), name: \"mine\")"), "{step}");
     let command = editor.command_of(Action::Extrude).unwrap();
     editor.apply(&command).unwrap();
     settled(&mut editor);

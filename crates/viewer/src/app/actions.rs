@@ -3,7 +3,7 @@
 use editor::{Action, Command, Editor, FieldKind, Panel, Picked, Walk, walk};
 use eframe::egui;
 use mesh::Element;
-use op::Selected;
+use op::{ElementKind, Selected};
 use render::Shading;
 
 use super::{Parts, Pending};
@@ -38,6 +38,7 @@ impl Parts {
                     Shading::Flat
                 };
             }
+            Action::Tag => self.tag(),
             Action::Move => self.toggle_tool(Tool::Move),
             Action::Rotate => self.toggle_tool(Tool::Rotate),
             Action::Scale => self.toggle_tool(Tool::Scale),
@@ -45,7 +46,7 @@ impl Parts {
             Action::Help => self.shows_help = !self.shows_help,
             Action::ResetView => self.view.reset(),
             Action::Fit => self.fit(),
-            Action::Palette => self.palette = Some(Palette::default()),
+            Action::Palette => self.palette = Some(Palette::new(&self.editor)),
             Action::Undo => {
                 self.editor.undo();
             }
@@ -127,6 +128,16 @@ impl Parts {
             self.apply(&command);
         } else {
             self.draft = Some(Draft::new(panel, entry.example));
+        }
+    }
+
+    /// Opens the panel of a step that tags the picked elements.
+    fn tag(&mut self) {
+        match self.editor.picked().map(Picked::kind) {
+            Some(ElementKind::Vertices) => self.choose("TagVertices"),
+            Some(ElementKind::Edges) => self.choose("TagEdges"),
+            Some(ElementKind::Faces) => self.choose("TagFaces"),
+            None => self.inform("Pick elements first: the tag marks the picked elements."),
         }
     }
 

@@ -27,6 +27,7 @@ pub(super) fn picked(ui: &mut Ui, parts: &mut Parts) {
                 ("Split", Action::Split),
                 ("Collapse", Action::Collapse),
                 ("Dissolve", Action::Dissolve),
+                ("Tag", Action::Tag),
                 ("Move", Action::Move),
                 ("Rotate", Action::Rotate),
                 ("Scale", Action::Scale),
@@ -35,6 +36,7 @@ pub(super) fn picked(ui: &mut Ui, parts: &mut Parts) {
             ],
             op::Selected::Vertices(_) => &[
                 ("Dissolve", Action::Dissolve),
+                ("Tag", Action::Tag),
                 ("Move", Action::Move),
                 ("Rotate", Action::Rotate),
                 ("Scale", Action::Scale),
@@ -42,6 +44,7 @@ pub(super) fn picked(ui: &mut Ui, parts: &mut Parts) {
             ],
             op::Selected::Faces(_) => &[
                 ("Extrude", Action::Extrude),
+                ("Tag", Action::Tag),
                 ("Move", Action::Move),
                 ("Rotate", Action::Rotate),
                 ("Scale", Action::Scale),

@@ -317,6 +317,57 @@ fn without_dialogs_of_the_system_a_path_is_written_in_the_window() {
 }
 
 #[test]
+fn a_key_and_the_search_offer_the_tag_that_fits_the_picked_elements() {
+    let Some(mut window) = Window::open("cube.ron", CUBE) else {
+        return;
+    };
+    pick_front(&mut window);
+    let is_open = |window: &Window| {
+        let title = window.harness.query_by_label("New step: TagFaces");
+        title.is_some()
+    };
+    window.press_with(Modifiers::COMMAND, Key::K);
+    let search = window.harness.get_by_label("Search operations");
+    search.type_text("tag");
+    window.settle();
+    window.press(Key::Enter);
+    assert!(is_open(&window));
+    window.press(Key::Escape);
+    assert!(!is_open(&window));
+    window.press(Key::M);
+    assert!(is_open(&window));
+}
+
+const GRID: &str = "(recipe: 1, steps: [Grid(name: \"grid\", columns: 2, rows: 2)])";
+
+#[test]
+fn without_dialogs_of_the_system_a_list_shows_folders_and_files() {
+    let Some(mut window) = Window::open("cube.ron", CUBE) else {
+        return;
+    };
+    std::fs::create_dir(window.path("models")).unwrap();
+    std::fs::write(window.path("models/two.ron"), GRID).unwrap();
+    std::fs::write(window.path("models/notes.txt"), "").unwrap();
+    window.press_with(Modifiers::COMMAND, Key::O);
+    let click = |window: &mut Window, name: &str| {
+        window.harness.get_by_label(name).click();
+        window.settle();
+    };
+    click(&mut window, "models/");
+    // Neither `notes.txt` nor the files of the other folder are listed.
+    for name in ["notes.txt", "cube.ron"] {
+        assert!(window.harness.query_by_label(name).is_none(), "{name}");
+    }
+    for name in ["../", "models/", "two.ron"] {
+        click(&mut window, name);
+    }
+    window.press(Key::Enter);
+    let path = window.harness.state().editor().document().path().to_owned();
+    assert_eq!(path, window.path("models/two.ron"));
+    assert_eq!(window.text(), GRID);
+}
+
+#[test]
 fn a_window_has_the_operations_that_it_is_given() {
     let Some(setup) = setup() else { return };
     let start = Start {

@@ -158,7 +158,8 @@ pub fn diagonal(a: &Mesh, b: &Mesh) -> f64 {
 
 impl std::fmt::Display for SurfacePoint {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{} at {}", self.on, self.position)
+        let [x, y, z] = self.position.to_array().map(mesh::readable);
+        write!(f, "{} at [{x}, {y}, {z}]", self.on)
     }
 }
 

@@ -7,7 +7,7 @@ use scene::Object;
 use super::places::double_edges;
 use super::subject::{
     ActualValue, EdgeByVertices, Subject, Violation, check_count, check_integer, check_number,
-    fails_unless, selected, smallest_corner_angle,
+    fails_unless, rounded, selected, smallest_corner_angle,
 };
 use super::{Expectation, OtherMesh, PlacedSubject, attribute, output, same, symmetry, textures};
 use geometry::distance::{Distance, TOLERANCE, diagonal};
@@ -288,7 +288,7 @@ fn distance_below(
         let range = if largest < below {
             format!("{largest} to {}", found.at_most())
         } else {
-            largest.to_string()
+            rounded(largest, below)
         };
         let (from, to) = (worst.from, worst.to);
         let endpoints = if found.is_worst_forth() {

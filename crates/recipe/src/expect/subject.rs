@@ -522,8 +522,27 @@ pub(super) fn check_number(
         bounds,
         is_equal,
         ActualValue::Number(found),
-        |word, x| format!("expected {what} of {word}{x}, found {found}"),
+        |word, x| {
+            let found = if word.is_empty() {
+                found.to_string()
+            } else {
+                rounded(found, x)
+            };
+            format!("expected {what} of {word}{x}, found {found}")
+        },
     )
+}
+
+/// Formats a number that violates a limit, with six significant digits. If the number would then appear to satisfy the
+/// limit, keeps all digits.
+pub(super) fn rounded(found: f64, limit: f64) -> String {
+    let short = mesh::readable(found);
+    let order = short.parse::<f64>().ok().map(|x| x.total_cmp(&limit));
+    if order == Some(found.total_cmp(&limit)) {
+        short
+    } else {
+        found.to_string()
+    }
 }
 
 /// Fails with the first of the bounds `eq`, `min` and `max` that is violated. The violation has the actual value only

@@ -5,6 +5,7 @@ use mesh::{Column, DVec3, Domain, Rule, Values};
 use scene::Scene;
 
 use super::{check, cube, holds_and_fails, lines, mesh_from, scene};
+use crate::expect::subject::rounded;
 
 #[test]
 fn self_intersections_are_counted_by_face() {
@@ -32,7 +33,7 @@ fn thickness_is_measured_at_vertices() {
         &cube(),
         "Thickness(min: 1.999, max: 2.001)",
         "Thickness(of: Vertices([3]), min: 3)",
-        "expected v3 to have a thickness of at least 3, found 1.9999999999999998",
+        "expected v3 to have a thickness of at least 3, found 2",
     );
     assert!(check(&cube(), "Thickness(of: Not(All), min: 0)").is_err());
     let sheet = scene([("sheet", shapes::square())]);
@@ -67,10 +68,7 @@ fn area_and_volume_are_compared_within_a_tolerance() {
         &cube(),
         "Volume(min: 7.99, max: 8.01)",
         "Volume(max: 7.5)",
-        &format!(
-            "expected a volume of at most 7.5, found {}",
-            geometry::volume(&shapes::cube())
-        ),
+        "expected a volume of at most 7.5, found 8",
     );
 }
 
@@ -306,4 +304,16 @@ fn textures_are_stretched_and_overlap() {
     let error = check(&scene([("mesh", stacked)]), "UvOverlap(max: 0)").unwrap_err();
     assert!(error.contains("found 6"), "{error}");
     assert!(check(&scene([("mesh", twice)]), "UvOverlap(max: 0)").is_ok());
+}
+
+#[test]
+fn a_number_beyond_a_limit_has_six_digits_unless_these_hide_it() {
+    for (found, limit, text) in [
+        (6.383_174_544_719_917_5, 100.0, "6.38317"),
+        (0.1, 0.1, "0.1"),
+        (0.100_000_000_001, 0.1, "0.100000000001"),
+        (9.999_999_999, 10.0, "9.999999999"),
+    ] {
+        assert_eq!(rounded(found, limit), text);
+    }
 }

@@ -101,7 +101,8 @@ impl Scene {
         Ok(found)
     }
 
-    /// Reads and checks `source` as if it were the text of the file. An error message has all diagnostics.
+    /// Reads and checks `source` as if it were the text of the file. If the recipe is invalid, the error message
+    /// contains all diagnostics.
     fn load(&self, source: &str, out: &Path) -> Result<Loaded, String> {
         let registry = ops_all::registry();
         let options = Options {
@@ -304,8 +305,8 @@ fn every_step_is_needed(recipe: &Scene) -> Result<(), Failed> {
         }
         let id = step.field("id").filter(|_| step.name().is_none());
         let id = id.and_then(Value::as_str);
-        // If a step is removed, expectations that name the id of the step always fail. Therefore the recipe is also
-        // tested without the step and without these expectations.
+        // If a step is removed, the expectations that name the id of this step always fail. Therefore the recipe is
+        // also tested without the step and without these expectations.
         let naming = list(&parsed.value, "expect").iter().filter(|expectation| {
             let after = expectation
                 .field("after")

@@ -10,8 +10,8 @@ use crate::fixtures;
 /// The number of edits in a sequence.
 const EDITS: usize = 1000;
 
-/// The maximum number of edges for edits that add elements. Larger meshes get only other edits. The limit counts edges
-/// instead of faces, because even a few faces can have many corners.
+/// The maximum number of edges for edits that add elements. Meshes with more edges get only edits that do not add
+/// elements. The limit counts edges instead of faces, because even a few faces can have many corners.
 const MAX_EDGES: usize = 250;
 
 /// Returns the small fixtures, with and without attributes.

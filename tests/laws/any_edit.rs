@@ -42,7 +42,7 @@ impl EditCode {
     }
 }
 
-/// The last kind that is an edit of single elements. Later kinds change the whole surface.
+/// The last kind that is an edit of single elements. Kinds with higher numbers change the whole surface.
 pub(crate) const LAST_LOCAL: u8 = 26;
 
 const SPLIT: u8 = 1;

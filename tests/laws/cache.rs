@@ -147,7 +147,7 @@ fn results_with_a_cache_equal_results_without() {
         let ((a, _), (b, _)) = rayon::join(|| run(path, Some(&cache)), || run(path, Some(&cache)));
         assert!(
             a == *plain && b == *plain,
-            "{} in two concurrent runs with an empty cache",
+            "{}: two concurrent runs with an empty cache have different results from a run without a cache",
             path.display()
         );
     }

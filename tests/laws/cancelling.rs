@@ -153,7 +153,7 @@ fn long_steps_report_progress_at_least_once_a_second() {
             } else if gap.longest > Duration::from_secs(1) {
                 let (longest, between) = (gap.longest, gap.between);
                 failures.push(format!(
-                    "{step}: {longest:?} without progress between {between:?}"
+                    "{step}: no progress for {longest:?} between {between:?}"
                 ));
             }
         }
@@ -162,8 +162,8 @@ fn long_steps_report_progress_at_least_once_a_second() {
     assert_none(&failures);
 }
 
-/// The steps before the tested step in the recipes of the next test. These steps create an object for each name that
-/// samples use.
+/// The steps that precede the tested step in each recipe of the next test. These steps create an object for each name
+/// that samples use.
 const PRELUDE: &str = r#"
     Cube(name: "mesh", triangles: true),
     Octahedron(name: "other"),

@@ -170,7 +170,7 @@ fn two_components() -> Mesh {
     of(positions, &faces)
 }
 
-/// Returns two triangles that share a vertex. Building the mesh splits the vertex.
+/// Returns two triangles that share a vertex. Building the mesh splits the common vertex.
 fn bow_tie() -> Mesh {
     let at = |x: f64, y: f64| DVec3::new(x, y, 0.0);
     let positions = vec![
@@ -183,7 +183,7 @@ fn bow_tie() -> Mesh {
     of(positions, &[[0, 1, 2], [0, 3, 4]])
 }
 
-/// Returns two closed cubes that share a vertex. Building the mesh splits the vertex.
+/// Returns two closed cubes that share a vertex. Building the mesh splits the common vertex.
 fn two_cubes() -> Mesh {
     let cube = shapes::cube();
     let mut positions = cube.positions().to_vec();
@@ -252,6 +252,6 @@ fn the_fixtures_have_the_intended_properties() {
             "{name}"
         );
     }
-    // Some sums are computed in blocks. The mesh must have more vertices than one block.
+    // Some sums are computed in blocks of vertices. This mesh must have more vertices than one block.
     assert!(mesh("large torus of triangles").n_vertices() > 4096);
 }

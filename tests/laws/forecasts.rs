@@ -37,7 +37,8 @@ fn disagreements(loaded: &Loaded) -> Vec<String> {
     for (done, forecast) in outcome.steps.iter().zip(&loaded.forecast.steps) {
         let planned = forecast.losses.iter().chain(&forecast.possible_losses);
         let planned: BTreeSet<&str> = planned.map(|loss| loss.name.as_str()).collect();
-        // Normals are dropped only if there are holes. This depends on the connectivity, which `check` does not know.
+        // `FillHoles` drops normals only if the mesh has holes. Whether a mesh has holes depends on its connectivity,
+        // which `check` does not know.
         let fills = done.label == "FillHoles";
         let is_unknown = |name: &str| {
             let depends = OF_VALUES.contains(&name) || fills && name == "normal";
@@ -117,8 +118,8 @@ fn check_knows_what_small_recipes_refuse_and_lose() {
     for (name, text) in FILES {
         std::fs::write(folder.path().join(name), text).expect("the file can be written");
     }
-    // Operations with a path are left out. The cases already contain `Load` and `Save`, and the other operations with a
-    // path write pictures, which take long and lose nothing.
+    // Operations with a path are left out. The cases already contain `Load` and `Save`. The other operations with a
+    // path write pictures, which takes long and loses nothing.
     let operations = registry.entries().iter().map(|entry| entry.example);
     let operations = operations.filter(|example| !example.contains("path:"));
     let cases: Vec<String> = operations

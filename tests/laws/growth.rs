@@ -1,7 +1,7 @@
 //! Checks how the time of operations and expectations grows. If the size of the mesh is doubled, the work must take at
 //! most 2.3 times as long.
 //!
-//! These tests measure times, because the work cannot be counted: the number of progress reports does not depend on the
+//! These tests measure times, because the work cannot be counted. The number of progress reports does not depend on the
 //! size of the mesh, and a quadratic search allocates no memory. The tests run only on request, and take about ten
 //! minutes:
 //!
@@ -10,13 +10,14 @@
 //!     cargo test --release -p meshwright-tests --test laws growth -- --ignored --nocapture --test-threads 1
 //! ```
 //!
-//! The variables tell the allocator of Linux to keep memory. Otherwise the time jumps at the size at which the system
-//! provides new memory for each run.
+//! The environment variables tell the allocator of Linux to keep memory. Without them, the time jumps at the size at
+//! which the system provides new memory for each run.
 //!
 //! Each measured time is the median of the processor times of several runs on one thread, so that other programs hardly
 //! affect it. The time on a mesh is compared with the time on a mesh that is four times as large (doubled twice). If
-//! the growth is too large, it is measured again. If it is still too large, it is measured with both meshes four times
-//! as large, because the time also jumps at the size at which the data no longer fit in a cache.
+//! the growth of the time is too large, it is measured again. If the growth is still too large, it is measured with
+//! meshes that are four times as large, because the time also jumps at the size at which the data no longer fit in a
+//! cache.
 
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -36,7 +37,7 @@ use crate::extremes::MEASURES;
 use crate::fixtures::with_attributes;
 use crate::samples::samples;
 
-/// The maximum growth of the time when the mesh is doubled twice, which is 2.3 squared.
+/// The maximum growth of the time when the size of the mesh is doubled twice, which is 2.3 squared.
 const MAX_GROWTH: f64 = 2.3 * 2.3;
 
 /// The minimum time of a measurement. Meshes are enlarged until the work takes this long.
@@ -54,8 +55,8 @@ const OTHER: &str = "Load Polygons MoveControlPoint MovePatchPoint CurveLevels S
 
 /// Steps whose time may grow faster, with the maximum growth. The comment above a step gives the reason.
 const STEEPER: &[(&str, f64)] = &[
-    // All vertices of a row become one vertex, whose valence is the length of a row. So the time for n faces is
-    // proportional to n^1.5.
+    // The collapses merge all vertices of a row into one vertex, whose valence is the length of a row. So the time for
+    // n faces is proportional to n^1.5.
     ("CollapseEdges(", 8.5),
     // After the flips, all edges of a row end at one vertex, so the time is also proportional to n^1.5.
     ("FlipEdges(edges: All, on_refusal", 8.5),
@@ -64,8 +65,8 @@ const STEEPER: &[(&str, f64)] = &[
     ("Measure(of: Geodesic", 8.5),
     ("Smooth(by: Implicit", 8.5),
     // The time to fill a hole of at most 500 edges is cubic in the number of edges. The boundary of a grid with n faces
-    // has a length proportional to n^0.5, so the time is proportional to n^1.5, except for the largest grids, whose
-    // boundaries have more than 500 edges.
+    // has a length proportional to n^0.5, so this time is proportional to n^1.5. The exceptions are the largest grids,
+    // whose boundaries have more than 500 edges.
     ("FillHoles(", 8.5),
 ];
 
@@ -156,7 +157,7 @@ fn lines(n: usize) -> Geometry {
 enum Growth {
     /// The work is refused or fails.
     Refused,
-    /// The factor by which the time grows when the mesh is doubled twice.
+    /// The factor by which the time grows when the size of the mesh is doubled twice.
     By(f64),
     /// The work takes longer than [`TOO_LONG`].
     TooLong,
@@ -210,8 +211,8 @@ fn growth(scene: impl Fn(usize) -> Scene, work: impl Fn(Scene) -> bool) -> Growt
     if first <= MAX_GROWTH {
         return Growth::By(first);
     }
-    // The time can jump once, at the size at which data no longer fit in a cache or memory is no longer reused. If the
-    // algorithm is too slow, the growth is also too large between larger meshes.
+    // The time can jump once, at the size at which the data no longer fits in a cache, or at which memory is no longer
+    // reused. If the algorithm itself is too slow, the growth between two larger meshes is also too large.
     Growth::By(first.min(growth(&large, &scene(16 * n))))
 }
 
@@ -278,7 +279,7 @@ fn reading_and_checking_a_recipe_is_not_quadratic() {
         RECIPES
             .iter()
             .filter_map(|(what, text)| {
-                // A growth that is too large is measured again.
+                // If the growth is too large, it is measured again with a larger number of parts.
                 let least = growth(*text, 2000);
                 let least = if least > 8.0 {
                     least.min(growth(*text, 4000))
@@ -286,7 +287,7 @@ fn reading_and_checking_a_recipe_is_not_quadratic() {
                     least
                 };
                 (least > 8.0).then(|| {
-                    format!("{what}: {least:.2} times as long for four times as many parts")
+                    format!("{what}: takes {least:.2} times as long for four times as many parts")
                 })
             })
             .collect()
@@ -308,7 +309,7 @@ fn on_one_thread(measure: impl FnOnce() -> Vec<String> + Send) -> Vec<String> {
 }
 
 #[test]
-#[ignore = "measures times for about ten minutes"]
+#[ignore = "takes about ten minutes, because it measures times"]
 fn operations_take_at_most_two_point_three_times_as_long_on_twice_the_mesh() {
     let failures = on_one_thread(|| {
         let registry = ops_all::registry();
@@ -335,7 +336,7 @@ fn operations_take_at_most_two_point_three_times_as_long_on_twice_the_mesh() {
                         let mut steeper = STEEPER.iter().filter(|(step, _)| name.starts_with(step));
                         if factor > steeper.next().map_or(MAX_GROWTH, |&(_, most)| most) {
                             failures.push(format!(
-                                "{name}: {factor:.2} times as long for a mesh four times as large"
+                                "{name}: takes {factor:.2} times as long for a mesh four times as large"
                             ));
                         }
                     }
@@ -353,7 +354,7 @@ fn operations_take_at_most_two_point_three_times_as_long_on_twice_the_mesh() {
 }
 
 #[test]
-#[ignore = "measures times for about ten minutes"]
+#[ignore = "takes about ten minutes, because it measures times"]
 fn expectations_take_at_most_two_point_three_times_as_long_on_twice_the_mesh() {
     let failures = on_one_thread(|| {
         let registry = ops_all::registry();
@@ -386,7 +387,7 @@ fn expectations_take_at_most_two_point_three_times_as_long_on_twice_the_mesh() {
                     println!("{factor:6.2} {that}");
                     if factor > MAX_GROWTH {
                         failures.push(format!(
-                            "{that}: {factor:.2} times as long for a mesh four times as large"
+                            "{that}: takes {factor:.2} times as long for a mesh four times as large"
                         ));
                     }
                 }

@@ -171,7 +171,7 @@ fn face(mesh: &Mesh, number: usize) -> FaceId {
 }
 
 /// Checks that the edits of the mesh and of the polygon list both succeeded, or that both were refused for the same
-/// reason. If they succeeded, sets `oracle` to the edited list.
+/// reason. If both edits succeeded, sets `oracle` to the edited list.
 fn check_agreement(
     result: Result<(), EditError>,
     expected: Result<Polygons, EditError>,
@@ -270,8 +270,8 @@ impl Polygons {
         if f == g {
             return Err(EditError::SameFace(e));
         }
-        // One face is rotated so that it starts with a, b, and the other face starts with b, a. Then c and d are
-        // the next corners.
+        // One face is rotated so that it starts with a, b, and the other face starts with b, a. The next corners of the
+        // two faces are then c and d.
         let from = |f: usize, start: (u32, u32)| {
             let mut face = self.faces[f].clone();
             let place = sides(&face).position(|side| side == start);
@@ -377,8 +377,8 @@ impl Polygons {
         if !beside.contains(&None) && is_open(a) && is_open(b) {
             return Err(EditError::JoinsBoundaries(e));
         }
-        // If a larger face is adjacent to all three sides of a triangle, both sides of the remaining edge would be in
-        // that face.
+        // If a larger face is adjacent to all three sides of a triangle, the edit would leave an edge with this face on
+        // both sides.
         let around = |f: usize| sides(&self.faces[f]).map(|(x, y)| self.with_side(y, x));
         let is_within = |f: usize, g: usize| {
             let larger = self.faces[f].len() == 3 && self.faces[g].len() > 3;
@@ -413,8 +413,8 @@ impl Polygons {
     /// `before`, one vertex, `vanished` faces and `vanished` + 1 edges must be missing.
     fn has_topology_of(&self, before: &Self, vanished: usize) -> bool {
         let [mine, other] = [self, before].map(|polygons| {
-            // Counts corners of a face at the same vertex, edges with the same face on both sides, and pairs of
-            // opposite faces.
+            // The three counts are: corners of a face at the same vertex, edges with the same face on both sides, and
+            // pairs of opposite faces.
             let mut coincident = [0; 3];
             for face in &polygons.faces {
                 let mut once = face.clone();
@@ -483,7 +483,7 @@ impl Polygons {
             let after = sides(face).cycle().skip(1);
             let corners = sides(face).zip(after).filter(|&((_, at), _)| at == v);
             for ((before, _), (_, after)) in corners {
-                // The two edges are identified by the neighbors of v in this corner.
+                // The two edges of this corner at v are identified by their other ends.
                 let mut fan = vec![before, after];
                 fans.retain(|other| {
                     let is_joined = other.iter().any(|w| fan.contains(w));

@@ -232,7 +232,11 @@ const BROKEN: &[(&str, &str, &str)] = &[
     ("(0, 0, 1)", "(0, 0)", "a vector of two numbers"),
     ("(0, 0, 1)", "(0, 0, 1, 1)", "a vector of four numbers"),
     ("at: 0.25", "at: 1.5", "a number above its range"),
-    ("at: 0.25", "at: 0", "a number at the open end of its range"),
+    (
+        "at: 0.25",
+        "at: 0",
+        "a number at the excluded end of its range",
+    ),
     (
         "Longest(count: 2)",
         "Longest(count: 2, from: All)",

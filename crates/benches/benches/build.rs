@@ -51,7 +51,7 @@ fn a_million_triangles(c: &mut Criterion) {
             b.iter_batched(|| positions.clone(), built, BatchSize::PerIteration);
         });
     }
-    // The copy goes to newly allocated memory, as the mesh does.
+    // The copy goes to newly allocated memory, as the arrays of a built mesh do.
     group.bench_function("bytes alone: copy of the mesh", |b| {
         b.iter_batched(
             || (),

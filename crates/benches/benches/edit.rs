@@ -8,9 +8,8 @@ use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_mai
 use mesh::{EdgeId, EditError, Mesh};
 use op::{Context, Files, NoProgress, OnRefusal, edit_each};
 
-/// Flips every edge, and splits every edge, of a torus of a million triangles. In random order, the edits are
-/// memory-bound. Flips in the order of ids are not measured, because they would give a few vertices a very high
-/// valence.
+/// Flips every edge, and splits every edge, of a torus of a million triangles. Edits in random order are memory-bound.
+/// Flipping the edges in the order of their ids is not measured, because a few vertices would get a very high valence.
 fn every_edge_once(c: &mut Criterion) {
     let mesh = common::torus();
     let in_order: Vec<EdgeId> = mesh.edges().collect();
@@ -49,7 +48,8 @@ fn split(mesh: Mesh, edges: &[EdgeId]) -> Mesh {
     edit_every(mesh, edges, |mesh, e| mesh.split_edge(e, 0.5).map(drop))
 }
 
-/// Edits every edge as a step of a recipe does: with an open journal, so that the step can be rolled back.
+/// Edits every edge, and records each change in the journal of the mesh, so that all edits can be rolled back. A step
+/// of a recipe works in the same way.
 fn edit_every(
     mut mesh: Mesh,
     edges: &[EdgeId],

@@ -1,13 +1,13 @@
 //! Measures how fast a mesh of a million triangles is read and written, in bytes per second. For comparison, also
 //! measures how fast the same bytes are read and written without a conversion.
 //!
-//! Other readers are measured in the same run, on the same files. `tobj` and `mesh-loader` return flat arrays, `alum`
-//! returns a half-edge mesh, and the `gltf` crate returns accessors. The benchmark copies the values of the accessors
-//! into arrays. If `python3 -c "import rapidobj"` works (`pip install rapidobj`), the C++ reader rapidobj is measured
-//! too. It uses all threads, returns 32-bit arrays, and triangulates polygons.
+//! The readers of other libraries are measured in the same run, on the same files. `tobj` and `mesh-loader` return flat
+//! arrays, `alum` returns a half-edge mesh, and the `gltf` crate returns accessors. The benchmark copies the values of
+//! the glTF accessors into arrays. If `python3 -c "import rapidobj"` works (`pip install rapidobj`), the C++ reader
+//! rapidobj is measured too. rapidobj uses all threads, returns arrays of 32-bit numbers, and triangulates polygons.
 //!
-//! OBJ files of most programs have six decimals; Meshwright writes enough digits to restore the same `f64`. Both kinds
-//! of files are read.
+//! Most programs write OBJ files with six decimals. Meshwright writes enough digits to restore the same `f64`. Both
+//! kinds of files are read.
 
 use std::fs;
 use std::path::Path;

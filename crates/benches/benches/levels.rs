@@ -1,9 +1,10 @@
 //! How many faces per second does subdivision produce, and how does the speed compare with the memory
 //! bandwidth?
 //!
-//! The cage is the coarse mesh that is subdivided. The time starts with the cage in memory and ends with the refined
-//! mesh, with full connectivity, in memory. `tests/oracle` measures `OpenSubdiv` on the same cages. For comparison with
-//! the memory bandwidth of the machine, the benchmark also copies 256 MB and fills 256 MB of newly allocated memory.
+//! The cage is the coarse mesh that is subdivided. At the start of the measured time, the cage is in memory. At the end
+//! of the measured time, the refined mesh is in memory, with full connectivity. `tests/oracle` measures `OpenSubdiv` on
+//! the same cages. For comparison with the memory bandwidth of the machine, the benchmark also copies 256 MB and fills
+//! 256 MB of newly allocated memory.
 
 use std::hint::black_box;
 
@@ -50,7 +51,7 @@ fn levels(c: &mut Criterion) {
     group.finish();
 }
 
-/// Copies bytes from one array to another, and writes bytes into new memory.
+/// Measures how fast bytes are copied from one array to another, and how fast newly allocated memory is filled.
 fn bandwidth(group: &mut BenchmarkGroup<WallTime>) {
     const BYTES: usize = 256 << 20;
     const CHUNK: usize = 1 << 16;

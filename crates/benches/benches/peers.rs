@@ -1,9 +1,8 @@
 //! Compares the speed of local edits with other half-edge meshes in Rust.
 //!
-//! Each library edits the same torus of a million triangles. It flips every edge whose flip is legal, splits every
-//! edge, and (except tri-mesh) collapses every edge whose collapse is legal. The edges are in the same random order for
-//! all libraries.
-//! The time of an edit includes the checks that the library makes.
+//! Each library edits the same torus of a million triangles. Each library flips every edge whose flip is legal, and
+//! splits every edge. Each library except tri-mesh also collapses every edge whose collapse is legal. The edges are in
+//! the same random order for all libraries. The time of an edit includes the checks that the library makes.
 //!
 //! The far corners of an edge are the corners opposite to the edge in the two triangles beside it. A flip is illegal if
 //!
@@ -21,17 +20,18 @@
 //! | alum, with double-edge check | 1, 2 and 3, and 4 by a separate search |
 //! | tri-mesh | 1 and 4 |
 //!
-//! A split adds a vertex on the edge and connects the vertex to the far corners. alum does not have this edit:
-//! its `split_edge` leaves quadrilaterals, which are split here by two calls of `insert_edge`. A collapse moves
-//! one end of the edge to the other end if the topology of the surface stays the same (the link condition);
-//! this crate moves both ends to the midpoint. tri-mesh makes no checks before a collapse, so its collapses are
-//! not measured. All positions are `f64`.
+//! A split adds a vertex on the edge and connects the vertex to the far corners. alum does not have this edit. The
+//! function `split_edge` of alum leaves two quadrilaterals, which the benchmark splits by two calls of `insert_edge`. A
+//! collapse moves one end of the edge to the other end. The collapse is legal if the topology of the surface stays the
+//! same (the link condition). Meshwright moves both ends to the midpoint instead. tri-mesh makes no checks before a
+//! collapse, so its collapses are not measured. All positions are `f64`.
 //!
-//! This crate prefetches memory for the next edits. This crate also checks for an open journal, for attribute
-//! columns and for dead elements; the mesh has none of these. alum marks dead elements too. tri-mesh finds its
-//! elements through hash maps.
+//! In this benchmark, Meshwright prefetches the memory of the next edits. Meshwright also checks in each edit whether
+//! the mesh has an open journal, attribute columns or dead elements. The measured mesh has none of these. alum also
+//! marks dead elements. tri-mesh finds its elements through hash maps.
 //!
-//! At the end the program checks that all libraries that check for double edges flipped the same number of edges.
+//! At the end, the program compares the libraries that check for double edges: all of them must have flipped the same
+//! number of edges.
 
 mod common;
 
@@ -80,7 +80,7 @@ fn peers(c: &mut Criterion) {
     assert_eq!([alum_flips, tri_mesh_flips], [flips; 2], "the same edges");
 }
 
-/// Returns the number of accepted flips, with the check for double edges.
+/// Measures the edits of alum. Returns the number of flips that alum accepts with the separate check for double edges.
 fn alum_edits(group: &mut Group, start: &Start<Alum, alum::EH>) -> usize {
     start.measure(group, "flip, alum", |mesh, edges, i| {
         mesh.swap_edge_ccw(edges[i]).is_ok()
@@ -152,7 +152,7 @@ fn number(v: VertexId) -> u32 {
     u32::try_from(v.index()).expect("ids have 32 bits")
 }
 
-/// Converts the mesh to alum, with the edges between the given ends.
+/// Converts the mesh to alum. Also returns the alum edges that join the given pairs of vertices.
 fn alum_of(mesh: &Mesh, ends: &[[u32; 2]]) -> Start<Alum, alum::EH> {
     let mut copy = Alum::with_capacity(mesh.n_vertices(), mesh.n_edges(), mesh.n_faces());
     for p in mesh.positions() {
@@ -184,7 +184,7 @@ fn alum_split(mesh: &mut Alum, e: alum::EH) -> Result<(), alum::Error> {
     Ok(())
 }
 
-/// Converts the mesh to tri-mesh, with the edges between the given ends.
+/// Converts the mesh to tri-mesh. Also returns the tri-mesh edges that join the given pairs of vertices.
 fn tri_mesh_of(mesh: &Mesh, ends: &[[u32; 2]]) -> Start<tri_mesh::Mesh, tri_mesh::HalfEdgeID> {
     let corners = mesh.faces().flat_map(|f| mesh.face_vertices(f).map(number));
     let place = |p: &mesh::DVec3| tri_mesh::vec3(p.x, p.y, p.z);

@@ -1,4 +1,4 @@
-//! Prints the tables of the chapter on benchmarks in the book, from the results of criterion in `target/criterion`.
+//! Reads the results of criterion from `target/criterion`, and prints the tables for the book's chapter on benchmarks.
 //! `book/benchmarks.sh` runs the benchmarks with one thread and with two threads, and then runs this program.
 
 #![expect(clippy::print_stdout, reason = "the program prints the tables")]
@@ -75,9 +75,10 @@ fn main() -> std::io::Result<()> {
     Ok(())
 }
 
-/// Returns the time of copying, reading or writing only the bytes that `row` processes, in seconds with one thread.
-/// This time is in another row of the same group. The name of that row contains `bytes alone`, and starts with `bytes`
-/// or with the first word of the name of `row`. Returns `None` if the name of `row` itself contains `bytes alone`.
+/// Returns the reference time of `row`: the seconds that one thread takes to copy, read or write the same bytes,
+/// without other work. The reference time is in another row of the same group. The name of this reference row contains
+/// `bytes alone`, and starts with `bytes` or with the first word of the name of `row`. Returns `None` if there is no
+/// reference time, or if `row` is itself a reference row.
 fn reference(row: &Row, rows: &[Row]) -> Option<f64> {
     let is_bytes = |row: &Row| row.name.contains("bytes alone");
     let word = row.name.split([' ', ',']).next()?;

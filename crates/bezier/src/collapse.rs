@@ -8,12 +8,12 @@
 //!     corner 0 --- side 0 --- corner 1
 //! ```
 //!
-//! To test a side, its boundary curve is sampled at i/m for i from 0 to m, where m is the number of segments or 3,
-//! whichever is smaller. The extent of a patch is the longest side of the bounding box of its control points. The side
-//! is collapsed if every coordinate of every sample differs from that of the first sample by at most 1e-12 times the
-//! extent of the patch. With three or more segments, a collapsed side is one point, because a cubic that has the same
-//! value at four parameters is constant. With fewer segments, a collapsed side can also be a loop whose samples
-//! coincide.
+//! To test whether a side of a patch is collapsed, the boundary curve of the side is sampled at i/m for i from 0 to m.
+//! The number m is the number of segments or 3, whichever is smaller. The extent of a patch is the longest side of the
+//! bounding box of its control points. A side is collapsed if the coordinates of every sample differ from the
+//! coordinates of the first sample by at most 1e-12 times the extent of the patch. With three or more segments, a
+//! collapsed side is one point, because a cubic that has the same value at four parameters is constant. With one or two
+//! segments, a collapsed side can also be a loop whose samples coincide.
 
 use glam::DVec3;
 
@@ -30,12 +30,14 @@ const TOLERANCE: f64 = 1e-12;
 pub(crate) struct Sides {
     /// Whether each side is collapsed. The sides are numbered as in the picture at the top of the file.
     pub(crate) collapsed: [bool; 4],
-    /// Whether all rows or all columns coincide, so that the patch is a curve or a point.
+    /// Whether all rows of control points coincide or all columns of control points coincide. If so, the patch is a
+    /// curve or a point.
     has_no_area: bool,
 }
 
 impl Sides {
-    /// Finds the collapsed sides of `patch` for a tessellation into `segments`, which must not be 0.
+    /// Finds the collapsed sides of `patch` for a tessellation into `segments` by `segments` cells. `segments` must not
+    /// be 0.
     pub(crate) fn of(patch: &Patch, segments: u32) -> Self {
         let p = patch.points();
         let all = p.as_flattened();
@@ -75,8 +77,8 @@ impl Sides {
         chain
     }
 
-    /// Returns the exact number of elements of the tessellation of a patch with these sides. All counts are zero
-    /// if the tessellation has no face.
+    /// Returns the exact number of elements of the tessellation of a patch with these collapsed sides. All counts are
+    /// zero if the tessellation has no face.
     ///
     /// A number that exceeds 64 bits is replaced by the largest 64-bit number.
     pub(crate) fn counts(self, segments: u32, faces: Faces) -> Counts {
@@ -103,8 +105,8 @@ impl Sides {
         if cells == 0 || (n == 2 && collapsed == 4) {
             return Counts::default();
         }
-        // The samples of a chain become one vertex. With n segments, a chain of k sides has k n + 1 samples, or
-        // 4 n if it has all four sides.
+        // All samples on a chain of collapsed sides become one vertex. With n segments per side, a chain of k sides has
+        // k n + 1 samples. If the chain has all four sides, it is closed and has 4 n samples.
         let merged = n * collapsed - u64::from(collapsed == 4);
         let vertices = square(n.saturating_add(1)) - merged;
         match faces {

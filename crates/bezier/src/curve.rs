@@ -23,8 +23,8 @@ use crate::weights::Weights;
 
 /// The largest number of control points of a [`Curve`].
 ///
-/// De Casteljau's algorithm computes n (n + 1) / 2 points for n control points. The maximum bounds the cost of
-/// one evaluation (8 million steps) and the memory of [`Curve::levels`] (200 MB).
+/// De Casteljau's algorithm computes n (n + 1) / 2 points for n control points. The maximum limits the cost of one
+/// evaluation to about 8 million steps, and the memory of [`Curve::levels`] to about 200 MB.
 pub const MAX_POINTS: usize = 4096;
 
 /// A point or a vector, in 2D or 3D. The default is the origin.
@@ -57,9 +57,9 @@ impl Point for DVec3 {
 ///
 /// The curve starts at the first control point (t = 0) and ends at the last (t = 1). At its ends, the curve is tangent
 /// to the first and the last leg of the control polygon; a leg joins two consecutive control points. For t from 0 to 1,
-/// the curve is inside the convex hull of the control points. Every function also accepts parameters outside this
-/// range: there, the function evaluates the same polynomial. If the parameter is NaN, all results that depend on it
-/// have NaN coordinates; no function panics.
+/// the curve is inside the convex hull of the control points. Outside the range of parameters from 0 to 1, every
+/// function evaluates the same polynomial. If the parameter is NaN, all results that depend on it have NaN coordinates;
+/// no function panics.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve<P> {
     /// At least one point and at most [`MAX_POINTS`].
@@ -71,8 +71,8 @@ impl<P: Point> Curve<P> {
     ///
     /// # Errors
     ///
-    /// Returns [`BezierError::NoPoints`] if the list is empty, [`BezierError::TooManyPoints`] if there
-    /// are more than [`MAX_POINTS`], [`BezierError::NotFinite`] for the first point that is not finite.
+    /// Returns [`BezierError::NoPoints`] if the list is empty, and [`BezierError::TooManyPoints`] if it has more than
+    /// [`MAX_POINTS`] points. Returns [`BezierError::NotFinite`] for the first point that is not finite.
     pub fn new(points: Vec<P>) -> Result<Self, BezierError> {
         if points.is_empty() {
             return Err(BezierError::NoPoints);
@@ -102,8 +102,8 @@ impl<P: Point> Curve<P> {
     ///
     /// # Errors
     ///
-    /// Returns [`BezierError::NoSuchPoint`] if the control point does not exist,
-    /// [`BezierError::NotFinite`] if `point` is not finite.
+    /// Returns [`BezierError::NoSuchPoint`] if the control point does not exist, and [`BezierError::NotFinite`] if
+    /// `point` is not finite.
     pub fn with_point(&self, index: usize, point: P) -> Result<Self, BezierError> {
         if index >= self.points.len() {
             return Err(BezierError::NoSuchPoint {
@@ -134,7 +134,7 @@ impl<P: Point> Curve<P> {
         casteljau(self.points.clone(), Weights::at(t))
     }
 
-    /// Returns the derivative with respect to t at `t`; zero for degree 0.
+    /// Returns the derivative of the curve at `t`. The derivative is zero if the degree is 0.
     ///
     /// The derivative is n times the Bezier curve of the differences of the control points (Farin 2002, §5.3).
     pub fn derivative(&self, t: f64) -> P {
@@ -149,8 +149,8 @@ impl<P: Point> Curve<P> {
     /// Returns the n + 1 points at i/n for i from 0 to n, where n is `segments`. The first and the last point are
     /// exactly the first and the last control point.
     ///
-    /// For 0 segments, returns only the start point. The reversed curve gives the same points, bit for bit,
-    /// in reverse order.
+    /// For 0 segments, returns only the start point. For the reversed curve, the function returns exactly the same
+    /// points in reverse order, bit for bit.
     pub fn sample(&self, segments: u32) -> impl Iterator<Item = P> {
         let points = &self.points;
         (0..=segments).map(move |i| match i {
@@ -162,7 +162,7 @@ impl<P: Point> Curve<P> {
 
 /// Performs one step of de Casteljau's algorithm: computes (1 - t) a + t b for each pair of neighbors a, b.
 ///
-/// Returns one point fewer than `points`; an empty list if `points` has at most one point.
+/// The returned list has one point fewer than `points`. If `points` has at most one point, the list is empty.
 pub fn one_step<P: Point>(points: &[P], t: f64) -> Vec<P> {
     let weights = Weights::at(t);
     points
@@ -171,7 +171,7 @@ pub fn one_step<P: Point>(points: &[P], t: f64) -> Vec<P> {
         .collect()
 }
 
-/// Returns the point of the last level of de Casteljau's algorithm. `points` must not be empty.
+/// Returns the only point of the last level of de Casteljau's algorithm. `points` must not be empty.
 fn casteljau<P: Point>(mut points: Vec<P>, weights: Weights) -> P {
     if let Some(end) = weights.end() {
         return points[end * (points.len() - 1)];

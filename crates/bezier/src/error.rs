@@ -25,7 +25,7 @@ pub enum BezierError {
     /// The magnitude of a coordinate of a patch exceeds [`MAX_COORDINATE`](crate::MAX_COORDINATE). `index` is
     /// 4 * row + column.
     #[error(
-        "expected coordinates with a magnitude of at most {:e}, but control point {index} has a larger one",
+        "expected coordinates with a magnitude of at most {:e}, but control point {index} has a larger coordinate",
         crate::MAX_COORDINATE
     )]
     TooLarge {

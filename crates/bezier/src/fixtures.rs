@@ -34,8 +34,8 @@ impl Lcg {
     }
 }
 
-/// Returns a quarter of the surface of revolution of a profile of points (radius, height) about the z axis.
-/// u runs around the axis, v along the profile.
+/// Returns the patch that a profile curve sweeps in a quarter turn about the z axis. The profile is a cubic, and its
+/// control points are given as (radius, height). u runs around the axis, and v along the profile.
 pub(crate) fn quarter_turn(profile: [[f64; 2]; 4]) -> Patch {
     let arc = [[1.0, 0.0], [1.0, KAPPA], [KAPPA, 1.0], [0.0, 1.0]];
     Patch::new(profile.map(|[r, z]| arc.map(|[x, y]| DVec3::new(r * x, r * y, z)))).unwrap()
@@ -46,15 +46,16 @@ pub(crate) fn octant() -> Patch {
     quarter_turn([[1.0, 0.0], [1.0, KAPPA], [KAPPA, 1.0], [0.0, 1.0]])
 }
 
-/// Returns the patch x = u², y = v², z = x y. Both derivatives are zero at the corner (0, 0), and the derivatives
-/// across the edges u = 0 and v = 0 are zero. No edge is collapsed. The normal is (-y, -x, 1), normalized.
+/// Returns the patch x = u², y = v², z = x y. At the corner (0, 0), both derivatives are zero. The derivatives across
+/// the edges u = 0 and v = 0 are zero. No edge is collapsed. The normal is (-y, -x, 1), normalized.
 pub(crate) fn squared() -> Patch {
     // The control points of the function t², written as a cubic.
     let square = [0.0, 0.0, 1.0 / 3.0, 1.0];
     Patch::new(square.map(|y| square.map(|x| DVec3::new(x, y, x * y)))).unwrap()
 }
 
-/// Fails unless `a` and `b` differ by at most `tolerance` times the largest of 1 and their lengths.
+/// Panics if the distance between `a` and `b` exceeds `tolerance` times m, where m is the largest of 1, the length of
+/// `a` and the length of `b`.
 #[track_caller]
 pub(crate) fn assert_close(a: DVec3, b: DVec3, tolerance: f64) {
     let size = a.length().max(b.length()).max(1.0);

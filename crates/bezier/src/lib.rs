@@ -1,7 +1,7 @@
 //! Bezier curves and patches: de Casteljau's algorithm, derivatives, exact normals, and tessellation of
 //! patches into polygons.
 //!
-//! The crate works only on points and numbers. It does not depend on meshes, files or operations.
+//! The crate works only on points and numbers. The crate does not depend on the crates for meshes, files or operations.
 //!
 //! - A **Bezier curve** of degree n is a weighted mean of n + 1 *control points*: c(t) is the
 //!   sum of `p_i B(n, i)(t)` with the Bernstein polynomials B(n, i). See [`Curve`], in 2D and 3D.
@@ -13,9 +13,10 @@
 //! - A **tessellation** samples patches at u = i/n, v = j/n and joins the samples by triangles or
 //!   quads. See [`tessellate()`] and [`counts`].
 //!
-//! Faces are counter-clockwise when seen from the side to which the normal ds/du x ds/dv points. The positions
-//! on a boundary that two patches share are equal bit for bit. A side is collapsed if all of its points coincide.
-//! A collapsed side becomes one vertex, with an exact normal.
+//! The corners of a face are in counter-clockwise order when seen from the side to which the normal ds/du x ds/dv
+//! points. If two patches share a boundary, their positions on this boundary are equal bit for bit. A side of a patch
+//! is collapsed if all of its points coincide. A collapsed side becomes one vertex of the tessellation, with an exact
+//! normal.
 //!
 //! # Examples
 //!

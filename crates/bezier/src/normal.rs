@@ -9,38 +9,39 @@
 //!    *---+---*  v = 0
 //! ```
 //!
-//! Let N = du x dv, a polynomial in u and v. Consider a straight line from the point into the patch, (u + e a,
-//! v + e b) for small e > 0, where (a, b) is the direction of the line. Along this line, N is a polynomial in
-//! e:
+//! Let N = du x dv, a polynomial in u and v. Consider a straight line from the point into the patch, (u + e a, v + e b)
+//! for small e > 0, where (a, b) is the direction of the line. Along this line, N is a polynomial in e:
 //!
 //! ```text
 //! N(e) = N0 + e N1 + e² N2 + ...      N(e) / |N(e)|  ->  Nk / |Nk|  as e goes to 0,
 //! ```
 //!
-//! where Nk is the first nonzero coefficient. At a regular point, Nk is N0 = du x dv. On a collapsed edge v =
-//! 0, where du = 0 along the edge, the first nonzero coefficient is N1 = duv x dv, with the mixed derivative
-//! duv. On the edge v = 1, the line into the patch has b = -1, and N1 = -duv x dv. Collapsed corners, and edges
-//! along which N1 is also zero, need N2 and higher coefficients. N has degree 5 in u and in v, so N10 is the last
-//! coefficient.
+//! where Nk is the first nonzero coefficient of the polynomial. At a regular point, it is N0 = du x dv. On a collapsed
+//! edge v = 0, where du = 0 along the edge, the first nonzero coefficient is N1 = duv x dv, with the mixed derivative
+//! duv. On the edge v = 1, the line into the patch has b = -1, and N1 = -duv x dv. At a collapsed corner, and on an
+//! edge along which N0 and N1 are zero, the first nonzero coefficient is N2 or a later one. N has degree 5 in u and in
+//! v, so N10 is the last coefficient.
 //!
 //! From a point on an edge, the line runs straight across the patch; from a corner, it runs along the diagonal. If the
-//! limit exists, it is the same along every line. If the limit does not exist (at the tip of a cone at the corner of a
-//! patch, or at a cusp), the result is the limit along this line. If N is zero along the whole line, two more lines
-//! beside it are tried; if N is also zero along these lines, the point has no normal.
+//! limit of the normals exists, it is the same along every line. If the limit of the normals does not exist, the result
+//! is the limit along the chosen line. At a cusp, and at the tip of a cone that is a corner of a patch, the limit does
+//! not exist. If N is zero along the whole line, two more lines beside it are tried. If N is zero along all three
+//! lines, the point has no normal.
 //!
-//! Before the coefficients are compared with zero, the derivatives along u are divided by the largest
-//! difference of control points that are neighbors along u, and the derivatives along v by the largest
-//! difference along v. A coefficient is then treated as zero if the magnitude of each of its coordinates is at most
-//! [`VANISHING`]. Because of this scaling, even thin and tiny patches get normals.
+//! Before the coefficients are compared with zero, the derivatives are scaled. The derivatives along u are divided by
+//! the largest difference of control points that are neighbors along u. The derivatives along v are divided by the
+//! largest difference of neighbors along v. A coefficient of the scaled normal is treated as zero if the magnitude of
+//! each of its coordinates is at most [`VANISHING`]. Because the derivatives are scaled, even thin and tiny patches get
+//! normals.
 
 use glam::{DVec2, DVec3};
 
 /// A coefficient of the scaled normal is treated as zero if the magnitude of each coordinate is at most this value.
 ///
-/// The value is well above the rounding errors of the coefficients (1e-14), and above the coefficients at an
-/// edge that is collapsed only within the tolerance of [`tessellate`](crate::tessellate()). Near a pole (within
-/// 1e-10 times the size of the patch), a coefficient below this value is inaccurate, and the next coefficient gives a
-/// more accurate normal.
+/// The value is well above the rounding errors of the coefficients (1e-14). The value is also above the coefficients at
+/// an edge that is not exactly collapsed, but is collapsed within the tolerance of [`tessellate`](crate::tessellate()).
+/// Within a distance of 1e-10 times the size of the patch from a pole, a coefficient below this value is inaccurate. So
+/// near a pole, the next coefficient gives a more accurate normal.
 pub const VANISHING: f64 = 1e-10;
 
 /// Returns the limit of the normals along a line into the patch from `uv`; `None` if the normals are zero along all
@@ -54,7 +55,7 @@ pub(crate) fn limit(c: &[[DVec3; 4]; 4], max_steps: DVec2, uv: DVec2) -> Option<
         .find_map(|direction| limit_along(c, max_steps, direction))
 }
 
-/// Returns `n` scaled to length 1, or `None` if it is treated as zero or is not finite.
+/// Returns `n` scaled to length 1, or `None` if `n` is not finite or is treated as zero.
 pub(crate) fn unit(n: DVec3) -> Option<DVec3> {
     let size = size(n);
     (size > VANISHING && n.is_finite()).then(|| (n / size).normalize())
@@ -73,9 +74,10 @@ fn inward_directions(uv: DVec2) -> [DVec2; 3] {
     [direction, direction + offset, direction - offset]
 }
 
-/// Returns the first nonzero coefficient of N along `direction`, scaled to length 1; `None` if all are zero.
+/// Returns the first nonzero coefficient of N along `direction`, scaled to length 1. Returns `None` if all coefficients
+/// are zero.
 fn limit_along(c: &[[DVec3; 4]; 4], max_steps: DVec2, direction: DVec2) -> Option<DVec3> {
-    // The coefficients of the powers of e in du and dv along the line.
+    // On the line, du and dv are polynomials in e. These arrays hold their coefficients, starting with the power 0.
     let mut du = [DVec3::ZERO; 6];
     let mut dv = [DVec3::ZERO; 6];
     let (a, b) = (powers(direction.x), powers(direction.y));
@@ -111,7 +113,8 @@ mod tests {
     use crate::Patch;
     use crate::fixtures::{Lcg, assert_close, octant, quarter_turn, squared};
 
-    /// Checks that every normal on the boundary is close to normals inside, along three lines.
+    /// Checks that every normal on the boundary is close to the normals at nearby points inside the patch, along three
+    /// lines.
     fn assert_normals_are_limits(patch: &Patch) {
         for i in 0..=8 {
             let t = f64::from(i) / 8.0;
@@ -157,8 +160,8 @@ mod tests {
 
     #[test]
     fn normals_of_a_collapsed_edge_are_limits() {
-        // The first and the third row of `lid` are points, like those of the lid of the teapot. The first row of
-        // `bottom` is a point, like that of the bottom of the teapot.
+        // All points in the first row of `lid` coincide, and all points in its third row coincide, as in the lid of the
+        // teapot. All points in the first row of `bottom` coincide, as in the bottom of the teapot.
         let lid = quarter_turn([[0.0, 3.15], [0.8, 3.15], [0.0, 2.85], [0.2, 2.7]]);
         let bottom = quarter_turn([[0.0, 0.0], [1.4, 0.0], [1.5, 0.1], [1.5, 0.2]]);
         for patch in [octant(), lid, bottom] {

@@ -10,7 +10,7 @@
 
 use glam::DVec3;
 
-/// Returns B(n, i) at `t`; 0 unless i is from 0 to n.
+/// Returns the Bernstein polynomial B(n, i) at `t`, or 0 if i is not from 0 to n.
 pub(crate) fn weight(n: i32, i: i32, t: f64) -> f64 {
     if i < 0 || i > n {
         return 0.0;
@@ -20,7 +20,7 @@ pub(crate) fn weight(n: i32, i: i32, t: f64) -> f64 {
     binomial * power(t, i) * power(1.0 - t, n - i)
 }
 
-/// Returns the derivative of B(n, i) at `t`.
+/// Returns the derivative of the Bernstein polynomial B(n, i) at `t`.
 pub(crate) fn weight_derivative(n: i32, i: i32, t: f64) -> f64 {
     f64::from(n) * (weight(n - 1, i - 1, t) - weight(n - 1, i, t))
 }

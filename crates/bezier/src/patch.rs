@@ -22,15 +22,15 @@ use crate::weights::Weights;
 
 /// The largest magnitude of a coordinate of a [`Patch`].
 ///
-/// The limit is far larger than the coordinates of any model (the largest `f32` is 3.4e38), and small enough
+/// The limit is far larger than the coordinates of any model (the largest `f32` is 3.4e38). The limit is small enough
 /// that products of two derivatives do not overflow.
 pub const MAX_COORDINATE: f64 = 1e100;
 
 /// A bicubic Bezier patch: a surface in two parameters, u along the rows of its control points
 /// and v across them.
 ///
-/// Every function also accepts parameters outside 0 to 1: there, the function evaluates the same polynomial. If
-/// a parameter is NaN, the resulting point has NaN coordinates and the normal is zero; no function panics.
+/// Outside the range of parameters from 0 to 1, every function evaluates the same polynomials. If a parameter is NaN,
+/// the resulting point has NaN coordinates and the normal is zero; no function panics.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Patch {
     points: [[DVec3; 4]; 4],
@@ -41,8 +41,8 @@ impl Patch {
     ///
     /// # Errors
     ///
-    /// Returns [`BezierError::NotFinite`] or [`BezierError::TooLarge`] for the first control point with
-    /// a coordinate that is not finite, or whose magnitude exceeds [`MAX_COORDINATE`].
+    /// Returns [`BezierError::NotFinite`] or [`BezierError::TooLarge`] for the first control point with an invalid
+    /// coordinate: a coordinate that is not finite, or a coordinate whose magnitude exceeds [`MAX_COORDINATE`].
     #[expect(
         clippy::large_types_passed_by_value,
         reason = "the constructor stores the points"
@@ -73,10 +73,11 @@ impl Patch {
         }
     }
 
-    /// Returns the point at (`u`, `v`): evaluates each row at u, then the four resulting points at v.
+    /// Returns the point at (`u`, `v`). Evaluates each row of control points at u. The four resulting points are the
+    /// control points of a cubic, which is evaluated at v.
     ///
-    /// On the boundary, the result is identical bit for bit to the point of the boundary curve, whose control
-    /// points are those on the boundary. At a corner, the result is the control point.
+    /// On the boundary, the result is equal bit for bit to the point of the boundary curve. The control points of this
+    /// curve are the control points of the patch on the boundary. At a corner, the result is the control point.
     pub fn point(&self, u: f64, v: f64) -> DVec3 {
         self.point_at(Weights::at(u), Weights::at(v))
     }
@@ -88,9 +89,9 @@ impl Patch {
 
     /// Returns the unit normal at (`u`, `v`), in the direction of du x dv.
     ///
-    /// If du x dv is zero, as at the pole of a surface of revolution, returns the limit of the normals
-    /// inside the patch; see the module [`normal`](mod@crate::normal). Returns zero only if the patch has no normal
-    /// anywhere near the point, for example if the patch is a curve or a point.
+    /// If du x dv is zero, as at the pole of a surface of revolution, returns the limit of the normals inside the
+    /// patch. The module [`normal`](mod@crate::normal) explains how the limit is computed. Returns zero only if the
+    /// patch has no normal anywhere near the point, for example if the patch is a curve or a point.
     pub fn normal(&self, u: f64, v: f64) -> DVec3 {
         self.normal_at(Weights::at(u), Weights::at(v), self.max_steps())
     }
@@ -114,7 +115,7 @@ impl Patch {
 
     /// Returns the largest coordinate difference between neighboring control points, along u and along v.
     ///
-    /// Derivatives are compared to these values to decide whether they are zero.
+    /// A derivative is compared to these values to decide whether it is treated as zero.
     pub(crate) fn max_steps(&self) -> DVec2 {
         let along = |patch: &Self| {
             let pairs = patch.points.iter().flat_map(|row| row.windows(2));
@@ -132,7 +133,8 @@ impl Patch {
         (du, dv)
     }
 
-    /// Returns the Taylor coefficients c: the point at (u + x, v + y) is the sum of c\[i\]\[j\] x^i y^j.
+    /// Returns the Taylor coefficients c of the patch at (u, v): the point at (u + x, v + y) is the sum of c\[i\]\[j\]
+    /// x^i y^j.
     fn expansion(&self, u: Weights, v: Weights) -> [[DVec3; 4]; 4] {
         let rows = self.points.map(|row| taylor(row, u));
         [0, 1, 2, 3].map(|i| taylor(rows.map(|coefficients| coefficients[i]), v))
@@ -158,7 +160,7 @@ fn slope(p: [DVec3; 4], w: Weights) -> DVec3 {
     quadratic([p[1] - p[0], p[2] - p[1], p[3] - p[2]], w) * 3.0
 }
 
-/// Returns the Taylor coefficients of a cubic: its derivatives of order k divided by k!.
+/// Returns the Taylor coefficients of a cubic. Coefficient k is the derivative of order k divided by k!.
 ///
 /// The derivative of order k is computed from the k-th differences of the control points (Farin 2002,
 /// §5.3).

@@ -25,7 +25,7 @@ pub struct Tessellation {
     pub offsets: Vec<u32>,
     /// The vertices of all faces, face after face, counter-clockwise.
     pub indices: Vec<u32>,
-    /// The number of tessellated patches, including empty ones.
+    /// The number of tessellated patches, including the patches that have no vertices and no faces in the tessellation.
     pub patches: u32,
     /// The indices of the patches that have no vertices and no faces in the tessellation.
     pub empty_patches: Vec<u32>,
@@ -58,7 +58,8 @@ impl Tessellation {
             .map(|ends| &self.indices[ends[0] as usize..ends[1] as usize])
     }
 
-    /// Reserves memory for `counts` additional elements, so that adding them cannot fail.
+    /// Reserves memory for `counts` additional elements. Adding these elements then needs no further memory, and cannot
+    /// fail.
     pub(crate) fn reserve(&mut self, counts: Counts) -> Result<(), BezierError> {
         let all = [counts.vertices, counts.faces, counts.corners];
         let [vertices, faces, corners] = all.map(|n| usize::try_from(n).unwrap_or(usize::MAX));
@@ -80,7 +81,8 @@ impl Tessellation {
         }
     }
 
-    /// Adds a vertex and returns its id. The caller must have checked that the counts fit 32 bits.
+    /// Adds a vertex and returns its id. The caller must have checked that the counts of vertices, faces and corners
+    /// fit 32 bits.
     #[expect(
         clippy::cast_possible_truncation,
         reason = "checked by tessellate_patch"
@@ -92,8 +94,8 @@ impl Tessellation {
         (self.positions.len() - 1) as u32
     }
 
-    /// Adds a face. A corner with the same vertex as the next corner is left out. If fewer than three
-    /// corners remain, adds nothing. The caller must have checked that the counts fit 32 bits.
+    /// Adds a face. A corner is left out if the next corner has the same vertex. If fewer than three corners remain, no
+    /// face is added. The caller must have checked that the counts of vertices, faces and corners fit 32 bits.
     #[expect(
         clippy::cast_possible_truncation,
         reason = "checked by tessellate_patch"

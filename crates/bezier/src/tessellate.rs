@@ -12,23 +12,25 @@
 //! ```
 //!
 //! Vertex ids increase along u first, then along v, then from patch to patch. Patches share no vertices; to join the
-//! patches, weld the vertices of the result. If two patches have the same control points on a common boundary, in
-//! either direction, their positions there are equal bit for bit.
+//! patches, weld the vertices of the result. If two patches have the same control points on a common boundary, in the
+//! same or in reverse order, their positions on this boundary are equal bit for bit.
 //!
-//! A collapsed side, whose points coincide (as at the pole of a teapot's lid), becomes one vertex, and adjacent
-//! collapsed sides together become one vertex. A cell with one collapsed side becomes a triangle; a cell with more
-//! collapsed sides becomes no face. To test a side, its boundary curve is sampled at i/m for i from 0 to m, where m is
-//! n or 3, whichever is smaller. The side is collapsed if every coordinate of every sample differs from that of the
-//! first sample by at most 1e-12 times the longest side of the bounding box of the control points of the patch. The
-//! vertex of adjacent collapsed sides is at the start of the first of these sides, in the order v = 0, u = 1, v = 1,
-//! u = 0. The UV and the normal of this vertex are those of the middle of that first side.
+//! A side of a patch is collapsed if its points coincide, as at the pole of a teapot's lid. A collapsed side becomes
+//! one vertex. Adjacent collapsed sides together become one vertex. A cell with one collapsed side becomes a triangle.
+//! A cell with two or more collapsed sides is left out. To test whether a side is collapsed, its boundary curve is
+//! sampled at i/m for i from 0 to m. The number m is n or 3, whichever is smaller, where n is the number of segments. A
+//! side is collapsed if the coordinates of every sample differ from the coordinates of the first sample by at most the
+//! tolerance. The tolerance is 1e-12 times the longest side of the bounding box of the control points of the patch. In
+//! the order v = 0, u = 1, v = 1, u = 0, the vertex of adjacent collapsed sides is at the start of the first of these
+//! sides. Its UV and its normal are the UV and the normal at the middle of this first side.
 //!
-//! A patch is a curve or a point if all of its rows or all of its columns coincide, with the same tolerance. A
-//! patch gives no vertices and no faces if it is a curve or a point, or if none of its cells becomes a face. The
-//! result lists these patches.
+//! A patch is a curve or a point if all of its rows of control points coincide, or all of its columns, with the
+//! tolerance for collapsed sides. A patch gives no vertices and no faces if it is a curve or a point, or if none of its
+//! cells becomes a face. The result lists the patches without vertices and faces.
 //!
-//! Other degeneracies are not detected. Faces can have zero area if a patch folds onto itself. With too few
-//! segments, the corners of a cell can also be collinear (as at the tip of the teapot's spout with one segment).
+//! The tessellation detects collapsed sides, and patches that are a curve or a point. It detects no other degeneracies.
+//! Faces can have zero area if a patch folds onto itself. With too few segments, the corners of a cell can be
+//! collinear, as at the tip of the teapot's spout with one segment.
 
 use std::num::NonZero;
 
@@ -38,7 +40,7 @@ use crate::collapse::Sides;
 use crate::weights::Weights;
 use crate::{BezierError, Counts, Patch, Tessellation};
 
-/// The faces that a cell of a patch becomes.
+/// The kind of faces into which each cell of a patch is tessellated.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum Faces {
     /// Two triangles, divided by the diagonal from corner (i, j) to corner (i + 1, j + 1).
@@ -54,7 +56,8 @@ pub enum Faces {
 ///
 /// # Errors
 ///
-/// Returns the errors of [`counts`], before anything is computed, and [`BezierError::OutOfMemory`].
+/// Returns the errors of [`counts`] before anything is computed. Returns [`BezierError::OutOfMemory`] if there is not
+/// enough memory.
 pub fn tessellate(
     patches: &[Patch],
     segments: u32,
@@ -72,8 +75,8 @@ pub fn tessellate(
 ///
 /// # Errors
 ///
-/// Returns the errors of [`counts`], for the resulting size of `out`, and [`BezierError::OutOfMemory`].
-/// If an error is returned, `out` is unchanged.
+/// Returns the errors of [`counts`] for the size that `out` would have afterwards. Returns [`BezierError::OutOfMemory`]
+/// if there is not enough memory. If an error is returned, `out` is unchanged.
 pub fn tessellate_patch(
     patch: &Patch,
     segments: u32,
@@ -110,8 +113,8 @@ pub fn tessellate_patch(
 ///
 /// # Errors
 ///
-/// Returns [`BezierError::NoSegments`] if `segments` is 0, [`BezierError::TooManyElements`] if the
-/// number of vertices, faces or face corners does not fit 32-bit ids.
+/// Returns [`BezierError::NoSegments`] if `segments` is 0. Returns [`BezierError::TooManyElements`] if the number of
+/// vertices, faces or face corners does not fit 32-bit ids.
 pub fn counts(patches: &[Patch], segments: u32, faces: Faces) -> Result<Counts, BezierError> {
     let n = NonZero::new(segments).ok_or(BezierError::NoSegments)?.get();
     let total = patches.iter().fold(Counts::default(), |total, patch| {
@@ -128,12 +131,14 @@ struct PatchTessellator<'a> {
     sides: Sides,
     /// See [`Patch::max_steps`].
     max_steps: DVec2,
-    /// For the first side of each chain of collapsed sides, the vertex of the chain. `None` until the vertex is added.
+    /// For the first side of each chain of adjacent collapsed sides, the vertex that the chain becomes. `None` until
+    /// the vertex is added.
     collapsed: [Option<u32>; 4],
 }
 
 impl PatchTessellator<'_> {
-    /// Adds the missing vertices of row `j`. Returns the ids of all vertices of the row, along u.
+    /// Adds the vertices of row `j`, except the vertices of collapsed sides that were already added. Returns the ids of
+    /// all vertices of the row, along u.
     fn push_row(&mut self, j: u32, out: &mut Tessellation) -> Vec<u32> {
         let (n, sides) = (self.n, self.sides);
         let chains = sides.chains();
@@ -189,7 +194,8 @@ mod tests {
 
     const KINDS: [Faces; 2] = [Faces::Triangles, Faces::Quads];
 
-    /// Returns patches with every subset of the sides collapsed.
+    /// Returns patches for the tests: for every subset of the four sides, a patch in which exactly these sides are
+    /// collapsed.
     fn collapsed_patches() -> Vec<Patch> {
         let mut random = Lcg::new(41);
         let sides = [
@@ -201,7 +207,8 @@ mod tests {
         let mut patches = Vec::new();
         for mask in 0..16 {
             let mut points = *random.patch().points();
-            // The second round gives adjacent collapsed sides the same corner.
+            // Collapsing one side can move the end of an adjacent collapsed side. Therefore all sides are collapsed a
+            // second time, so that adjacent collapsed sides become the same point.
             for _ in 0..2 {
                 for (k, side) in sides
                     .iter()

@@ -1,13 +1,14 @@
-//! The weights 1 - t and t of a parameter t. For the reversed curve, the two weights are exchanged, bit for bit.
+//! The weights 1 - t and t of a parameter t. If a curve is reversed, the two weights are exchanged, bit for bit.
 
 use crate::Point;
 
 /// The weights 1 - t and t of the two ends of a leg.
 ///
-/// Both weights are stored, because rounding would make the result depend on which weight is computed from the
-/// other. With [`Weights::ratio`], evaluating a curve at i/n and the reversed curve at (n - i)/n gives the same
-/// products. The products are added in the opposite order, which does not change any bit of the sum. So if two
-/// patches share a boundary, in either direction, they have the same samples on this boundary.
+/// Both weights of a parameter t are stored. If only one weight were stored, the result would depend on the direction
+/// of the curve, because 1 - t is rounded. With [`Weights::ratio`], evaluating a curve at i/n and the reversed curve at
+/// (n - i)/n gives the same products. The products are added in the opposite order, which does not change any bit of
+/// the sum. So if two patches share a boundary, they have the same samples on this boundary, even if its direction
+/// differs between the patches.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Weights {
     /// 1 - t.
@@ -38,8 +39,8 @@ impl Weights {
 
     /// Returns 0 at the start of the curve, 1 at its end, `None` elsewhere.
     ///
-    /// At an end of the curve, the point is a control point, which is returned without arithmetic.
-    /// Arithmetic could turn -0 into 0, depending on the other control points.
+    /// At an end of the curve, the point is a control point, which is returned without arithmetic. Arithmetic could
+    /// turn a coordinate -0 into 0, depending on the other control points.
     pub(crate) fn end(self) -> Option<usize> {
         if self.t == 0.0 {
             Some(0)

@@ -12,7 +12,7 @@ use crate::folder::{
     unreadable,
 };
 
-/// Arrays with fewer bytes than this are stored in the record itself.
+/// Arrays with fewer bytes than this are stored in the record of the step instead of in a blob.
 const MIN_BLOB_LEN: usize = 1 << 14;
 
 /// A reference to a blob: the digest and the length of its content.
@@ -25,7 +25,7 @@ pub(crate) struct BlobRef {
 /// A scene whose long arrays are blobs.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
 pub(crate) struct SceneRef {
-    /// The canonical encoding without the long arrays.
+    /// The canonical encoding of the scene, without the long arrays.
     #[serde(with = "serde_bytes")]
     pub(crate) rest: Vec<u8>,
     pub(crate) arrays: Vec<BlobRef>,
@@ -168,7 +168,7 @@ fn check_content(blob: &BlobRef, found: (Hash, u64)) -> Result<(), Unusable> {
         Ok(())
     } else {
         Err(Unusable::Damaged(
-            "its content does not match its digest".to_owned(),
+            "the content of the file does not match its digest".to_owned(),
         ))
     }
 }

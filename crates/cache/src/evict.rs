@@ -8,9 +8,9 @@ use std::time::{Duration, SystemTime};
 use crate::CacheSize;
 use crate::folder::{Folder, Kind, Unusable, write_all};
 
-/// The maximum age of temporary files. Older files were left by killed processes and are removed.
+/// The maximum age of temporary files. Older temporary files were left by killed processes and are removed.
 const MAX_TEMPORARY_AGE: Duration = Duration::from_secs(3600);
-/// The maximum length of the file `sizes`, in bytes. A longer file is replaced by a single total.
+/// The maximum length of the file `sizes`, in bytes. If the file is longer, its numbers are replaced by their sum.
 const MAX_SIZES_LEN: u64 = 1 << 16;
 
 struct Entry {
@@ -20,7 +20,7 @@ struct Entry {
     used: SystemTime,
 }
 
-/// Lists the steps, blobs and recipes of the cache, without files that are being written.
+/// Lists the files of the cache that hold steps, blobs and recipes, without the files that are still being written.
 fn entries(folder: &Folder) -> io::Result<Vec<Entry>> {
     let mut entries = Vec::new();
     for kind in Kind::ALL {
@@ -101,14 +101,14 @@ fn remove(path: &Path) -> io::Result<()> {
     }
 }
 
-/// Returns the path of the file `sizes`. Each run appends the number of bytes that it stored, as 8 bytes. A run that
-/// lists all files instead replaces the content of `sizes` by the total size of these files.
+/// Returns the path of the file `sizes`. Each run appends the number of bytes that it stored, as 8 bytes. If a run
+/// lists all files, it replaces the content of `sizes` by the total size of these files instead.
 fn sizes(folder: &Folder) -> PathBuf {
     folder.root().join("sizes")
 }
 
-/// Keeps the cache below its limit, if something was stored since the last call. Errors are ignored, because the
-/// next run tries again.
+/// Keeps the cache below its limit, if something was stored since the last call. If an error occurs, it is ignored,
+/// because the next run tries again to keep the limit.
 pub(crate) fn after_run(folder: &Folder, limit: u64) {
     let added = folder.take_written();
     if added > 0 {
@@ -157,7 +157,7 @@ fn remove_old_temporaries(temporary: &Path) -> io::Result<()> {
 }
 
 /// If the files together exceed the limit, removes the least recently used files until the remaining files take at most
-/// nine tenths of the limit. Returns the number of remaining bytes.
+/// nine tenths of the limit. Returns the total size of the remaining files in bytes.
 fn evict(folder: &Folder, limit: u64) -> io::Result<u64> {
     let mut entries = entries(folder)?;
     let mut total: u64 = entries.iter().map(|e| e.len).sum();
@@ -221,7 +221,7 @@ mod tests {
         let (_temporary, folder) = filled(3);
         after_run(&folder, 10_000);
         assert_eq!(fs::read(sizes(&folder)).unwrap(), 3000_u64.to_le_bytes());
-        // No run recorded the new files, so the recorded total does not include them.
+        // The files were added without a run of the program, so the recorded total size does not include them.
         for i in 100..120 {
             let path = folder.path(Kind::Blob, &[i; 32]);
             fs::create_dir_all(path.parent().unwrap()).unwrap();

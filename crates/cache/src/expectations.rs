@@ -11,14 +11,15 @@ use recipe::RecipeExpectation;
 /// An expectation that holds for a scene.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
 pub(crate) struct MetExpectation {
-    /// The digest of the expectation as text and of its `on`.
+    /// The digest of the text of the expectation and of the objects in its field `on`.
     id: Hash,
     /// The files that the expectation compares with.
     inputs: Inputs,
 }
 
 impl MetExpectation {
-    /// Records an expectation with its file accesses. `None` if the state of a file cannot be determined.
+    /// Records an expectation, with the files that it has read or looked for. `None` if the state of a file cannot be
+    /// determined.
     pub(crate) fn new(
         placed: &RecipeExpectation,
         uses: &[FileUse],
@@ -31,7 +32,7 @@ impl MetExpectation {
     }
 }
 
-/// Whether `met` contains the expectation, and the input files of the expectation are unchanged.
+/// Whether `met` contains the expectation, with input files that have not changed since.
 pub(crate) fn is_known_to_hold(
     met: &[MetExpectation],
     placed: &RecipeExpectation,

@@ -14,7 +14,7 @@ pub(crate) type Hash = [u8; 32];
 
 /// The size of a piece, in bytes. Files larger than a piece are read and hashed piece by piece on several threads.
 const PIECE: usize = 4 << 20;
-/// A file that was marked as used less than this time ago is not marked again.
+/// If a file was last marked as used less than this time ago, it is not marked again.
 const TOUCH_INTERVAL: Duration = Duration::from_secs(3600);
 
 /// Kinds of files. Each kind has its own folder.
@@ -42,7 +42,7 @@ impl Kind {
 pub(crate) enum Unusable {
     /// The file does not exist.
     Missing,
-    /// The file was changed after it was stored, or it cannot be read. The text is the reason.
+    /// The file was changed after the cache stored it, or it cannot be read. The text is the reason.
     Damaged(String),
 }
 
@@ -87,8 +87,8 @@ impl Folder {
         self.root.join("tmp")
     }
 
-    /// Writes a file, completely or not at all, and returns whether writing succeeded. The first failure is stored
-    /// as [`problem`](Self::problem), and nothing is written after it.
+    /// Writes a file, completely or not at all, and returns whether writing succeeded. The first failure is stored as
+    /// [`problem`](Self::problem). After a failure, nothing more is written to the cache.
     pub(crate) fn write(&self, path: &Path, fill: impl Fn(&mut File) -> io::Result<u64>) -> bool {
         if self.problem.get().is_some() {
             return false;
@@ -115,8 +115,8 @@ impl Folder {
                 true
             }
             Err(error) => {
-                // The message ends with the path of the temporary file. That path does not help the user, so it is
-                // removed.
+                // The error message ends with the path of the temporary file. The path of the temporary file does not
+                // help the user, so it is removed from the message.
                 let error = error.to_string();
                 let error = error.split(" at path ").next().unwrap_or_default();
                 let root = self.root.display();
@@ -127,7 +127,7 @@ impl Folder {
         }
     }
 
-    /// Returns the path of the file with the key of this cache.
+    /// Returns the path of the file that holds the secret key of this cache.
     pub(crate) fn key_file(&self) -> PathBuf {
         self.root.join("key")
     }
@@ -152,8 +152,8 @@ impl Folder {
             return Some(key);
         }
         self.write(&self.key_file(), |file| write_all(file, &[&random()]));
-        // The key is read again: another process may have created a key at the same time, and the key that was written
-        // last is valid.
+        // Another process may have created a key at the same time. The key that was written last is valid, so the key
+        // is read again.
         self.key().ok()
     }
 
@@ -170,13 +170,14 @@ impl Folder {
         Ok(bytes)
     }
 
-    /// Removes a file. Errors are ignored, because a damaged file that remains is detected again by its digest.
+    /// Removes a file. Errors are ignored: if a damaged file cannot be removed, its digest shows the damage again the
+    /// next time.
     pub(crate) fn discard(path: &Path) {
         let _ = fs::remove_file(path);
     }
 
-    /// Marks a file as used and returns true. Returns false and does nothing if the file cannot be opened, or was
-    /// already marked within [`TOUCH_INTERVAL`].
+    /// Marks a file as used and returns true. If the file cannot be opened, or was last marked as used less than
+    /// [`TOUCH_INTERVAL`] ago, returns false and does nothing.
     pub(crate) fn touch(path: &Path) -> bool {
         let now = SystemTime::now();
         let Ok(file) = File::open(path) else {
@@ -192,8 +193,8 @@ impl Folder {
     }
 }
 
-/// Opens a file of the cache. Returns the file and its length. The cache creates no links, so a link counts as
-/// damage.
+/// Opens a file of the cache. Returns the file and its length. The cache never creates links, so a link in place of a
+/// file counts as a damaged file.
 pub(crate) fn open_cache_file(path: &Path) -> Result<(File, u64), Unusable> {
     let meta = fs::symlink_metadata(path).map_err(unreadable)?;
     if meta.is_symlink() {
@@ -220,8 +221,8 @@ pub(crate) fn unreadable(error: io::Error) -> Unusable {
     }
 }
 
-/// Returns random bytes. The bytes come from the hash keys of the standard library. The operating system
-/// generates these keys.
+/// Returns random bytes. The random bytes are derived from the random keys that the standard library uses for hash
+/// maps. The operating system generates these keys.
 fn random() -> Hash {
     let mut hasher = blake3::Hasher::new();
     for i in 0..4 {
@@ -245,7 +246,8 @@ fn update(hasher: &mut blake3::Hasher, bytes: &[u8]) {
     }
 }
 
-/// Fills `into` from a file and returns the digest of the bytes. While one piece is hashed, the next one is read.
+/// Fills `into` from a file and returns the digest of the bytes. While one piece of the file is hashed, the next piece
+/// is read.
 pub(crate) fn read_hashed(file: &mut (impl Read + Send), into: &mut [u8]) -> io::Result<Hash> {
     let mut hasher = blake3::Hasher::new();
     let mut last: &[u8] = &[];
@@ -262,8 +264,8 @@ pub(crate) fn read_hashed(file: &mut (impl Read + Send), into: &mut [u8]) -> io:
     Ok(*hasher.finalize().as_bytes())
 }
 
-/// Reads a file to its end, passes its content to `sink`, and returns its digest and length. While one piece is hashed
-/// and written, the next one is read.
+/// Reads a file to its end, passes its content to `sink`, and returns its digest and length. While one piece of the
+/// file is hashed and written, the next piece is read.
 pub(crate) fn copy_hashed(
     from: &mut (impl Read + Send),
     mut sink: impl FnMut(&[u8]) -> io::Result<()> + Send,
@@ -302,12 +304,12 @@ fn read_piece(from: &mut impl Read, piece: &mut Vec<u8>) -> io::Result<()> {
     from.take(PIECE as u64).read_to_end(piece).map(|_| ())
 }
 
-/// Returns the digest and the length of the rest of a file.
+/// Reads a file from its current position to its end, and returns the digest and the length of this part.
 pub(crate) fn hash_rest(file: &mut File) -> io::Result<(Hash, u64)> {
     copy_hashed(file, |_| Ok(()))
 }
 
-/// Writes the pieces and returns the number of bytes.
+/// Writes the pieces, one after the other, and returns the number of written bytes.
 pub(crate) fn write_all(file: &mut File, pieces: &[&[u8]]) -> io::Result<u64> {
     let mut n = 0;
     for piece in pieces {

@@ -1,5 +1,5 @@
-//! The steps of the last run of a recipe. The cache compares them with the current steps to explain why a step runs
-//! again.
+//! The steps of the last run of a recipe. The cache compares the steps of the last run with the current steps to
+//! explain why a step runs again.
 
 use std::path::PathBuf;
 
@@ -14,8 +14,8 @@ use crate::record::{load_data, store_data};
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub(crate) struct PastStep {
     pub(crate) ingredients: Ingredients,
-    /// If the result was not stored because the state of an input file is unknown, the path of that file and the
-    /// reason.
+    /// If the result was not stored because the state of an input file is unknown: the path of that file, and why its
+    /// state is unknown.
     pub(crate) unknown_input: Option<(PathBuf, String)>,
 }
 
@@ -53,7 +53,7 @@ impl History {
         });
     }
 
-    /// Stores the steps of this run, followed by the steps of the last run that this run did not reach.
+    /// Stores the steps of this run. If the last run had more steps than this run, its further steps are kept.
     pub(crate) fn store(&mut self, folder: &Folder) {
         let Some(id) = self.id else { return };
         let n = self.this_run.len();
@@ -68,8 +68,8 @@ impl History {
         }
     }
 
-    /// Returns why the cache has no record for the key of a step. `rerun` is the number and the label of the earlier
-    /// step of this run that made later steps run again, if any.
+    /// Returns the reason why the cache has no record for the key of a step. If an earlier step of this run made later
+    /// steps run again, `rerun` is the number and the label of that earlier step.
     pub(crate) fn why(&self, now: &Ingredients, rerun: Option<(usize, String)>) -> RerunReason {
         let index = self.this_run.len();
         let is_same_step = |past: &&PastStep| {
@@ -92,7 +92,7 @@ impl History {
 }
 
 impl Ingredients {
-    /// Returns the first difference between the past step and the current step.
+    /// Returns the first difference between a step of the last run and the current step.
     fn difference(&self, now: &Self, rerun: Option<(usize, String)>) -> Option<RerunReason> {
         Some(if self.program != now.program {
             RerunReason::Program
@@ -121,7 +121,7 @@ impl Ingredients {
     }
 }
 
-/// Lists the parameters that differ, such as `levels 1 -> 2, at 0.5 -> 0.25`.
+/// Lists the parameters whose values differ, such as `levels 1 -> 2, at 0.5 -> 0.25`.
 fn parameter_changes(from: &str, to: &str) -> String {
     let (from, to) = (ron_tree::parse(from).value, ron_tree::parse(to).value);
     let name = |field: &ron_tree::Field| field.name.text.to_string();

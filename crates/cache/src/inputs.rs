@@ -14,7 +14,7 @@ use recipe::FileChange;
 /// The state of a path when a step accessed it.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
 pub(crate) enum PathState {
-    /// A regular file with this content.
+    /// A regular file whose content has this digest.
     Content(Hash),
     /// A regular file whose content does not matter.
     Exists,
@@ -32,27 +32,27 @@ pub(crate) struct FileState {
 /// The input files of a step or an expectation.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq, Eq, Serialize)]
 pub(crate) struct Inputs {
-    /// The requested paths, as written in the recipe and as resolved. The resolved path is needed because the same
-    /// written path refers to different files in different input folders.
+    /// The requested paths: each path as written in the recipe, and the path to which it was resolved. The resolved
+    /// path is needed because the same written path refers to different files in different input folders.
     requested: Vec<(String, PathBuf)>,
-    /// The files that were read or looked for.
+    /// The files that the step or the expectation read or looked for.
     pub(crate) files: Vec<FileState>,
 }
 
 impl Inputs {
-    /// Whether the requested paths still resolve to the same files.
+    /// Whether each requested path is still resolved to the same file.
     pub(crate) fn resolve_as_before(&self, files: &Files) -> bool {
         let mut requested = self.requested.iter();
         requested.all(|(path, full)| files.input.join(path) == *full)
     }
 }
 
-/// Checks files for changes. The digests of the files are kept, so most files are read only once per run.
+/// Checks files for changes. The checker keeps the digests of the files, so most files are read only once per run.
 #[derive(Debug)]
 pub(crate) struct FileChecker {
     run_start: SystemTime,
-    /// The digests of the files that were read. `None` if the path is not a regular file; an error if the file cannot
-    /// be read.
+    /// The digests of the files that were read. If a path is not a regular file, `None` takes the place of the digest.
+    /// If a file cannot be read, an error takes the place of the digest.
     known: BTreeMap<PathBuf, Result<Option<Hash>, String>>,
 }
 
@@ -73,7 +73,7 @@ impl FileChecker {
         found
     }
 
-    /// Returns the first of these files that has changed, and how it has changed.
+    /// Returns the first file of the list that has changed, and how it has changed.
     pub(crate) fn first_change(
         &mut self,
         folders: &Files,
@@ -97,7 +97,7 @@ impl FileChecker {
     ///
     /// # Errors
     ///
-    /// The path and the reason, if the state of a file cannot be determined.
+    /// If the state of a file cannot be determined, returns the path of the file and the reason.
     pub(crate) fn inputs(&mut self, uses: &[FileUse]) -> Result<Inputs, (PathBuf, &'static str)> {
         let (mut read, mut checked, mut requested) = (BTreeSet::new(), BTreeSet::new(), Vec::new());
         for file in uses {
@@ -111,7 +111,7 @@ impl FileChecker {
         if let Some((_, path)) = requested.iter().find(|(_, path)| !read.contains(path)) {
             return Err((
                 path.clone(),
-                "the operation does not report what it reads there",
+                "the operation requested this path, but did not report that it read the file",
             ));
         }
         let mut files = Vec::new();
@@ -141,7 +141,8 @@ impl FileChecker {
         Ok(Inputs { requested, files })
     }
 
-    /// Whether a file was modified after the run started. If it was, the version that the step read is unknown.
+    /// Whether a file was modified after the run started. If the file was modified after the start of the run, it is
+    /// not known which version of the file the step has read.
     fn is_new(&self, path: &Path) -> bool {
         let modified = std::fs::metadata(path).and_then(|meta| meta.modified());
         modified.is_ok_and(|at| at > self.run_start)

@@ -1,4 +1,4 @@
-//! The key of a step, the ingredients that it is computed from, and the state of a scene.
+//! The key of a step, the ingredients from which the key is computed, and the state of a scene.
 
 use op::Refusal;
 use serde::{Deserialize, Serialize};
@@ -7,8 +7,8 @@ use crate::folder::Hash;
 use crate::inputs::FileState;
 use recipe::RecipeStep;
 
-/// The version of the storage format. The names of records and histories depend on this version, so a program with
-/// another version of the format never finds them.
+/// The version of the storage format. The names of records and histories depend on this version. So a program with
+/// another version of the format never finds these files.
 const FORMAT: &str = "meshwright step cache 2";
 
 /// The data that determine the result of a step and that are known before the step runs.
@@ -59,7 +59,7 @@ impl Ingredients {
 }
 
 impl Key {
-    /// Returns the state after a step that has read these files.
+    /// Returns the state of the scene after a step that has read or looked for these files.
     pub(crate) fn after(self, read: &[FileState]) -> State {
         let files: Vec<_> = read
             .iter()
@@ -81,7 +81,7 @@ impl State {
     }
 }
 
-/// Returns the digest of serialized data. `what` is the kind of data: equal data of different kinds has different
+/// Returns the digest of serialized data. `what` is the kind of data. Equal data of different kinds has different
 /// digests.
 pub(crate) fn digest(what: &str, data: &impl Serialize) -> Hash {
     let bytes = postcard::to_stdvec(data).expect("plain data of known lengths");

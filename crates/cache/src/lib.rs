@@ -10,31 +10,34 @@
 //! ```
 //!
 //! **Keys.** The key of a step is the digest of the data that determine its result and that are known before the step
-//! runs: the program, the operation with its version and parameters, the objects in `on`, the label that seeds random
-//! choices, the expected refusal, the memory budget, and the state before the step. The state after a step is the
-//! digest of its key and of the files that it read or looked for. The files that a step reads are known only after the
-//! step has run. Before a cached result is used, the contents of these files are compared again. Modification times are
-//! not used to compare files.
+//! runs. The key depends on the program, the operation with its version and parameters, and the objects in `on`. The
+//! key also depends on the label that seeds random choices, the expected refusal, the memory budget, and the state
+//! before the step. The state after a step is the digest of its key and of the files that it read or looked for. The
+//! files that a step reads are known only after the step has run. Before a cached result is used, the contents of these
+//! files are compared again. Modification times are not used to compare files.
 //!
 //! **Integrity.** Only regular files are read, not links, and only up to a maximum length. Every blob must match the
 //! digest in its name. Every record must match its digest, which depends on the secret key of the cache. Only the user
-//! can read that key, so an edited record is rejected even if its digest was computed again. The arrays of a scene are
-//! validated. A damaged file is removed and treated as missing. Files are written under a temporary name and then
-//! renamed, so that neither concurrent nor killed processes leave incomplete files; no locks are needed. If the folder
-//! cannot be written, the problem is reported once, and the run continues without storing anything.
+//! can read the secret key. So an edited record is rejected even if its digest was computed again. The arrays of a
+//! scene are validated when they are loaded. A damaged file is removed and treated as missing. Files are written under
+//! a temporary name and then renamed. So neither concurrent nor killed processes leave incomplete files, and no locks
+//! are needed. If the folder cannot be written, the problem is reported once, and the run continues without storing
+//! anything.
 //!
 //! **What is stored.** The record of each completed step is stored, unless the state of an input file is unknown.
-//! Scenes in which a mesh has removed elements are not stored, because they cannot be restored exactly. Other scenes
-//! and output files are always stored if they have fewer than [`ALWAYS_STORED`] bytes. A larger scene is stored if the
-//! computation since the last stored scene took at least as long as storing the scene takes (at [`BYTES_PER_SECOND`]).
-//! A first run that stores its results therefore takes at most about twice as long as a run without the cache.
-//! Recomputing a scene in a later run takes no longer than storing the scene would have taken. Larger output files are
-//! stored if running the step and loading its scene takes at least as long as storing the files. Equal long arrays are
-//! stored once. A step that changes one attribute of a large mesh therefore adds only that attribute.
+//! Scenes in which a mesh has removed elements are not stored, because they cannot be restored exactly. All other
+//! scenes, and all output files, are stored if they have fewer than [`ALWAYS_STORED`] bytes. A larger scene is stored
+//! if storing it takes at most as long as the computation since the last stored scene. The time for storing is
+//! estimated from [`BYTES_PER_SECOND`]. Therefore, even a run that stores all of its results takes at most about twice
+//! as long as a run without the cache. If a scene is not stored, computing it again in a later run takes at most as
+//! long as storing it would have taken. Larger output files are stored if storing them takes at most as long as running
+//! the step and loading its scene. Equal long arrays are stored only once. Therefore, if a step changes one attribute
+//! of a large mesh, only this attribute is added to the cache.
 //!
-//! **Size.** At the end of a run that has stored something, the numbers of bytes that all runs have added are summed.
-//! If the sum exceeds the limit or is not known, all files are listed. If these files exceed the limit, the least
-//! recently used ones are removed until the remaining files take at most nine tenths of the limit.
+//! **Size.** If a run has stored something, the cache adds up at its end how many bytes all runs have stored. If this
+//! sum exceeds the size limit of the cache, or is not known, all files of the cache are listed. If the listed files
+//! exceed the size limit, the least recently used files are removed until the remaining files take at most nine tenths
+//! of the limit.
 
 mod blob;
 mod evict;
@@ -77,7 +80,8 @@ pub struct Caching<'a> {
     /// The file of the recipe, if it has one. The data from which the keys of the steps are computed is stored for this
     /// file, so that the next run can report which data has changed.
     pub recipe: Option<&'a Path>,
-    /// Whether [`Outcome::scene`](recipe::Outcome::scene) must be available even if no step needs it.
+    /// Whether the final scene, [`Outcome::scene`](recipe::Outcome::scene), must be available after the run even if no
+    /// step needs it.
     pub want_scene: bool,
 }
 
@@ -99,9 +103,10 @@ impl StepCache for Caching<'_> {
 }
 
 impl Cache {
-    /// Returns the cache in `folder`. The folder is created when something is stored. If the files exceed `limit` bytes
-    /// at the end of a run that has stored something, the least recently used files are removed. `program` identifies
-    /// the program and its version. Results of other programs are not used.
+    /// Returns the cache in `folder`. The folder is created when something is stored for the first time. If the files
+    /// exceed `limit` bytes at the end of a run that has stored something, the least recently used files are removed.
+    /// `program` identifies the program and its version. The results of another program, or of another version of the
+    /// program, are not used.
     pub fn new(folder: impl Into<PathBuf>, limit: u64, program: impl Into<String>) -> Self {
         Self {
             folder: Folder::new(folder.into()),
@@ -129,16 +134,16 @@ impl Cache {
     ///
     /// # Errors
     ///
-    /// If the folder cannot be listed.
+    /// Returns an error if the folder cannot be listed.
     pub fn size(&self) -> io::Result<CacheSize> {
         evict::size(&self.folder)
     }
 
-    /// Removes everything that the cache has stored, and no other files. Returns the size of the removed files.
+    /// Removes everything that the cache has stored, and no other files. Returns the total size of the removed files.
     ///
     /// # Errors
     ///
-    /// If the folder cannot be listed or a file cannot be removed.
+    /// Returns an error if the folder cannot be listed or a file cannot be removed.
     pub fn clear(&self) -> io::Result<CacheSize> {
         evict::clear(&self.folder)
     }

@@ -17,7 +17,8 @@ use crate::key::Key;
 const MAGIC: &[u8] = b"meshwright cache\n";
 /// The maximum size of a file with records or with a history, in bytes.
 const MAX_BYTES: u64 = 1 << 26;
-/// The maximum number of records for one key. Records for the same key differ in their input files or their outputs.
+/// The maximum number of records for one key. Two records for the same key differ in their input files or in their
+/// outputs.
 const MAX_RECORDS: usize = 4;
 
 /// The record of a step.
@@ -30,7 +31,7 @@ pub(crate) struct Record {
     pub(crate) keeps_scene: bool,
     /// The scene after the step, if it is stored.
     pub(crate) scene: Option<SceneRef>,
-    /// The digest of the scene, if it was computed.
+    /// The digest of the scene, if the digest was computed.
     pub(crate) digest: Option<[u8; 16]>,
     /// The expectations that hold after the step.
     pub(crate) met_expectations: Vec<MetExpectation>,
@@ -39,9 +40,9 @@ pub(crate) struct Record {
 /// The output files of a step.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
 pub(crate) struct Outputs {
-    /// The provenance of the run. The output files can contain this provenance.
+    /// The provenance of the run. Steps can write the provenance into the output files.
     pub(crate) provenance: Option<String>,
-    /// The requested paths: as written in the recipe, and relative to the output folder.
+    /// The requested paths: each path as written in the recipe, and the same path relative to the output folder.
     pub(crate) requested: Vec<(String, PathBuf)>,
     /// The files, if they are stored.
     pub(crate) files: Option<Vec<OutputFile>>,
@@ -105,7 +106,7 @@ pub(crate) fn load_data<T: DeserializeOwned>(
             .ok_or_else(|| damaged("it is not a cache file"))?;
         // The digest includes the id, so that a file that was renamed to another id is rejected too.
         if digest != keyed_digest(&folder.key()?, id, data) {
-            return Err(damaged("its content does not match its digest"));
+            return Err(damaged("the content of the file does not match its digest"));
         }
         postcard::from_bytes(data).map_err(|_| damaged("its content cannot be decoded"))
     });

@@ -17,12 +17,12 @@ use crate::inputs::FileChecker;
 use crate::key::{Ingredients, Key, State};
 use crate::record::{OutputFile, Outputs, Record, load, store};
 
-/// What is known about the scene at one point of the run: at the start, or after a step.
+/// The data that are known about the scene at one point of the run: at the start, or after a step.
 #[derive(Default)]
 struct Position {
     /// The identity of the scene, if it is known.
     state: Option<State>,
-    /// The key and the record of the step before this position.
+    /// The key and the record of the step that leads to this position.
     step: Option<(Key, Record)>,
     /// Whether the record has changes that are not stored yet.
     is_dirty: bool,
@@ -43,8 +43,8 @@ pub(crate) struct Session<'a> {
     ingredients: Option<Ingredients>,
     /// The computing time since the last stored scene.
     unstored_time: Duration,
-    /// The last step that ran because something changed. As a consequence, later steps may also have to run. The tuple
-    /// has the number of the step (counted from 1) and its label.
+    /// The last step that ran because something changed. If a step runs again, later steps may also have to run again.
+    /// The tuple consists of the number of the step, counted from 1, and its label.
     last_changed: Option<(usize, String)>,
     notes: Vec<String>,
 }
@@ -303,9 +303,9 @@ impl<'a> Session<'a> {
         Err(first.unwrap_or(RerunReason::Gone))
     }
 
-    /// Checks that the step would give the recorded result if it ran now. If so, and if a stage is given, restores the
-    /// output files of the step into the stage. The stage is the folder that collects output files until the run
-    /// succeeds.
+    /// Checks that a step would still give its recorded result if it ran now. If the recorded result is still right and
+    /// a stage is given, restores the output files of the step into the stage. The stage is the folder that collects
+    /// output files until the run succeeds.
     fn use_record(
         &mut self,
         record: &Record,
@@ -321,7 +321,8 @@ impl<'a> Session<'a> {
         let Some(outputs) = &record.outputs else {
             return Ok(());
         };
-        // If there is no stage, the output files are not needed, and a different provenance does not matter.
+        // Without a stage, the run does not need the output files. A different provenance in the cached files then does
+        // not matter.
         if stage.is_some() && outputs.provenance != files.provenance {
             return Err(RerunReason::Provenance);
         }
@@ -335,8 +336,8 @@ impl<'a> Session<'a> {
         }
         let Some(stage) = stage else { return Ok(()) };
         let written = outputs.files.as_ref().ok_or(RerunReason::NotKept)?;
-        // All files are first restored under temporary names. If one of them is damaged, the files in the stage stay
-        // unchanged.
+        // All files are first restored under temporary names. If one of the cached files is damaged, the files in the
+        // stage stay unchanged.
         let part = |i: usize| stage.join(format!(".part-{i}"));
         let mut restored = written.iter().enumerate().try_for_each(|(i, file)| {
             if !is_below(&file.path) {
@@ -355,14 +356,14 @@ impl<'a> Session<'a> {
         restored
     }
 
-    /// Stores the scene after a step, if the scene can be restored exactly and is either small or not slower to store
-    /// than to compute again.
+    /// Stores the scene after a step, if the scene can be restored exactly, and if it is small or takes at most as long
+    /// to store as to compute again.
     fn store_scene(&mut self, scene: &Scene, number: usize, label: &str) -> Option<SceneRef> {
         let bytes = estimated_bytes(scene);
         let why = if !is_dense(scene) {
             "it has removed elements"
         } else if !is_worth_storing(bytes, self.unstored_time) {
-            "it is faster to compute than to store"
+            "storing the scene would take longer than computing it again"
         } else {
             ""
         };
@@ -378,7 +379,7 @@ impl<'a> Session<'a> {
         Some(stored)
     }
 
-    /// Stores the output files of a step, if the files are either small or not slower to store than to compute again.
+    /// Stores the output files of a step, if they are small or take at most as long to store as to compute again.
     /// Returns `None` if the step has no outputs.
     fn store_outputs(&mut self, files: &Files, done: &CompletedStep) -> Option<Outputs> {
         let requested: Vec<_> = done
@@ -393,8 +394,8 @@ impl<'a> Session<'a> {
             return None;
         }
         let stored = done.stage.and_then(|stage| {
-            // If a file was written twice within the resolution of modification times, `done.written` does not contain
-            // it.
+            // `done.written` detects writes by modification time. It misses a file that was written twice within the
+            // resolution of these times, so the requested paths are added.
             let requested = requested.iter().map(|(_, path)| path);
             let requested = requested.filter(|path| stage.join(path).is_file());
             let written: BTreeSet<&PathBuf> = done.written.iter().chain(requested).collect();
@@ -449,7 +450,8 @@ fn is_worth_storing(bytes: u64, time: Duration) -> bool {
     bytes < ALWAYS_STORED || bytes as f64 / BYTES_PER_SECOND <= time.as_secs_f64()
 }
 
-/// Whether all meshes are dense: they have no removed elements. Storing and loading changes meshes that are not dense.
+/// Whether all meshes are dense: they have no removed elements. If a mesh is not dense, it changes when it is stored
+/// and loaded.
 fn is_dense(scene: &Scene) -> bool {
     let mut meshes = scene.objects().iter().filter_map(|o| o.as_mesh());
     meshes.all(|mesh| mesh.is_dense())

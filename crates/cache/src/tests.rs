@@ -256,7 +256,7 @@ fn a_change_of_any_key_ingredient_runs_a_step_again() {
         ),
         (
             with("(id: \"y\", run: Lift(by: 1))"),
-            "its id changed, and the id seeds random choices",
+            "the id of the step changed, and random choices depend on the id",
         ),
         (
             with("(id: \"x\", run: Lift(by: 1), on: [\"b\"])"),
@@ -349,7 +349,7 @@ fn a_step_that_does_not_report_what_it_reads_runs_every_time() {
     assert!(
         ran[0]
             .1
-            .starts_with("its input files cannot be determined ("),
+            .starts_with("the input files of the step cannot be determined ("),
         "{ran:?}"
     );
     place.write("n.txt", "4");

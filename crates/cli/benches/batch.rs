@@ -1,4 +1,5 @@
-//! Measures how well a batch of 200 small files uses the processors, and how much of the time is spent in runs.
+//! Measures how well a batch of 200 small files uses the processors, and which part of the time is spent in the runs of
+//! the recipe.
 //!
 //! The input files are wavy grids of 1,600 quadrilaterals (about 100 kB of OBJ). The recipe triangulates each grid,
 //! subdivides it once, computes normals and writes it as GLB. The batch runs five times with one thread, and five times
@@ -60,7 +61,8 @@ fn grid(seed: u32) -> String {
     text
 }
 
-/// Returns the wall time, the processor time, and the total time of the runs, in seconds.
+/// Returns three times in seconds: the wall time of the batch, its processor time, and the sum of the times of its
+/// runs.
 fn measured(folder: &Path, threads: usize) -> [f64; 3] {
     let out = folder.join("out");
     let _ = std::fs::remove_dir_all(&out);

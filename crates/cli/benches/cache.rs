@@ -1,4 +1,5 @@
-//! Measures the whole program with and without the step cache: loading a million triangles, two steps, and saving.
+//! Measures the whole program with and without the step cache. The recipe loads a million triangles, changes them in
+//! two steps, and saves the result.
 //!
 //! ```sh
 //! cargo bench -p meshwright-cli --bench cache

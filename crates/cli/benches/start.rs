@@ -1,4 +1,4 @@
-//! Measures the start of the program, and checking a recipe of 1,000 steps.
+//! Measures how long the program takes to start, and to check a recipe of 1,000 steps.
 //!
 //! ```sh
 //! cargo bench -p meshwright-cli --bench start

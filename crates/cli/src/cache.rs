@@ -12,7 +12,7 @@ use crate::args::{CacheArgs, CacheFolder};
 ///
 /// # Errors
 ///
-/// If no folder is given and the user's cache folder cannot be determined.
+/// Returns an error if no folder is given and the user's cache folder cannot be determined.
 pub(crate) fn open(args: &CacheArgs) -> anyhow::Result<Option<Cache>> {
     if args.no_cache {
         return Ok(None);
@@ -21,7 +21,7 @@ pub(crate) fn open(args: &CacheArgs) -> anyhow::Result<Option<Cache>> {
     Ok(Some(Cache::new(folder, args.cache_limit, program())))
 }
 
-/// Returns the folder of the cache: the given one, or `meshwright` in the user's cache folder.
+/// Returns the folder of the cache: the given folder or, if none is given, `meshwright` in the user's cache folder.
 pub(crate) fn folder(args: &CacheFolder) -> anyhow::Result<PathBuf> {
     if let Some(folder) = &args.cache {
         return Ok(folder.clone());
@@ -41,13 +41,13 @@ pub(crate) fn caching_for<'a>(cache: &'a Cache, recipe: &'a Path) -> Caching<'a>
     }
 }
 
-/// Returns the warning that the cache cannot be used.
+/// Returns the text of the warning that the cache cannot be used.
 pub(crate) fn warning(problem: &str) -> String {
     format!("warning: {problem}; continuing without the cache\n")
 }
 
-/// Returns the version of the program and the digest of its file, so that results of an earlier build are not used
-/// after an operation has changed.
+/// Returns the version of the program and the digest of its executable file, so that results of an earlier build are
+/// not used after an operation has changed.
 fn program() -> String {
     let version = env!("CARGO_PKG_VERSION");
     let file = std::env::current_exe().and_then(std::fs::read);

@@ -1,4 +1,5 @@
-//! Reports a run as events for other programs: one JSON object per line, written as the run proceeds.
+//! Reports a run to other programs as a sequence of events. Each event is one line with a JSON object. The lines are
+//! written as the run proceeds.
 //!
 //! ```text
 //! {"event":"start", "format":1, "program":"meshwright 0.1.0", "recipe":"a.ron", "recipe_digest":"..",
@@ -18,9 +19,9 @@
 //!                 "milliseconds":20.5}
 //! ```
 //!
-//! `format` is the version of the event format. New events and fields can be added without a new version; readers must
-//! ignore events and fields that they do not know. Steps are numbered from 1. `end` is always the last line, even if
-//! the recipe has errors and does not run. Fields without a value are `null`.
+//! `format` is the version of the event format. New events and fields can be added without a new version. Programs that
+//! read events must ignore the events and fields that they do not know. Steps are numbered from 1. `end` is always the
+//! last line, even if the recipe has errors and does not run. A field that has no value is `null`.
 
 use std::io::{self, Write as _};
 use std::sync::Mutex;
@@ -68,7 +69,8 @@ struct State {
 }
 
 impl<'a> Events<'a> {
-    /// Writes the start event and the problems of the recipe. `progress` decides whether the run continues.
+    /// Writes the start event, and an event for each problem of the recipe. `progress` is asked during the run whether
+    /// the run continues.
     pub(crate) fn start(loaded: &'a Loaded, progress: &'a dyn Progress) -> Self {
         let now = Instant::now();
         let events = Self {
@@ -97,11 +99,12 @@ impl<'a> Events<'a> {
         events
     }
 
-    /// Writes the problems, the written files and the end event. `outcome` is `None` if the recipe cannot run.
+    /// Writes events for the problems and for the written files, and then the end event. `outcome` is `None` if the
+    /// recipe cannot run.
     ///
     /// # Errors
     ///
-    /// The first error while writing an event.
+    /// Returns the first error that occurred while an event was written.
     pub(crate) fn end(self, outcome: Option<&Outcome>, pictures: &Pictures) -> io::Result<()> {
         self.problems(outcome.map_or(&[], |o| &o.failures));
         pictures.warn();

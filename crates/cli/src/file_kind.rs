@@ -1,5 +1,5 @@
-//! Checks that a file is of the kind that a command expects. The error for a file of another kind names the commands
-//! that accept the file.
+//! Checks that a file is of the kind that a command expects. If the file is of another kind, the error names the
+//! commands that accept the file.
 
 use std::path::Path;
 
@@ -18,17 +18,19 @@ pub(crate) enum FileKind {
     Mesh,
 }
 
-/// The maximum size of a file that is read to find out whether it is a sweep, in bytes. Sweeps are short.
+/// The maximum size of a sweep, in bytes. A larger file is assumed to be a recipe, and is not read here. Sweeps are
+/// short.
 const MAX_SWEEP: u64 = 1 << 20;
 
 /// Checks the kind of a file by its extension. Recipes and sweeps share an extension, so they are distinguished by
-/// their contents. If a recipe or a sweep is expected, a file with an unknown extension must begin like a recipe.
-/// Missing files, and other files of an unknown kind, are accepted here, because the command itself reports them.
+/// their contents. If a recipe or a sweep is expected, a file with an unknown extension must begin like a recipe. If a
+/// file is missing, or its kind is unknown for another reason, it is accepted here, because the command itself reports
+/// the error.
 ///
 /// # Errors
 ///
-/// [`WrongUsage`] if the path is a folder, or the file is not of the expected kind. If the kind of the file is known,
-/// the message names the commands for the file.
+/// Returns [`WrongUsage`] if the path is a folder, or if the file is not of the expected kind. If the kind of the file
+/// is known, the error message names the commands that accept the file.
 pub(crate) fn expect_kind(path: &Path, expected: FileKind) -> anyhow::Result<()> {
     let shown = path.display();
     if path.is_dir() {
@@ -53,7 +55,7 @@ pub(crate) fn expect_kind(path: &Path, expected: FileKind) -> anyhow::Result<()>
 }
 
 /// Whether a file can be a recipe or a sweep. Returns `true` if the name of the file ends in `.ron`, or if the file is
-/// empty or begins with a parenthesis, a comment or an attribute. Also returns `true` if the file cannot be read.
+/// empty or begins with a parenthesis, a comment or an attribute. If the file cannot be read, also returns `true`.
 fn can_be_ron(path: &Path) -> bool {
     const MAX_START: u64 = 4096;
     if path.extension().is_some_and(|ending| ending == "ron") {
@@ -71,7 +73,7 @@ fn can_be_ron(path: &Path) -> bool {
 }
 
 impl FileKind {
-    /// Returns the kind of an existing file, if it is known.
+    /// Returns the kind of an existing file, or `None` if the kind cannot be determined.
     fn of(path: &Path) -> Option<Self> {
         let size = path
             .metadata()
@@ -103,13 +105,13 @@ impl FileKind {
         }
     }
 
-    /// Returns the commands for a file of this kind.
+    /// Returns the part of an error message that names the commands for a file of this kind.
     fn help(self, name: &str) -> String {
         match self {
             Self::Recipe => format!("use `meshwright run {name}` or `meshwright check {name}`"),
             Self::Sweep => format!("use `meshwright sweep {name}`"),
             Self::Mesh => format!(
-                "use `meshwright info {name}`, `meshwright picture {name}` or `meshwright convert {name} OUTPUT`, or `meshwright new {name}` for a recipe that loads it"
+                "use `meshwright info {name}`, `meshwright picture {name}` or `meshwright convert {name} OUTPUT`; to write a recipe that loads the file, use `meshwright new {name}`"
             ),
         }
     }

@@ -1,11 +1,12 @@
-//! Writes results as JUnit XML, which CI servers read: a report with one suite, and a test case for each recipe or
-//! file.
+//! Writes results as JUnit XML, a format that CI servers read. The report has one test suite, with a test case for each
+//! recipe or input file.
 
 use std::path::Path;
 
 /// A recipe or an input file, with its result.
 pub(crate) struct Case<'a> {
-    /// The path. The path is the name of the case, and the folder of the path is the class of the case.
+    /// The path. In the report, the name of the test case is the path. The class of the test case is the folder of the
+    /// path.
     pub(crate) path: &'a Path,
     /// In seconds.
     pub(crate) time: f64,
@@ -15,12 +16,12 @@ pub(crate) struct Case<'a> {
 /// The result of a case.
 pub(crate) enum CaseEnd {
     Passed,
-    /// The case was not run, for this reason.
+    /// The test case was not run. The text is the reason.
     Skipped(&'static str),
     Failed {
         /// One line.
         message: String,
-        /// The same text as on a terminal.
+        /// The text of the error, as it is printed on a terminal.
         text: String,
     },
 }

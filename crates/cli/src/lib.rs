@@ -1,6 +1,6 @@
 //! The program: command line, output and exit codes, for any registry of operations.
 //!
-//! A program with additional operations needs only the function [`run`]:
+//! To write a program that has additional operations, only the function [`run`] is needed:
 //!
 //! ```no_run
 //! fn main() -> std::process::ExitCode {
@@ -9,8 +9,8 @@
 //! }
 //! ```
 //!
-//! Exit codes: 0 success, 1 failure, 2 wrong usage, 130 interrupted by Ctrl-C (0 for `watch`). If `diff` cannot compare
-//! the files because of an error, its exit code is also 2.
+//! Exit codes: 0 success, 1 failure, 2 wrong usage, 130 interrupted by Ctrl-C (0 for `watch`). The exit code of `diff`
+//! is also 2 if it cannot compare the files because of an error.
 
 mod args;
 mod cache;
@@ -53,22 +53,22 @@ pub fn run(registry: Registry) -> ExitCode {
     ExitCode::from(run_with(&registry, &arguments))
 }
 
-/// Returns the recipes that `meshwright test` runs for these recipes and folders of recipes, including the recipes that
-/// cannot be read. Recipes without expectations are left out. Recipes that were found in a folder are also left out if
-/// other recipes of the list call them.
+/// Returns the recipes that `meshwright test` runs if it is given these paths of recipes and folders. The result
+/// includes recipes that cannot be read. Recipes without expectations are left out. A recipe that was found in a folder
+/// is also left out if another recipe of the list calls it.
 ///
 /// # Errors
 ///
-/// If a path does not exist, or a folder cannot be listed.
+/// Returns an error if a path does not exist, or if a folder cannot be listed.
 pub fn tested_recipes(registry: &Registry, paths: &[PathBuf]) -> Result<Vec<PathBuf>, String> {
     commands::test::tested(paths, &Engine::new(registry)).map_err(|error| format!("{error:#}"))
 }
 
-/// Returns the input files that `meshwright batch` processes for these paths and patterns.
+/// Returns the input files that `meshwright batch` processes if it is given these paths and patterns.
 ///
 /// # Errors
 ///
-/// If a pattern is invalid or no file matches it.
+/// Returns an error if a pattern is invalid, or if no file matches a pattern.
 pub fn batch_inputs(patterns: &[String]) -> Result<Vec<String>, String> {
     let inputs = commands::batch::inputs::list(patterns).map_err(|error| format!("{error:#}"))?;
     Ok(inputs.into_iter().map(|input| input.path).collect())
@@ -151,7 +151,7 @@ fn failure(code: u8) -> u8 {
     if is_interrupted() { 130 } else { code }
 }
 
-/// Whether the reason for the error is that a computation was cancelled.
+/// Whether the error occurred because a computation was canceled.
 fn is_cancelled(error: &anyhow::Error) -> bool {
     error.chain().any(|cause| {
         matches!(cause.downcast_ref(), Some(op::OpError::Cancelled))
@@ -160,7 +160,7 @@ fn is_cancelled(error: &anyhow::Error) -> bool {
     })
 }
 
-/// Whether the error is a broken pipe: the reader of the output, such as `head`, has closed it.
+/// Whether the error is a broken pipe: the program that reads the output, such as `head`, has closed the pipe.
 fn is_broken_pipe(error: &anyhow::Error) -> bool {
     error
         .chain()

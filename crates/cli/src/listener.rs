@@ -8,11 +8,12 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use op::Progress;
 use recipe::{Listener, StepDone};
 
-/// The flag that Ctrl-C sets. Every long loop checks the flag. Runs that show no progress, such as simultaneous runs,
-/// use the flag as their listener.
+/// The flag that Ctrl-C sets. Every loop that can run for a long time checks this flag. If a run shows no progress, as
+/// when several runs are made at the same time, the flag is the listener of the run.
 pub(crate) static INTERRUPT: Cancel = Cancel::new();
 
-/// Makes the first Ctrl-C cancel the run cleanly and the second end the program immediately.
+/// Installs the handler of Ctrl-C: the first Ctrl-C cancels the run cleanly, and the second Ctrl-C ends the program
+/// immediately.
 pub(crate) fn catch_interrupts() {
     // If installing the handler fails, Ctrl-C still ends the program.
     let _ = ctrlc::set_handler(|| {
@@ -27,7 +28,8 @@ pub(crate) fn is_interrupted() -> bool {
     INTERRUPT.is_set()
 }
 
-/// Locks a mutex and ignores poisoning, because a panic cannot leave the protected values half-changed.
+/// Locks a mutex, even if another thread has panicked while it held the lock. A panic cannot leave the protected values
+/// half-changed.
 pub(crate) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
@@ -35,7 +37,7 @@ pub(crate) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 /// Shows the progress of the current step. If standard error is not a terminal, shows nothing.
 pub(crate) struct Terminal<'a> {
     bar: ProgressBar,
-    /// The number and the label of the step, if a recipe is run.
+    /// The number and the label of the current step, if a recipe is run.
     step: Mutex<String>,
     go_on: &'a (dyn Fn() -> bool + Sync),
 }

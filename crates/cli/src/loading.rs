@@ -31,7 +31,7 @@ pub(crate) struct Checking {
 }
 
 impl Checking {
-    /// Creates a value with this budget. Losses are not errors.
+    /// Returns settings with this memory budget. Losses are not errors.
     pub(crate) fn for_budget(budget: u64) -> Self {
         let strict = false;
         Self { budget, strict }
@@ -55,7 +55,8 @@ pub(crate) fn load_recipe(
     load_text(&source, values, out, checking, engine)
 }
 
-/// Checks a recipe whose text has been read. Paths in parameter values are relative to the working directory.
+/// Checks a recipe whose text has already been read. If the value of a parameter is a path, it is relative to the
+/// working directory.
 pub(crate) fn load_text(
     source: &Source,
     values: &ValueArgs,
@@ -83,15 +84,16 @@ pub(crate) fn load_text(
 pub(crate) struct RecipeFile {
     /// The path of the recipe.
     pub(crate) path: PathBuf,
-    /// The name of the recipe's output folder: the path relative to the searched folder, or the name of a given file,
-    /// without extension.
+    /// The name of the recipe's output folder. For a recipe that was found in a folder, this is its path relative to
+    /// the searched folder, without extension. For a recipe whose path was given, this is its file name without
+    /// extension.
     pub(crate) own_folder: PathBuf,
-    /// Whether the recipe itself was given, and not a folder that contains it.
+    /// Whether the user gave the path of the recipe itself, instead of a folder that contains it.
     pub(crate) is_named: bool,
 }
 
-/// Lists recipes: given files in the given order, and the recipes in given folders, searched recursively and sorted by
-/// name. Each path is listed once.
+/// Lists recipes. The arguments are handled in their given order. A folder is searched recursively, and its recipes are
+/// sorted by name. Each path is listed once.
 ///
 /// Skips hidden files and folders, folders named `assets`, links to folders, and sweeps (`*.sweep.ron`).
 pub(crate) fn recipes(paths: &[PathBuf]) -> anyhow::Result<Vec<RecipeFile>> {

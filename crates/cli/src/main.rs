@@ -11,11 +11,11 @@ fn main() -> ExitCode {
     cli::run(ops_all::registry())
 }
 
-/// If `RUST_BACKTRACE` requests backtraces, sets a panic hook that prints them, and keeps the standard library from
-/// printing them.
+/// If `RUST_BACKTRACE` requests backtraces, sets a panic hook that prints backtraces. The standard library then prints
+/// none itself.
 ///
-/// The standard library would also print a backtrace when memory runs out. Printing takes a lock and needs memory, so a
-/// second failed allocation would wait for this lock forever.
+/// The standard library would print a backtrace even when memory runs out. To print a backtrace, the standard library
+/// takes a lock and allocates memory. If this allocation also failed, the program would wait for the lock forever.
 fn print_backtraces_in_a_hook() {
     const VARIABLE: &str = "RUST_BACKTRACE";
 

@@ -4,12 +4,12 @@ use recipe::{Diagnostic, InOrder, JobEnd, JobLimits, Jobs, Severity};
 
 use crate::listener::is_interrupted;
 
-/// The number of runs that are checked together before the first of them starts. The loaded recipe of each checked run
-/// stays in memory.
+/// The number of runs that are checked together before the first of them starts. After a run is checked, its loaded
+/// recipe stays in memory.
 pub(crate) const CHECKED_AHEAD: usize = 1000;
 
-/// The result of a job. The error is the message of a failure or panic, or `None` if the job was not started or was
-/// canceled.
+/// The result of a job. If the job failed or panicked, the error is the message. If the job was canceled or not
+/// started, the error is `None`.
 pub(crate) type JobResult<T> = Result<T, Option<String>>;
 
 /// Runs jobs, several at the same time, and passes their results to `each` in the order of the jobs.
@@ -61,12 +61,12 @@ pub(crate) fn job_result<T>(end: JobEnd<T>) -> JobResult<T> {
     }
 }
 
-/// Returns the message for a job without a result.
+/// Returns the message about a job that ended without a result.
 pub(crate) fn error_message(message: Option<String>) -> String {
     message.unwrap_or_else(|| "interrupted".to_owned())
 }
 
-/// Returns the message of the first error, and the number of further errors.
+/// Returns a text with the message of the first error and the number of further errors.
 pub(crate) fn first_error(diagnostics: &[Diagnostic]) -> String {
     let errors = diagnostics.iter().filter(|d| d.severity == Severity::Error);
     let first = errors.clone().next();
@@ -77,7 +77,7 @@ pub(crate) fn first_error(diagnostics: &[Diagnostic]) -> String {
     }
 }
 
-/// Returns the messages of the errors, joined by `; `, at most 20 of them.
+/// Returns the messages of at most 20 errors, joined by `; `.
 pub(crate) fn all_errors(diagnostics: &[Diagnostic]) -> String {
     const MAX: usize = 20;
     let errors = diagnostics.iter().filter(|d| d.severity == Severity::Error);

@@ -13,10 +13,10 @@ pub(crate) use op::readable as number;
 use serde::Serialize;
 use store::{Disk, NewFile, Store, StoreError, folder_of};
 
-/// The program and its version, as written to files.
+/// The name and the version of the program, as they are recorded in output files.
 pub(crate) const STAMP: &str = concat!("meshwright ", env!("CARGO_PKG_VERSION"));
 
-/// Writes to standard output. The caller decides whether a broken pipe is an error.
+/// Writes to standard output. A broken pipe is returned as an error. The caller decides how to handle a broken pipe.
 pub(crate) fn print(text: &str) -> io::Result<()> {
     io::stdout().write_all(text.as_bytes())
 }
@@ -26,7 +26,7 @@ pub(crate) fn print_json(report: &impl Serialize) -> anyhow::Result<()> {
     Ok(print(&(serde_json::to_string_pretty(report)? + "\n"))?)
 }
 
-/// Writes to standard error. Write errors are ignored, since they could not be reported.
+/// Writes to standard error. An error while writing is ignored, because it could not be reported.
 pub(crate) fn print_error(text: &str) {
     let _ = io::stderr().write_all(text.as_bytes());
 }
@@ -36,7 +36,7 @@ pub(crate) fn print_diagnostics(loaded: &Loaded, diagnostics: &[recipe::Diagnost
     print_diagnostics_in(&loaded.recipe.sources, diagnostics);
 }
 
-/// Like [`print_diagnostics`], for diagnostics in any sources.
+/// Like [`print_diagnostics`], but the source texts are given as an argument.
 pub(crate) fn print_diagnostics_in(sources: &[Source], diagnostics: &[recipe::Diagnostic]) {
     const MAX_SHOWN: usize = 200;
     if !diagnostics.is_empty() {
@@ -49,13 +49,14 @@ pub(crate) fn print_diagnostics_in(sources: &[Source], diagnostics: &[recipe::Di
     }
 }
 
-/// Whether to write colors: to a terminal, unless `NO_COLOR` is set or the terminal is `dumb`.
+/// Whether the output has colors. Output to a terminal has colors, unless `NO_COLOR` is set or the terminal is `dumb`.
 fn has_colors(is_terminal: bool) -> bool {
     let variable = |name| std::env::var_os(name).unwrap_or_default();
     is_terminal && variable("NO_COLOR").is_empty() && variable("TERM") != "dumb"
 }
 
-/// Returns a table of the steps, with the element counts after each step, its time, and what it did.
+/// Returns a table with a row for each step: the element counts after the step, the time of the step, and a summary of
+/// its work.
 pub(crate) fn step_table(recipe: &Recipe, outcome: &Outcome) -> String {
     let mut rows = vec![header_row([
         "step", "vertices", "edges", "faces", "time", "",
@@ -75,8 +76,8 @@ pub(crate) fn step_table(recipe: &Recipe, outcome: &Outcome) -> String {
     text_table(&rows)
 }
 
-/// Returns the file that a step reads or writes, the number of elements that it changed, and the number of refused
-/// edits.
+/// Returns the summary of a step: the file that it reads or writes, the number of elements that it changed, and the
+/// number of refused edits.
 fn summary(step: &RecipeStep, done: &StepDone) -> String {
     let mut parts = Vec::new();
     let parameters = match &step.value.kind {
@@ -104,7 +105,7 @@ fn summary(step: &RecipeStep, done: &StepDone) -> String {
     parts.join(", ")
 }
 
-/// Returns what the steps report, one item per line: refused edits, losses and notes.
+/// Returns the refused edits, the losses and the notes that the steps report, each on its own line.
 pub(crate) fn step_notes(steps: &[StepDone]) -> String {
     let mut text = String::new();
     for step in steps {
@@ -131,18 +132,18 @@ pub(crate) fn header_row<const N: usize>(titles: [&str; N]) -> Vec<String> {
     titles.map(str::to_owned).to_vec()
 }
 
-/// Aligns rows in columns: the first column to the left, all others to the right. On a terminal, a table that is too
-/// wide is shortened.
+/// Aligns rows in columns. The first column is aligned to the left, and all other columns are aligned to the right. If
+/// the output is a terminal and the table is wider than the terminal, cells are shortened.
 pub(crate) fn table(rows: &[Vec<String>]) -> String {
     table_within(rows, terminal_width(), false)
 }
 
-/// Like [`table`], with the last column aligned to the left.
+/// Like [`table`], but the last column is also aligned to the left.
 fn text_table(rows: &[Vec<String>]) -> String {
     table_within(rows, terminal_width(), true)
 }
 
-/// Returns the number of columns of the terminal, if standard output is one.
+/// If standard output is a terminal, returns the width of the terminal in characters.
 fn terminal_width() -> Option<usize> {
     let is_terminal = io::stdout().is_terminal();
     let size = is_terminal.then(|| console::Term::stdout().size_checked())?;
@@ -150,11 +151,11 @@ fn terminal_width() -> Option<usize> {
         .filter(|&columns| columns > 0)
 }
 
-/// Aligns rows in columns. If the table is wider than `limit`, the titles are shortened first, then the last column
-/// if it contains text, and then the first column. Numbers are never shortened: if they do not fit, each row continues
-/// on further lines, which are indented.
+/// Aligns rows in columns. If the table is wider than `limit`, its titles are shortened first. If this is not enough,
+/// the last column is shortened, if it contains text, and then the first column. Numbers are never shortened. If they
+/// do not fit, each row of the table continues on further lines, which are indented.
 fn table_within(rows: &[Vec<String>], limit: Option<usize>, last_is_text: bool) -> String {
-    /// Names are not shortened below this number of characters.
+    /// A name is not shortened to fewer characters than this.
     const MIN: usize = 8;
     const INDENT: usize = 4;
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
@@ -210,7 +211,7 @@ fn table_within(rows: &[Vec<String>], limit: Option<usize>, last_is_text: bool) 
     text
 }
 
-/// Shortens a string to at most `most` characters; an ellipsis replaces the rest.
+/// Shortens a string to at most `most` characters. If characters are removed, the last character is an ellipsis.
 fn shortened(text: &str, most: usize) -> Cow<'_, str> {
     if text.chars().count() <= most {
         return Cow::Borrowed(text);
@@ -219,7 +220,7 @@ fn shortened(text: &str, most: usize) -> Cow<'_, str> {
     Cow::Owned(start + "…")
 }
 
-/// Formats a point for people, such as `[0.5, 1, 2.33333]`.
+/// Formats the coordinates of a point with six significant digits, such as `[0.5, 1, 2.33333]`.
 pub(crate) fn point(p: DVec3) -> String {
     format!("[{}, {}, {}]", number(p.x), number(p.y), number(p.z))
 }
@@ -237,8 +238,8 @@ pub(crate) fn group_digits(n: u64) -> String {
     text
 }
 
-/// Returns a table with the origin of each parameter value, for the recipe and the recipes it calls, and the notes of
-/// the steps.
+/// Returns a table with the origin of each parameter value, for the recipe and the recipes that it calls. The notes of
+/// the steps follow the table.
 pub(crate) fn explain(recipe: &Recipe) -> String {
     let mut rows = vec![header_row(["parameter", "value", "from"])];
     for scope in &recipe.scopes {
@@ -267,7 +268,7 @@ fn explain_notes(recipe: &Recipe) -> String {
     if text.is_empty() { text } else { text + "\n" }
 }
 
-/// Lists each step, with the reason why it ran or the note that it was cached, and then the notes of the cache.
+/// Lists each step, and says either why it ran or that its result was cached. The notes of the cache follow the list.
 pub(crate) fn explain_steps(outcome: &Outcome) -> String {
     let mut text = String::new();
     for (i, step) in outcome.steps.iter().enumerate() {
@@ -283,7 +284,7 @@ pub(crate) fn explain_steps(outcome: &Outcome) -> String {
     text
 }
 
-/// Describes the origin of a parameter value.
+/// Returns a text that says where the value of a parameter comes from.
 pub(crate) fn origin(origin: &Origin) -> String {
     match origin {
         Origin::Default => "the recipe's default".to_owned(),
@@ -315,12 +316,13 @@ pub(crate) fn shell_quoted(text: &str) -> Cow<'_, str> {
     }
 }
 
-/// Writes a file completely or not at all. Creates missing parent folders.
+/// Writes a file either completely or not at all. Creates missing parent folders.
 pub(crate) fn write_atomically(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
     Ok(write_temporary(path, bytes)?.commit()?)
 }
 
-/// Writes a temporary file beside `path`; committing the file moves it to `path`. Creates missing parent folders.
+/// Writes a temporary file in the folder of `path`. When the caller commits the returned file, it is moved to `path`.
+/// Creates missing parent folders.
 pub(crate) fn write_temporary(path: &Path, bytes: &[u8]) -> Result<Box<dyn NewFile>, StoreError> {
     let write = || -> io::Result<Box<dyn NewFile>> {
         Disk.make_folder(folder_of(path))?;

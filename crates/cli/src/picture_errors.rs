@@ -15,13 +15,13 @@ use crate::listener::{INTERRUPT, lock};
 use crate::output::{STAMP, escape_control, print_error, write_atomically};
 
 impl PictureErrorsArgs {
-    /// Creates a value that draws the failures of a file, if pictures are requested. `budget` is the memory budget of
-    /// each picture, in bytes.
+    /// Returns the object that draws the failures of a file, if pictures of failures are requested. `budget` is the
+    /// memory budget of each picture, in bytes.
     pub(crate) fn of(&self, file: &Path, budget: u64) -> Pictures {
         self.named(Path::new(store::stem(file)), budget)
     }
 
-    /// Like [`of`](Self::of), for a name that can contain folders.
+    /// Like [`of`](Self::of), but the name of the pictures can contain folders.
     pub(crate) fn named(&self, name: &Path, budget: u64) -> Pictures {
         let base = self.picture_errors.as_deref().map(|folder| {
             if folder == Path::new(".") {
@@ -41,13 +41,14 @@ impl PictureErrorsArgs {
 /// Maximum number of pictures of a run.
 const MAX_PICTURES: usize = 20;
 
-/// The maximum size of an expected image that is drawn beside the actual one, in bytes.
+/// The maximum size, in bytes, of the file of an expected image. A larger file is not drawn beside the actual image.
 const MAX_FILE_SIZE: u64 = 64 << 20;
 
-/// Draws the failures of a run, if requested, and keeps the list of pictures.
+/// Draws the failures of a run, if this is requested, and keeps a list of the pictures.
 #[derive(Default)]
 pub(crate) struct Pictures {
-    /// The paths of all pictures without their endings, such as `-error-1.png`; `None` if nothing is drawn.
+    /// The first part of the paths of all pictures, to which endings such as `-error-1.png` are appended. If `None`, no
+    /// pictures are drawn.
     base: Option<PathBuf>,
     /// The memory budget of each picture, in bytes.
     budget: u64,
@@ -56,17 +57,17 @@ pub(crate) struct Pictures {
 
 #[derive(Default)]
 struct Drawn {
-    /// The files, each with its caption.
+    /// The paths of the written pictures, each with its caption.
     files: Vec<(PathBuf, String)>,
-    /// Errors while drawing or writing.
+    /// The errors that occurred while pictures were drawn or written.
     problems: Vec<String>,
     /// The number of failures beyond [`MAX_PICTURES`]. These failures are not drawn.
     further: usize,
 }
 
 impl Pictures {
-    /// Draws a scene with the locations of a failure, unless the maximum number of pictures is reached. Errors are kept
-    /// for [`warn`](Self::warn).
+    /// Draws a scene with the locations of a failure, unless the maximum number of pictures is reached. If an error
+    /// occurs, it is kept, and [`warn`](Self::warn) prints it later.
     pub(crate) fn draw(&self, scene: &Scene, places: &[ErrorLocation], caption: &str) {
         let (budget, progress) = (self.budget, &INTERRUPT);
         self.add(caption, || {
@@ -85,7 +86,7 @@ impl Pictures {
         }
     }
 
-    /// Draws and writes an image, unless `draw` returns `None`.
+    /// Calls `draw`, and writes the image that it returns, if any.
     fn add(&self, caption: &str, draw: impl FnOnce() -> anyhow::Result<Option<Image>>) {
         let Some(base) = &self.base else { return };
         let mut drawn = lock(&self.drawn);
@@ -140,8 +141,8 @@ impl Pictures {
         }
     }
 
-    /// Draws the expected image, the actual image and their difference side by side. Returns `None` if a file is not a
-    /// PNG image, or the expected one is missing or too large.
+    /// Draws the expected image, the actual image and their difference side by side. Returns `None` if one of the files
+    /// is not a PNG image, or if the expected image is missing or too large.
     fn of_difference(&self, found: &ActualValue) -> anyhow::Result<Option<Image>> {
         let ActualValue::File {
             golden,

@@ -15,15 +15,17 @@ use store::{Disk, Memory, Store as _};
 
 use crate::args::WrongUsage;
 
-/// The maximum size of a mesh file on standard input, in bytes. The actual size is not known before reading.
+/// The maximum size of a mesh file on standard input, in bytes. The limit is needed because the size of the data is not
+/// known before all of it is read.
 const MAX_INPUT: u64 = 1 << 32;
 
-/// Whether a path stands for standard input or standard output. A file with this name is `./-`.
+/// Whether a path stands for standard input or standard output. The path of a file that has the name `-` is `./-`.
 pub(crate) fn is_pipe(path: &Path) -> bool {
     path == Path::new("-")
 }
 
-/// The path of a recipe for messages and for the names of files: `stdin.ron` if it is read from standard input.
+/// Returns the path of a recipe for messages and for the names of output files. If the recipe is read from standard
+/// input, this is `stdin.ron`.
 pub(crate) fn recipe_name(path: &Path) -> &Path {
     if is_pipe(path) {
         Path::new("stdin.ron")
@@ -43,7 +45,7 @@ pub(crate) fn read_recipe() -> anyhow::Result<Source> {
     Ok(Source::from_bytes(name, bytes)?)
 }
 
-/// Fails if the path is `-`. `command` is the name of a command that accepts only files.
+/// Fails if the path is `-`. `command` is the name of the command, which accepts only files.
 pub(crate) fn refuse(path: &Path, command: &str) -> anyhow::Result<()> {
     if is_pipe(path) {
         let message = format!("`{command}` cannot use standard input or output: name a file");
@@ -52,12 +54,14 @@ pub(crate) fn refuse(path: &Path, command: &str) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The path that stands for a mesh file: the path itself, or `stdin.obj` for `- --from obj`. `pipe` is the name of
-/// the stream, and `option` the option that names its format.
+/// Returns the path that stands for a mesh file in messages, and whose extension determines its format: the path itself
+/// or, for example, `stdin.obj` for `- --from obj`. `pipe` is the name of the stream. `option` is the command-line
+/// option that sets the format of the stream.
 ///
 /// # Errors
 ///
-/// [`WrongUsage`] if the format of a stream is missing or unknown, or if a format is given although the path is a file.
+/// Returns [`WrongUsage`] if the format of a stream is missing or unknown, or if a format is given although the path is
+/// a file.
 pub(crate) fn mesh_name(
     path: &Path,
     format: Option<&str>,
@@ -84,7 +88,8 @@ pub(crate) fn mesh_name(
     Err(WrongUsage(message).into())
 }
 
-/// Reads a mesh file from standard input. `name` is the path that [`mesh_name`] returned, for messages.
+/// Reads a mesh file from standard input. `name` is the path that [`mesh_name`] returned. It determines the format and
+/// is used in messages.
 pub(crate) fn read_mesh(name: &Path, options: &ReadOptions) -> anyhow::Result<mesh_io::Loaded> {
     let bytes = read_up_to(io::stdin(), MAX_INPUT).context("cannot read standard input")?;
     mesh_io::read_bytes(&Disk, name, bytes, options).map_err(|error| anyhow::anyhow!("{error}"))
@@ -94,7 +99,7 @@ pub(crate) fn read_mesh(name: &Path, options: &ReadOptions) -> anyhow::Result<me
 ///
 /// # Errors
 ///
-/// The errors of the stream, or an error if the stream has more than `most` bytes.
+/// Returns the errors of the stream. Also returns an error if the stream has more than `most` bytes.
 fn read_up_to(stream: impl Read, most: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     stream.take(most + 1).read_to_end(&mut bytes)?;
@@ -105,12 +110,12 @@ fn read_up_to(stream: impl Read, most: u64) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Writes a scene to standard output. `name` is the path that [`mesh_name`] returned, and determines the format.
-/// Materials of OBJ files need a second file, so they are lost.
+/// Writes a scene to standard output. `name` is the path that [`mesh_name`] returned, and determines the format. If the
+/// format is OBJ, materials are lost, because they need a second file.
 ///
 /// # Errors
 ///
-/// If the scene cannot be written in this format, or needs several files.
+/// Returns an error if the scene cannot be written in this format, or would need several files.
 pub(crate) fn write_mesh(
     name: &Path,
     scene: &Scene,
@@ -139,7 +144,8 @@ pub(crate) fn write_mesh(
     let n = report.files.len();
     anyhow::ensure!(
         n == 1,
-        "the output needs {}, but standard output takes only one: write to a file, or use --to glb without --images",
+        "the output needs {}, but standard output takes only one file: \
+         write to a file, or use --to glb without --images",
         counted(n, "file")
     );
     let bytes = memory.read(name)?;
@@ -151,7 +157,7 @@ pub(crate) fn write_mesh(
     Ok(report)
 }
 
-/// Removes the materials of all objects, and returns them as losses.
+/// Removes the materials of all objects, and returns a loss for each object that had materials.
 fn remove_materials(scene: &mut Scene) -> Vec<Loss> {
     let names: Vec<String> = scene.objects().iter().map(|o| o.name.clone()).collect();
     let mut losses = Vec::new();

@@ -1,4 +1,4 @@
-//! A store that records which files are read or looked for, so that `watch` knows the files of a recipe.
+//! A store that records which files are read or looked for. So the command `watch` knows which files a recipe reads.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -9,8 +9,8 @@ use store::{Entry, NewFile, StoreError, folder_of};
 
 use crate::listener::lock;
 
-/// The disk, as a store that records the paths that are read or looked for, including paths of missing files. The
-/// recorded paths can include folders and output files.
+/// A store that accesses the disk, and records the paths that are read or looked for. Paths at which no file exists are
+/// also recorded. The recorded paths can include folders and output files.
 #[derive(Debug, Default)]
 pub(crate) struct RecordingDisk(Mutex<Recorded>);
 
@@ -18,17 +18,17 @@ pub(crate) struct RecordingDisk(Mutex<Recorded>);
 struct Recorded {
     /// The paths as given.
     given: BTreeSet<PathBuf>,
-    /// The same paths, with resolved folders.
+    /// The same paths, each with the canonical path of its folder: absolute, with all links resolved.
     real: BTreeSet<PathBuf>,
 }
 
 impl RecordingDisk {
-    /// Whether a file was read or looked for. The folder of `real` must be resolved.
+    /// Whether a file was read or looked for. The folder of `real` must be canonical.
     pub(crate) fn has_recorded(&self, real: &Path) -> bool {
         lock(&self.0).real.contains(real)
     }
 
-    /// Returns the recorded files that exist, with resolved folders.
+    /// Returns the recorded files that exist. The folders of the returned paths are canonical.
     pub(crate) fn files(&self) -> Vec<PathBuf> {
         let recorded = lock(&self.0);
         let files = recorded.real.iter().filter(|path| path.is_file());
@@ -43,8 +43,8 @@ impl RecordingDisk {
     }
 }
 
-/// Returns a path with its folder resolved, if the folder exists. A link at the path itself is not followed, since
-/// saving the file replaces the link.
+/// Returns a path with its folder made canonical, or `None` if the folder does not exist. If the path itself is a link,
+/// the link is not followed, because saving the file replaces the link.
 pub(crate) fn with_real_folder(path: &Path) -> Option<PathBuf> {
     let folder = folder_of(path).canonicalize().ok()?;
     Some(folder.join(path.file_name()?))

@@ -14,24 +14,25 @@ use crate::loading::{Checking, load_recipe};
 use crate::output::{print_diagnostics, print_error};
 use crate::pipes;
 
-/// A scene of a mesh file, or a scene at one point of a recipe.
+/// A loaded scene: the scene of a mesh file, or the scene at one point of a recipe.
 pub(crate) struct SceneAtStep {
     pub(crate) scene: Scene,
-    /// The label of the step before which the recipe stopped; empty if it did not stop before a step. The label seeds
-    /// random choices.
+    /// The label of the step before which the recipe was stopped. Empty if the recipe was not stopped before a step.
+    /// The label of the step seeds the random choices of selections.
     pub(crate) stream: String,
 }
 
-/// Whether a file is a recipe according to its extension.
+/// Whether the extension of a file is the extension of recipes.
 pub(crate) fn is_recipe(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending == "ron")
 }
 
-/// The code of notes about missing images.
+/// The code that marks a note about a missing image.
 const IMAGES: &str = "image-missing";
 
-/// Loads the scene of a mesh file, or runs a recipe up to `stop`. Checks no expectations and writes no files. Missing
-/// images are not reported here, because only pictures need images, and drawing a picture reports missing images.
+/// Loads the scene of a mesh file, or runs a recipe up to `stop`. The expectations of the recipe are not checked, and
+/// no files are written. Missing images are not reported here. Only pictures need images, and missing images are
+/// reported when a picture is drawn.
 pub(crate) fn load_scene(
     path: &Path,
     options: &ReadOptions,
@@ -67,7 +68,8 @@ pub(crate) fn read_file(path: &Path, options: &ReadOptions) -> anyhow::Result<(S
     into_scene(path, loaded)
 }
 
-/// Like [`read_file`], for standard input if `path` is `-`. `name` is the path that [`pipes::mesh_name`] returned.
+/// Like [`read_file`], but reads standard input if `path` is `-`. `name` is the path that [`pipes::mesh_name`]
+/// returned.
 pub(crate) fn read_file_or_input(
     path: &Path,
     name: &Path,

@@ -1,8 +1,8 @@
-//! Shows pictures in a terminal: as pixels, half-block characters or letters. The first of these forms that the
-//! terminal supports is used.
+//! Shows pictures in a terminal as pixels, as half-block characters or as letters. Of these three forms, the first one
+//! that the terminal supports is used.
 //!
-//! The abilities of the terminal are derived from environment variables. Querying the terminal would be more reliable,
-//! but the program would wait for terminals that do not answer, and could mistake typed keys for the answer.
+//! The abilities of the terminal are derived from environment variables. The program does not ask the terminal for its
+//! abilities. It would have to wait if the terminal does not answer, and could mistake typed keys for the answer.
 //!
 //! - Kitty, "Terminal graphics protocol": a PNG file in chunks, in base64.
 //! - iTerm2, "Inline images protocol": a PNG file, in base64.
@@ -53,7 +53,7 @@ pub(crate) fn show(image: &Image) -> io::Result<()> {
 }
 
 impl Protocol {
-    /// Chooses the best protocol for a terminal with these environment variables.
+    /// Chooses the best encoding for a terminal, given the environment variables of the program.
     pub(crate) fn of(is_terminal: bool, variable: impl Fn(&str) -> Option<String>) -> Self {
         let text = |name: &str| variable(name).unwrap_or_default();
         let is_set = |name: &str| !text(name).is_empty();
@@ -88,7 +88,7 @@ impl Protocol {
 ///
 /// # Errors
 ///
-/// [`PictureError::Encode`] if the image has no pixels.
+/// Returns [`PictureError::Encode`] if the image has no pixels.
 pub(crate) fn written(
     image: &Image,
     protocol: Protocol,
@@ -108,7 +108,7 @@ pub(crate) fn written(
     }
 }
 
-/// Encodes a PNG file in chunks of at most 4096 characters; `q=2` tells the terminal not to answer.
+/// Encodes a PNG file in chunks of at most 4096 characters. The parameter `q=2` tells the terminal not to answer.
 fn kitty(png: &[u8]) -> Vec<u8> {
     let text = BASE_64.encode(png);
     let pieces: Vec<&[u8]> = text.as_bytes().chunks(4096).collect();
@@ -164,7 +164,8 @@ fn sixel(image: &Image) -> Vec<u8> {
     (text + "\x1b\\\n").into_bytes()
 }
 
-/// Shrinks an image so that a character shows two pixels, one above the other. Each pixel is the mean of a rectangle.
+/// Shrinks an image to at most the given number of columns. Each character shows two pixels of the shrunken image, one
+/// above the other. Each pixel of the result is the mean of a rectangle of pixels.
 fn reduced(image: &Image, columns: u32) -> Image {
     let width = columns.clamp(1, MAX_WIDTH).min(image.width.max(1));
     let height =
@@ -202,8 +203,8 @@ fn reduced(image: &Image, columns: u32) -> Image {
     }
 }
 
-/// Returns the rows of characters. Each character shows two pixels, one above the other. Pixels with less than half
-/// opacity are `None`.
+/// Returns the rows of characters that show the image. Each character shows two pixels, one above the other. Pixels
+/// with less than half opacity are `None`.
 fn pairs(image: &Image) -> impl Iterator<Item = Vec<[Option<[u8; 3]>; 2]>> {
     let opaque = |[r, g, b, a]: [u8; 4]| (a >= 128).then_some([r, g, b]);
     let width = image.width as usize;
@@ -245,7 +246,8 @@ fn blocks(image: &Image, is_true_color: bool) -> Vec<u8> {
     text.into_bytes()
 }
 
-/// Returns the index of the nearest xterm color from 16 on: a cube of 6 x 6 x 6 colors, and 24 grays.
+/// Returns the index of the nearest xterm color. Only the colors from index 16 on are used: a cube of 6 x 6 x 6 colors,
+/// and 24 grays.
 fn nearest_xterm_color([r, g, b]: [u8; 3]) -> u32 {
     const STEPS: [u8; 6] = [0, 95, 135, 175, 215, 255];
     let distance = |p: [u8; 3]| -> u32 {
@@ -385,7 +387,7 @@ mod tests {
         }
     }
 
-    /// Decodes a Sixel text: the color index of each pixel, or `None` if it is not set.
+    /// Decodes a Sixel text. Returns the color index of each pixel, or `None` for a pixel that is not set.
     fn decoded_sixel(text: &str, width: usize, height: usize) -> Vec<Option<usize>> {
         let body = text
             .strip_prefix(&format!("\x1bP0;1;0q\"1;1;{width};{height}"))

@@ -26,7 +26,7 @@ pub fn control_points(object: &Object) -> Vec<DVec3> {
 pub struct ControlPoint {
     /// The name of the object.
     pub object: String,
-    /// The index in [`control_points`] of the object.
+    /// The index of the control point in the list that [`control_points`] returns for the object.
     pub index: usize,
     /// The position in scene space.
     pub point: DVec3,
@@ -36,8 +36,9 @@ pub struct ControlPoint {
 
 impl ControlPoint {
     /// Returns the position, in the space of the object, to which the control point moves when it is dragged to a
-    /// pixel. A control point of a curve stays in the plane of the curve. A control point of patches stays in the plane
-    /// through it that is parallel to the picture. `None` if the pixel shows no point of this plane.
+    /// pixel. While it is dragged, a control point of a curve stays in the plane of the curve. A control point of a
+    /// patch stays in the plane that contains the point and is parallel to the picture. Returns `None` if the pixel
+    /// shows no point of the plane in which the control point stays.
     pub fn dragged_to(&self, view: &Projection, pixel: DVec2) -> Option<DVec3> {
         let of_object = view.of_object(self.to_scene);
         let at = if self.is_of_curve {
@@ -54,8 +55,8 @@ impl ControlPoint {
     }
 }
 
-/// Returns the control point that is nearest to a pixel, within [`PICK_RADIUS`]. If several control points are
-/// equally near to the pixel, returns the one that is nearest to the camera.
+/// Returns the control point that is nearest to a pixel, within [`PICK_RADIUS`]. If several control points are equally
+/// near to the pixel, returns the control point that is nearest to the camera.
 pub fn pick_control_point(scene: &Scene, view: &Projection, pixel: DVec2) -> Option<ControlPoint> {
     let mut best: Option<([f64; 2], ControlPoint)> = None;
     for instance in scene.instances() {
@@ -83,15 +84,16 @@ pub fn pick_control_point(scene: &Scene, view: &Projection, pixel: DVec2) -> Opt
 }
 
 impl Editor {
-    /// Moves a control point of a curve or of patches of the scene at the cursor, with a step `MoveControlPoint` or
-    /// `MovePatchPoint`. `to` is in the space of the object; curves lie in the plane z = 0. If the step before the
-    /// cursor moves the same control point, the `to` of that step is changed, so that dragging gives one step. With
-    /// `is_preview`, the text stays as it is.
+    /// Moves a control point of a curve or patch in the scene at the step cursor. The text gets a step
+    /// `MoveControlPoint` or `MovePatchPoint`. The new position `to` is in the space of the object, in which curves lie
+    /// in the plane z = 0. If the step before the cursor already moves the same control point, the parameter `to` of
+    /// that step is changed instead. If the user drags the same control point several times, the text thus gets only
+    /// one step. If `is_preview` is true, the movement is only previewed, and the text does not change.
     ///
     /// # Errors
     ///
-    /// [`CommandError::NoControlPoints`] if the object is neither a curve nor patches; other errors as
-    /// [`Editor::apply`].
+    /// Returns [`CommandError::NoControlPoints`] if the object is neither a curve nor patches. All errors of
+    /// [`Editor::apply`] are also possible.
     pub fn move_control_point(
         &mut self,
         object: &str,

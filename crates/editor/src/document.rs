@@ -13,7 +13,8 @@ const MAX_HISTORY: usize = 10_000;
 /// The text of a recipe, its history, and its file.
 #[derive(Debug)]
 pub struct Document {
-    /// The path of the recipe's file. For a recipe that was never saved, the path that a save suggests.
+    /// The path of the recipe's file. For a recipe that was never saved, this is the path that is suggested when the
+    /// recipe is saved.
     path: PathBuf,
     /// Whether the recipe was read from its file or saved to it.
     has_file: bool,
@@ -23,12 +24,12 @@ pub struct Document {
     current: usize,
     /// The text of the file when it was last read or written.
     saved: Option<Arc<str>>,
-    /// The state of the file when it was last checked; `None` if the file did not exist.
+    /// The state that the file had when it was last checked. `None` if the file did not exist.
     seen: Option<Entry>,
     conflict: Option<Conflict>,
     /// Whether the file was removed by another program.
     is_removed: bool,
-    /// Increases with every change of the text.
+    /// A number that increases with every change of the text.
     version: u64,
 }
 
@@ -37,7 +38,7 @@ struct State {
     text: Arc<str>,
     /// A description of the change that led to this text, for the Undo and Redo buttons.
     label: String,
-    /// Where the step cursor was after the change.
+    /// The position of the step cursor after the change.
     cursor: usize,
 }
 
@@ -59,21 +60,21 @@ pub enum SaveError {
     Write(#[from] StoreError),
 }
 
-/// Something that happened to the file.
+/// Something that another program did to the file of the recipe.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum FileChange {
     /// The file was changed by another program, and its text is now the text of the document.
     Reloaded,
     /// The file was changed by another program while the text had unsaved changes.
     Conflict,
-    /// The file was removed. The text stays, and counts as unsaved.
+    /// The file was removed. The text of the document stays, and counts as unsaved.
     Removed,
-    /// The file was changed, but cannot be read.
+    /// The file was changed by another program, but cannot be read.
     Unreadable(String),
 }
 
 impl Document {
-    /// Creates a document that has no file yet. `path` is the path that a save suggests.
+    /// Creates a document that has no file yet. `path` is the path that is suggested when the document is saved.
     pub fn new(path: impl Into<PathBuf>, text: impl Into<Arc<str>>) -> Self {
         let text = text.into();
         let state = State {
@@ -98,7 +99,7 @@ impl Document {
     ///
     /// # Errors
     ///
-    /// [`SourceError`] if the file cannot be read, is too long, or is not UTF-8 text.
+    /// Returns [`SourceError`] if the file cannot be read, is too long, or is not UTF-8 text.
     pub fn open(store: &dyn Store, path: &Path) -> Result<Self, SourceError> {
         let seen = store.entry(path);
         let text = recipe::Source::open_in(store, path)?.text;
@@ -119,13 +120,13 @@ impl Document {
         self.version
     }
 
-    /// Returns the path of the file, or the path that a save suggests.
+    /// Returns the path of the file or, if there is no file yet, the path that is suggested when the document is saved.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Returns the path of the file, and the stamp that the file had when it was last checked, if the recipe has a
-    /// file.
+    /// If the recipe has a file, returns the path of the file, and the stamp that the file had when it was last
+    /// checked.
     pub(crate) fn seen(&self) -> Option<(PathBuf, String)> {
         self.has_file
             .then(|| (self.path.clone(), stamp_line(&self.path, self.seen)))
@@ -143,8 +144,9 @@ impl Document {
 
     /// Replaces the text. `label` says what the change does. Returns whether the text has changed.
     ///
-    /// If `merges` is set and the last change had the same label, both changes become one entry of the history. Typing
-    /// uses this, so that an undo removes more than one letter.
+    /// If `merges` is true and the last change had the same label, the new change and the last change become one entry
+    /// of the history. When the user types, changes are merged in this way, so that one undo removes more than one
+    /// letter.
     pub fn replace(&mut self, text: impl Into<Arc<str>>, label: &str, merges: bool) -> bool {
         let text = text.into();
         if *self.text() == text {
@@ -173,22 +175,22 @@ impl Document {
         true
     }
 
-    /// Remembers the step cursor of the current text.
+    /// Stores the position of the step cursor together with the current text.
     pub(crate) fn set_cursor(&mut self, cursor: usize) {
         self.history[self.current].cursor = cursor;
     }
 
-    /// Returns the step cursor that was remembered for the current text.
+    /// Returns the position of the step cursor that was stored together with the current text.
     pub(crate) fn cursor(&self) -> usize {
         self.history[self.current].cursor
     }
 
-    /// Returns the label of the change that an undo would undo; `None` if nothing can be undone.
+    /// Returns the label of the change that [`undo`](Self::undo) would undo. Returns `None` if nothing can be undone.
     pub fn undo_label(&self) -> Option<&str> {
         (self.current > 0).then(|| self.history[self.current].label.as_str())
     }
 
-    /// Returns the label of the change that a redo would redo; `None` if nothing can be redone.
+    /// Returns the label of the change that [`redo`](Self::redo) would redo. Returns `None` if nothing can be redone.
     pub fn redo_label(&self) -> Option<&str> {
         self.history
             .get(self.current + 1)
@@ -219,8 +221,8 @@ impl Document {
     ///
     /// # Errors
     ///
-    /// [`SaveError`] if the file cannot be written, or was changed by another program since it was read. In the second
-    /// case, [`conflict`](Self::conflict) has the text of the file.
+    /// Returns [`SaveError`] if the file cannot be written, or was changed by another program since it was read. If
+    /// another program has changed the file, [`conflict`](Self::conflict) then returns the text of the file.
     pub fn save(&mut self, store: &dyn Store) -> Result<(), SaveError> {
         if self.has_file && self.follow(store) == Some(FileChange::Conflict) {
             return Err(SaveError::Conflict(self.path.clone()));
@@ -228,11 +230,12 @@ impl Document {
         Ok(self.save_as(store, &self.path.clone())?)
     }
 
-    /// Saves the text to a file, which becomes the file of the document. An existing file is replaced.
+    /// Saves the text to another file. After saving, this file is the file of the document. An existing file is
+    /// replaced.
     ///
     /// # Errors
     ///
-    /// [`StoreError`] if the file cannot be written.
+    /// Returns [`StoreError`] if the file cannot be written.
     pub fn save_as(&mut self, store: &dyn Store, path: &Path) -> Result<(), StoreError> {
         store.write(path, self.text().as_bytes())?;
         path.clone_into(&mut self.path);
@@ -244,19 +247,21 @@ impl Document {
         Ok(())
     }
 
-    /// Returns the conflict with another program, if there is one.
+    /// If another program has changed the file while the text had unsaved changes, returns this conflict.
     pub fn conflict(&self) -> Option<&Conflict> {
         self.conflict.as_ref()
     }
 
-    /// Ends a conflict: the text stays as it is and counts as unsaved. The next save replaces the file.
+    /// Ends a conflict in favor of the document: the text of the document stays as it is and counts as unsaved. When
+    /// the document is saved the next time, the file is replaced.
     pub fn keep_mine(&mut self) {
         if let Some(conflict) = self.conflict.take() {
             self.saved = Some(conflict.theirs);
         }
     }
 
-    /// Ends a conflict: the text of the file becomes the text of the document. An undo brings back the previous text.
+    /// Ends a conflict in favor of the other program: the text of the file becomes the text of the document.
+    /// [`undo`](Self::undo) restores the previous text of the document.
     pub fn take_theirs(&mut self) {
         if let Some(Conflict { theirs }) = self.conflict.take() {
             self.replace(theirs.clone(), "take the changed file", false);
@@ -264,8 +269,8 @@ impl Document {
         }
     }
 
-    /// Checks whether another program has changed the file. If so, and if the document has no unsaved changes, the text
-    /// of the file becomes the text of the document.
+    /// Checks whether another program has changed the file. If the file has changed and the document has no unsaved
+    /// changes, the text of the file becomes the text of the document.
     pub fn follow(&mut self, store: &dyn Store) -> Option<FileChange> {
         if !self.has_file {
             return None;

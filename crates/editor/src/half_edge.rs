@@ -1,21 +1,21 @@
-//! Walks from half-edge to half-edge, and collects what a panel shows about a half-edge.
+//! Walks from half-edge to half-edge, and collects the data that a panel shows about a half-edge.
 
 use mesh::{Domain, EdgeId, FaceId, HalfEdgeId, Mesh, Values, VertexId};
 
-/// A step from a half-edge to another.
+/// One way to walk from a half-edge to another half-edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Walk {
     /// To the next half-edge of the same face.
     Next,
     /// To the other half of the same edge.
     Twin,
-    /// To the half-edge whose next is this one.
+    /// To the previous half-edge, whose next half-edge is this half-edge.
     Previous,
     /// To the next half-edge that leaves the same vertex, clockwise.
     AroundVertex,
 }
 
-/// Returns the half-edge that a step leads to.
+/// Returns the half-edge to which a step from the half-edge `h` leads.
 ///
 /// # Panics
 ///
@@ -29,7 +29,7 @@ pub fn walk(mesh: &Mesh, h: HalfEdgeId, step: Walk) -> HalfEdgeId {
     }
 }
 
-/// What a panel shows about a half-edge.
+/// The data that a panel shows about a half-edge.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HalfEdgeInfo {
     /// The half-edge.
@@ -38,32 +38,32 @@ pub struct HalfEdgeInfo {
     pub next: HalfEdgeId,
     /// The other half of the edge.
     pub twin: HalfEdgeId,
-    /// The half-edge whose next is this one.
+    /// The previous half-edge, whose next half-edge is this half-edge.
     pub previous: HalfEdgeId,
     /// The edge.
     pub edge: EdgeId,
-    /// The face; `None` on the boundary.
+    /// The face of the half-edge. `None` if the half-edge is on the boundary.
     pub face: Option<FaceId>,
     /// The vertex that the half-edge leaves.
     pub origin: VertexId,
     /// The vertex that the half-edge leads to.
     pub target: VertexId,
-    /// The number of edges at the origin.
+    /// The number of edges that end at the origin of the half-edge.
     pub valence: usize,
-    /// The number of corners of the face; `None` on the boundary.
+    /// The number of corners of the half-edge's face. `None` if the half-edge is on the boundary.
     pub degree: Option<usize>,
     /// The length, in scene units.
     pub length: f64,
-    /// The angle between the normals of the two faces, in degrees; `None` on the boundary.
+    /// The angle between the normals of the two faces at the edge, in degrees. `None` if the edge is on the boundary.
     pub dihedral_angle: Option<f64>,
-    /// The attributes of the origin, the corner, the edge and the face.
+    /// The attributes of the half-edge's origin, corner, edge and face.
     pub attributes: Vec<AttributeInfo>,
 }
 
 /// A value of an attribute.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AttributeInfo {
-    /// The kind of element that has the value.
+    /// The kind of the element to which the value of the attribute belongs.
     pub domain: Domain,
     /// The name of the attribute.
     pub name: String,
@@ -74,7 +74,7 @@ pub struct AttributeInfo {
 }
 
 impl HalfEdgeInfo {
-    /// Returns what a panel shows about a half-edge; `None` if the mesh does not have it.
+    /// Returns the data that a panel shows about a half-edge. Returns `None` if the mesh does not have the half-edge.
     pub fn of(mesh: &Mesh, h: HalfEdgeId) -> Option<Self> {
         if !mesh.has_edge(h.edge()) {
             return None;

@@ -1,8 +1,8 @@
-//! The journal: the unsaved text is written to a folder after every change, and is offered at the next start after a
-//! crash.
+//! The journal: a file with the unsaved text, which is written after every change. After a crash, the text is offered
+//! at the next start.
 //!
-//! Each editor has a folder of its own in the folder of journals. This folder is removed when the text is saved and
-//! when the editor is closed.
+//! Each editor has its own folder inside the folder for all journals. The folder of an editor is removed when the text
+//! is saved, and when the editor is closed.
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -19,7 +19,7 @@ const FILE: &str = "journal.ron";
 #[derive(Debug)]
 pub(crate) struct Journal {
     folder: PathBuf,
-    /// The version of the text that was written last; `None` if the journal has no text.
+    /// The version of the text that was last written to the journal. `None` if the journal has no text.
     written: Option<u64>,
 }
 
@@ -57,8 +57,9 @@ impl Journal {
         }
     }
 
-    /// Writes the text of the document if it is not saved, and removes the journal if it is. Errors while the journal
-    /// is written are ignored, because the text is still in memory.
+    /// If the document has unsaved changes, writes its text to the journal. If the document has no unsaved changes,
+    /// removes the journal. If the journal cannot be written, the error is ignored, because the text is still in
+    /// memory.
     pub(crate) fn keep(&mut self, document: &Document, store: &dyn Store) {
         if !document.is_dirty()
             || document.undo_label().is_none() && document.redo_label().is_none()
@@ -96,8 +97,8 @@ impl Journal {
     }
 }
 
-/// Returns the unsaved texts of editors that were not closed, for example because of a crash, from the folder of
-/// journals. On systems with a folder `/proc`, texts of other processes that are still running are left out.
+/// Reads the folder for journals, and returns the unsaved texts of editors that were not closed, for example because of
+/// a crash. On systems that have a folder `/proc`, the texts of editors whose processes are still running are left out.
 pub fn recoverable(store: &dyn Store, folder: &Path) -> Vec<Recovery> {
     let folders = store.list(folder).unwrap_or_default();
     folders
@@ -123,13 +124,14 @@ fn read(store: &dyn Store, folder: PathBuf) -> Option<Recovery> {
 }
 
 impl Recovery {
-    /// Removes the text from the folder of journals.
+    /// Removes the unsaved text from the folder for journals.
     pub fn discard(&self, store: &dyn Store) {
         // A journal that stays is offered again.
         let _ = store.remove_folder(&self.folder);
     }
 
-    /// Returns a document with the unsaved text. An undo brings back the text of the file.
+    /// Returns a document with the unsaved text. If the document's last change is undone, the document has the text of
+    /// its file.
     pub(crate) fn document(&self, store: &dyn Store) -> Document {
         let opened = self
             .has_file

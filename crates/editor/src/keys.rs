@@ -66,7 +66,7 @@ pub enum Action {
     New,
     /// Close the window.
     Quit,
-    /// Cancel the run, or close what is open.
+    /// Close the help, the list or the dialog that is open. If none is open, cancel the run.
     Cancel,
     /// Show the next selection that describes the picked elements.
     NextProposal,
@@ -118,7 +118,7 @@ impl Action {
         rows().map(|row| row.0)
     }
 
-    /// All actions by task: the name of the task, and its actions.
+    /// Returns all actions, grouped by task. Each group has the name of a task and its actions.
     pub fn groups() -> impl Iterator<Item = (&'static str, impl Iterator<Item = Self>)> {
         GROUPS
             .iter()
@@ -183,12 +183,12 @@ const GROUPS: &[(&str, &[Row])] = &[
             (
                 Action::Grow,
                 &["Plus"],
-                "pick the elements around the picked elements too",
+                "also pick the elements around the picked elements",
             ),
             (
                 Action::Shrink,
                 &["Minus"],
-                "remove the outermost of the picked elements",
+                "remove the outermost elements from the picked elements",
             ),
             (
                 Action::EdgeLoop,
@@ -215,7 +215,7 @@ const GROUPS: &[(&str, &[Row])] = &[
             (
                 Action::NextProposal,
                 &["A"],
-                "show the next selection that describes the picked elements",
+                "show another recipe expression that selects the picked elements",
             ),
         ],
     ),
@@ -253,7 +253,7 @@ const GROUPS: &[(&str, &[Row])] = &[
             (
                 Action::Fit,
                 &["Home"],
-                "fit the view to the picked elements or the scene",
+                "fit the view to the picked elements, or to the whole scene if nothing is picked",
             ),
             (
                 Action::Information,
@@ -321,7 +321,8 @@ fn rows() -> impl Iterator<Item = &'static Row> {
     GROUPS.iter().flat_map(|(_, rows)| *rows)
 }
 
-/// The keys of all actions. A key is written as modifiers and the name of the key: `N`, `Ctrl+Shift+Z`, `Alt+Up`.
+/// The keys of all actions. A key is written as the names of its modifiers and the name of the key, such as `N`,
+/// `Ctrl+Shift+Z` or `Alt+Up`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Keys {
     of_action: BTreeMap<Action, Vec<String>>,
@@ -336,7 +337,7 @@ impl Default for Keys {
     }
 }
 
-/// Why a file of keys cannot be used.
+/// The reason why a file that changes keys cannot be used.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum KeysError {
     /// The text is not a map of actions and keys.
@@ -355,12 +356,13 @@ pub enum KeysError {
 }
 
 impl Keys {
-    /// Reads changes of the default keys from RON: `{ Flip: ["Ctrl+F"], Split: [] }`. Actions that are not named keep
-    /// their keys, unless another action takes them.
+    /// Reads changes of the default keys from RON: `{ Flip: ["Ctrl+F"], Split: [] }`. An action that the text does not
+    /// name keeps its keys, unless the text gives them to another action.
     ///
     /// # Errors
     ///
-    /// [`KeysError`] if the text is not a map of actions and lists of keys, or gives one key to two actions.
+    /// Returns [`KeysError`] if the text is not a map from actions to lists of keys, or if it gives the same key to two
+    /// actions.
     pub fn read(text: &str) -> Result<Self, KeysError> {
         let changes: BTreeMap<Action, Vec<String>> = ron_tree::from_str(text).map_err(|error| {
             let place = error.span.unwrap_or_default().start;
@@ -396,7 +398,8 @@ impl Keys {
         self.of_action.get(&action).map_or(&[], Vec::as_slice)
     }
 
-    /// Returns the action of a key such as `Ctrl+Shift+Z`. The order and the case of the modifiers do not matter.
+    /// Returns the action that a key, such as `Ctrl+Shift+Z`, starts. The order and the case of the modifiers do not
+    /// matter.
     pub fn action(&self, key: &str) -> Option<Action> {
         let key = normal(key);
         let mut all = self.of_action.iter();
@@ -405,7 +408,7 @@ impl Keys {
     }
 }
 
-/// Returns a key with its modifiers in the order Ctrl, Alt, Shift.
+/// Returns the name of a key, in which the modifiers have the order Ctrl, Alt, Shift.
 fn normal(key: &str) -> String {
     let mut parts: Vec<&str> = key.split('+').map(str::trim).collect();
     let name = parts.pop().unwrap_or_default();

@@ -1,5 +1,5 @@
-//! The logic of the editor, without user interface: a document, an engine thread, picks that become selections,
-//! commands that become text.
+//! The logic of the editor, without its user interface. An editor has a document, and a thread that runs the document.
+//! Picked elements become selections, and commands become steps of the text.
 //!
 //! ```text
 //! text --parse--> recipe --run from the first step that is not known--> snapshots --> view
@@ -7,10 +7,11 @@
 //!   +---- edits of spans <--- Command(operation, selection) <--- pick, key, drag -------+
 //! ```
 //!
-//! The recipe's text is the only state that an edit changes: an [`Editor`] changes the text, and the engine thread runs
-//! the recipe. Undo goes back in the history of texts. The scenes after the steps of recent texts are kept in memory,
-//! so that an undo usually runs no step. This crate has no window: a program draws what [`Editor`] returns and forwards
-//! input.
+//! The recipe's text is the only state that an edit changes. An [`Editor`] changes the text, and a separate thread runs
+//! the recipe. To undo a change, the editor goes back to an earlier text in its history of texts. The editor keeps the
+//! scenes after the steps of recent texts in memory. So when a change is undone, usually no step has to run. This crate
+//! opens no window. A program that uses it draws the scenes that [`Editor`] returns, and passes the input of the user
+//! to it.
 //!
 //! | task | items |
 //! | --- | --- |

@@ -1,4 +1,5 @@
-//! Plays the local edits of a step one by one, forwards and backwards, with the pointers that each edit changes.
+//! Plays the local edits of a step one by one, forwards and backwards. For each edit, also finds the pointers of
+//! half-edges that it changes.
 
 use std::sync::Arc;
 
@@ -13,15 +14,17 @@ use crate::edit::Editor;
 /// The maximum number of edits that are played.
 const MAX_EDITS: usize = 10_000;
 
-/// The operation of which one level can be played as splits, flips and moves.
+/// The name of the operation for Loop subdivision. One level of it can be played as splits, flips and moves of
+/// vertices.
 const LOOP: &str = "LoopSubdivide";
 
-/// The local edits of a step, and how many of them are done.
+/// The local edits of a step, and the number of edits that are done.
 #[derive(Debug)]
 pub struct Play {
     mesh: Mesh,
     edits: Vec<PlayedEdit>,
-    /// For each edit, the change that undoes the edit if it is done, or does it if it is not.
+    /// For each edit, a change of the mesh. If the edit is done, the change undoes it. If the edit is not done, the
+    /// change does it.
     changes: Vec<Option<Change>>,
     at: usize,
 }
@@ -31,11 +34,11 @@ pub struct Play {
 pub struct PlayedEdit {
     /// What the edit does: `flip e7`.
     pub name: String,
-    /// The edge; `None` for an edit that moves vertices.
+    /// The edge that is edited. `None` if the edit moves vertices.
     pub edge: Option<EdgeId>,
-    /// Why the edit is refused, if it is.
+    /// If the edit was refused, the reason.
     pub refused: Option<EditError>,
-    /// Of the half-edges around the edge, those whose pointers change, in the order of their numbers.
+    /// The half-edges around the edge whose pointers change, in the order of their numbers.
     pub pointers: Vec<PointerChange>,
 }
 
@@ -44,9 +47,9 @@ pub struct PlayedEdit {
 pub struct PointerChange {
     /// The half-edge.
     pub half_edge: HalfEdgeId,
-    /// The pointers before the edit; `None` for a new half-edge.
+    /// The pointers before the edit. `None` if the edit adds the half-edge.
     pub before: Option<Pointers>,
-    /// The pointers after the edit; `None` for a half-edge that the edit removes.
+    /// The pointers after the edit. `None` if the edit removes the half-edge.
     pub after: Option<Pointers>,
 }
 
@@ -57,16 +60,18 @@ pub struct Pointers {
     pub next: HalfEdgeId,
     /// The origin.
     pub origin: VertexId,
-    /// The face; `None` on the boundary.
+    /// The face of the half-edge. `None` if the half-edge is on the boundary.
     pub face: Option<FaceId>,
 }
 
 impl Play {
-    /// Returns the edits of a step `FlipEdges`, `SplitEdges` or `CollapseEdges` on an object of the scene before the
-    /// step. None of the edits is done yet. At most the first 10 000 edits are played.
+    /// Returns the edits that a step `FlipEdges`, `SplitEdges` or `CollapseEdges` makes on an object. `scene` is the
+    /// scene before the step. None of the edits is done yet. If there are more than 10 000 edits, only the first 10 000
+    /// edits are returned.
     ///
-    /// `label` is the label of the step, which seeds random choices. `None` for other operations, for `FlipEdges` with
-    /// `until`, for steps with errors or `arg(..)`, and for objects that are not meshes.
+    /// `label` is the label of the step, which seeds random choices. Returns `None` if the operation is a different
+    /// one, if it is `FlipEdges` with `until`, if the step has errors or a value `arg(..)`, or if the object is not a
+    /// mesh.
     pub fn of_step(scene: &Scene, object: &str, run: &Value, label: &str) -> Option<Self> {
         let object = scene.object(object)?;
         let mesh = object.as_mesh()?;
@@ -91,11 +96,11 @@ impl Play {
         Some(play.rewound())
     }
 
-    /// Returns one level of Loop subdivision as local edits: all edges are split, then the new edges between an old and
-    /// a new vertex are flipped, then all vertices move. None of the edits is done yet.
+    /// Returns one level of Loop subdivision as local edits. First, all edges are split. Then, the new edges that join
+    /// an old and a new vertex are flipped. At the end, all vertices move. None of the edits is done yet.
     ///
-    /// `None` if `after` is not one level of Loop subdivision of all faces of `before`, or if there are more than
-    /// 10 000 edits.
+    /// Returns `None` if `after` is not the result of one level of Loop subdivision of all faces of `before`, or if
+    /// there are more than 10 000 edits.
     pub fn of_loop_level(before: &Mesh, after: &Mesh) -> Option<Self> {
         if !is_loop_level(before, after) {
             return None;
@@ -188,7 +193,8 @@ impl Play {
         self.changes.push(change);
     }
 
-    /// Returns the mesh at this moment. The numbers of removed elements are not reused, so the mesh may not be dense.
+    /// Returns the mesh after the edits that are done. If an edit removes elements, their numbers are not used again.
+    /// Because numbers are not used again, there can be gaps between the numbers of the mesh's elements.
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
     }
@@ -239,8 +245,8 @@ impl Editor {
         }
     }
 
-    /// Whether a step of the text does edits that can be played. Apart from the number of levels, the parameters of the
-    /// step are not checked, so [`play`](Self::play) may still return `None`.
+    /// Whether a step of the text makes local edits that can be played. The parameters of the step are not checked,
+    /// except the number of levels. So [`play`](Self::play) can still return `None`.
     pub fn has_edits(&self, step: usize) -> bool {
         let operation = self.outline().steps.get(step).map(|text| &*text.name);
         operation.is_some_and(|name| match Edit::of(name) {
@@ -249,9 +255,10 @@ impl Editor {
         })
     }
 
-    /// Returns the edits of a step of the text, and the name of the object that they change: the object of `on`, or
-    /// else the picked object, or else the first mesh. `None` if the scene before the step is not known, or if
-    /// [`Play::of_step`] or, for `LoopSubdivide`, [`Play::of_loop_level`] returns `None`.
+    /// Returns the edits of a step of the text, and the name of the mesh that they change. If the step has `on`, its
+    /// edits are played on the first mesh in `on`. If the step has no `on`, they are played on the mesh with the picked
+    /// elements or, if nothing is picked, on the first mesh. Returns `None` if the scene before the step is not known,
+    /// or if the step cannot be played (see [`Play::of_step`] and [`Play::of_loop_level`]).
     pub fn play(&self, step: usize) -> Option<(String, Play)> {
         let text = self.outline().steps.get(step)?;
         if text.name == LOOP {
@@ -283,7 +290,8 @@ impl Editor {
         Some((object.to_owned(), scene))
     }
 
-    /// Returns the name of an object, and its mesh before and after a level of Loop subdivision that can be played.
+    /// If a step is one level of Loop subdivision that can be played, returns the name of the object, and its mesh
+    /// before and after the step.
     fn loop_level(&self, step: usize) -> Option<(String, [Arc<Mesh>; 2])> {
         let (object, before) = self.played_object(step)?;
         let after = self.scene_before(step + 1)?;
@@ -293,9 +301,11 @@ impl Editor {
     }
 }
 
-/// Whether a mesh is one level of Loop subdivision of all faces of another, with at most [`MAX_EDITS`] edits.
+/// Whether `after` is the result of one level of Loop subdivision of all faces of `before`, with at most [`MAX_EDITS`]
+/// edits.
 fn is_loop_level(before: &Mesh, after: &Mesh) -> bool {
-    // The splits add three edges inside of each triangle, of which one leads to an old vertex and is flipped.
+    // There is one split for each edge. The splits add three edges inside each triangle. One of these edges ends at an
+    // old vertex, and is flipped.
     let n_edits = before.n_edges() + before.n_faces() + 1;
     n_edits <= MAX_EDITS
         && after.n_vertices() == before.n_vertices() + before.n_edges()
@@ -344,8 +354,8 @@ fn edges(
     }
 }
 
-/// Returns the half-edges that leave or reach an end of an edge, and the half-edges of the faces at these ends, in the
-/// order of their numbers.
+/// Returns the half-edges around an edge, in the order of their numbers. The result has the half-edges that start or
+/// end at an end of the edge, and the half-edges of the faces at both ends.
 fn half_edges_around(mesh: &Mesh, edge: EdgeId) -> Vec<HalfEdgeId> {
     if !mesh.has_edge(edge) {
         return Vec::new();

@@ -11,7 +11,7 @@ use recipe::Listener;
 pub struct Cancel(AtomicBool);
 
 impl Cancel {
-    /// Returns a listener that does not cancel its runs yet.
+    /// Returns a listener that cancels its runs only after [`set`](Self::set) is called.
     pub const fn new() -> Self {
         Self(AtomicBool::new(false))
     }

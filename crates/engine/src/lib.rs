@@ -1,6 +1,6 @@
-//! Runs recipes for the program, the editor, the Python package and browsers. Opens the recipe and its input files in a
-//! store, applies parameter values and the memory budget, and can use a step cache. Runs can be canceled. The language
-//! itself is in the crate `recipe`.
+//! Runs recipes for the program, the editor, the Python package and browsers. The engine opens the recipe and its input
+//! files in a store. The engine applies parameter values and the memory budget, and can use a step cache. Runs can be
+//! canceled. The language itself is in the crate `recipe`.
 //!
 //! ```text
 //! Engine --open--> Source --load--> Loaded --run--> Outcome      (diagnostics and forecast are in Loaded)
@@ -35,7 +35,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-/// Runs the examples of the chapter about the library as tests.
+/// Runs the examples of the book's chapter about the library as tests.
 #[cfg(doctest)]
 #[doc = include_str!("../../../book/src/library.md")]
 struct Library;
@@ -132,7 +132,8 @@ impl<'r> Engine<'r> {
         Source::open_in(&*self.store, path)
     }
 
-    /// Reads and checks a recipe. Errors and warnings are in its [`diagnostics`](Loaded::diagnostics).
+    /// Reads and checks a recipe. Errors and warnings are listed in the [`diagnostics`](Loaded::diagnostics) of the
+    /// result.
     pub fn load(&self, source: &Source, options: &Options) -> Loaded {
         let mut reading = recipe::read_by(&self.schemas, &*self.store, source, options.values);
         if options.strict {

@@ -1,4 +1,4 @@
-//! A recipe that was read and checked, and its runs.
+//! [`Loaded`]: a recipe that was read and checked, with the methods that run it.
 
 use op::Files;
 use recipe::{Diagnostic, Forecast, Listener, Outcome, Recipe, Settings, StepCache};
@@ -19,7 +19,7 @@ pub struct Loaded {
     pub budget: u64,
     /// The forecast of the scene after each step.
     pub forecast: Forecast,
-    /// Whether reading found no errors. Checking can still have found errors.
+    /// Whether the recipe was read without errors. The checks after reading can still have found errors.
     pub is_read: bool,
     /// All errors and warnings from reading and checking, in the order of the text.
     pub diagnostics: Vec<Diagnostic>,

@@ -29,9 +29,9 @@ pub struct UnknownStep {
 }
 
 impl Loaded {
-    /// Removes the steps after the stop, and all expectations. Returns the label of the step that [`Stop::before`]
-    /// names, or of the first step of the named call. The label seeds the random choices of that step. If
-    /// [`Stop::before`] is `None`, returns an empty string.
+    /// Removes the steps that are not to be run, and all expectations. Returns the label of the step that
+    /// [`Stop::before`] names. If [`Stop::before`] names a call, returns the label of the first step of this call. The
+    /// label seeds the random choices of that step. If [`Stop::before`] is `None`, returns an empty string.
     ///
     /// # Errors
     ///

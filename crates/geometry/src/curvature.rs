@@ -34,9 +34,10 @@ pub fn gaussian_curvatures(mesh: &Mesh) -> Vec<f64> {
 /// value is NaN for dead vertices, for isolated vertices, and for vertices whose faces all have zero area.
 ///
 /// The signed dihedral angle of an edge is the angle between the normals of its two faces, positive if the edge is
-/// convex. Each edge contributes half the product of this angle and its length; the two ends of the edge share this
-/// contribution equally. The sum at a vertex is divided by the [vertex area](vertex_area). Source: Cohen-Steiner,
-/// Morvan, "Restricted Delaunay Triangulations and Normal Cycle", 2003. Boundary edges contribute 0.
+/// convex. The contribution of an edge is half the product of its signed dihedral angle and its length. The two ends of
+/// the edge share this contribution equally. The sum of the contributions at a vertex is divided by the [vertex
+/// area](vertex_area). Source: Cohen-Steiner, Morvan, "Restricted Delaunay Triangulations and Normal Cycle", 2003.
+/// Boundary edges contribute 0.
 pub fn mean_curvatures(mesh: &Mesh) -> Vec<f64> {
     let scaled = Scaled::new(mesh);
     let mesh = scaled.mesh();
@@ -50,15 +51,15 @@ pub fn mean_curvatures(mesh: &Mesh) -> Vec<f64> {
 }
 
 /// Returns the two principal curvatures at each vertex, the smaller one first, by vertex index, in 1 / scene unit. On
-/// an outward-facing sphere of radius r, both are 1 / r. On an outward-facing cylinder, they are 0 and 1 / r. The
-/// values are NaN where the [mean curvature](mean_curvatures) is NaN.
+/// an outward-facing sphere of radius r, both principal curvatures are 1 / r. On an outward-facing cylinder of radius
+/// r, the principal curvatures are 0 and 1 / r. The values are NaN where the [mean curvature](mean_curvatures) is NaN.
 ///
 /// The principal curvatures are the eigenvalues of the curvature tensor of the vertex in the plane perpendicular to its
-/// normal. The normal is the sum of the area vectors of the faces around the vertex. Each edge at the vertex adds
-/// ½ θ l u uᵀ to the tensor, where θ is the signed dihedral angle of the edge, l is its length, and u is the unit vector
-/// along it. The sum is divided by the [vertex area](vertex_area). Source: Cohen-Steiner, Morvan, "Restricted Delaunay
-/// Triangulations and Normal Cycle", 2003. Where the surface is nearly flat around the vertex, the mean of the
-/// principal curvatures is close to the mean curvature.
+/// normal. The normal is the sum of the area vectors of the faces around the vertex. Each edge at the vertex adds ½ θ l
+/// u uᵀ to the tensor, where θ is the signed dihedral angle of the edge, l is its length, and u is the unit vector
+/// along it. The sum over all edges at the vertex is divided by the [vertex area](vertex_area). Source: Cohen-Steiner,
+/// Morvan, "Restricted Delaunay Triangulations and Normal Cycle", 2003. Where the surface is nearly flat around the
+/// vertex, the mean of the principal curvatures is close to the mean curvature.
 pub fn principal_curvatures(mesh: &Mesh) -> Vec<[f64; 2]> {
     let none = [f64::NAN; 2];
     let scaled = Scaled::new(mesh);

@@ -11,12 +11,12 @@ pub fn min_angle(mesh: &Mesh, f: FaceId) -> f64 {
     angles.fold(f64::INFINITY, f64::min)
 }
 
-/// Returns the aspect ratio of a face: 1 for regular polygons, and more for all other faces. The ratio is infinite if
-/// the area of the face is zero.
+/// Returns the aspect ratio of a face: 1 for regular polygons, and greater than 1 for all other faces. The ratio is
+/// infinite if the area of the face is zero.
 ///
 /// The ratio is l p / (4 a tan(π / n)) for a face with n corners, the longest edge l, the perimeter p and the area a.
-/// For triangles and quads, it is the aspect ratio of Stimpson, Ernst, Knupp, Pébay, Thompson, "The Verdict Geometric
-/// Quality Library", 2007.
+/// For triangles and quads, the result is the aspect ratio of Stimpson, Ernst, Knupp, Pébay, Thompson, "The Verdict
+/// Geometric Quality Library", 2007.
 pub fn aspect_ratio(mesh: &Mesh, f: FaceId) -> f64 {
     let (mut longest, mut perimeter, mut n): (f64, f64, f64) = (0.0, 0.0, 0.0);
     for h in mesh.face_half_edges(f) {

@@ -1,5 +1,5 @@
-//! Fills a hole with triangles by cutting off ears, one after another. An ear is a vertex of the hole. The triangle of
-//! the ear and its two neighbors, p and q, cuts the ear off.
+//! Fills a hole with triangles by cutting off ears, one after another. An ear is a vertex of the hole that is cut off
+//! by a new triangle. The corners of this triangle are the ear and its two neighbors around the hole, p and q.
 //!
 //! ```text
 //!      p --- ear               p
@@ -38,15 +38,15 @@ const SHAPE_WEIGHT: f64 = 1e-6;
 /// polyhedron", 1995. The time is proportional to n³ for n edges.
 ///
 /// In a hole with more than 500 edges, corners are cut off one after another. The next corner is always the corner
-/// whose two neighbors are nearest to each other. This takes time proportional to n log n. Corners that are straight or
-/// reflex, as seen along the mean normal, are cut off last. In a hole that is far from convex, the triangles can
-/// overlap.
+/// whose two neighbors are nearest to each other. Cutting off all corners takes time proportional to n log n for n
+/// edges. Corners that are straight or reflex, as seen along the mean normal, are cut off last. In a hole that is far
+/// from convex, the triangles can overlap.
 ///
 /// A new edge never connects two vertices that already share an edge.
 ///
-/// All ids stay valid. The new faces and edges are numbered in the order of the returned triangles. This order
-/// depends on `h` and on the shape of the hole. New faces copy the values of the face on the other side of `h`,
-/// and new edges have zero values. All new corners at a vertex copy the values of one existing corner, as in
+/// All ids stay valid. The new faces and edges are numbered in the order of the returned triangles. The order of the
+/// triangles depends on `h` and on the shape of the hole. New faces copy the values of the face on the other side of
+/// `h`, and new edges have zero values. All new corners at a vertex copy the values of one existing corner, as in
 /// [`Mesh::fill_hole`].
 ///
 /// Returns the triangles.
@@ -54,8 +54,8 @@ const SHAPE_WEIGHT: f64 = 1e-6;
 /// # Errors
 ///
 /// Returns [`EditError::DuplicateEdge`] if every triangulation needs an edge that already exists. For a hole of more
-/// than 500 edges, this error means that the search found no triangulation without such an edge. Also returns
-/// [`EditError::Full`] and the errors of [`Mesh::fill_hole`]. The mesh is unchanged.
+/// than 500 edges, this error means only that the search did not find a triangulation without an existing edge. Also
+/// returns [`EditError::Full`] and the errors of [`Mesh::fill_hole`]. The mesh is unchanged.
 pub fn fill_hole_triangles(mesh: &mut Mesh, h: HalfEdgeId) -> Result<Vec<FaceId>, EditError> {
     let ears = ears(mesh, &mesh.rim(h)?)?;
     mesh.fill_hole_by_ears(h, &ears)
@@ -132,8 +132,9 @@ impl<'m> Hole<'m> {
         for length in 2..n {
             for i in 0..n - length {
                 let k = i + length;
-                // A part is closed by a new edge between its ends. Only the longest part is closed by an edge
-                // of the rim.
+                // The corners from i to k are filled as a part of the hole, which needs a new edge from i to k. If the
+                // mesh already joins i and k, this is not possible. For the part with all corners, the edge from i to k
+                // is an edge of the rim and exists already.
                 if length < n - 1 && self.is_joined(i, k) {
                     continue;
                 }

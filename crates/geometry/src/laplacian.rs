@@ -10,9 +10,9 @@
 //!            l                    the area of the vertex.
 //! ```
 //!
-//! Sources: Pinkall, Polthier, "Computing Discrete Minimal Surfaces and Their Conjugates", 1993, for the
-//! weights; Bunge, Herholz, Kazhdan, Botsch, "Polygon Laplacian Made Simple", 2020, for polygons; Sharp, Crane,
-//! "A Laplacian for Nonmanifold Triangle Meshes", 2020, section 4.5, for degenerate triangles.
+//! Source of the weights: Pinkall, Polthier, "Computing Discrete Minimal Surfaces and Their Conjugates", 1993. Source
+//! for polygons: Bunge, Herholz, Kazhdan, Botsch, "Polygon Laplacian Made Simple", 2020. Source for degenerate
+//! triangles: Sharp, Crane, "A Laplacian for Nonmanifold Triangle Meshes", 2020, section 4.5.
 
 use mesh::{DVec3, Domain, FaceId, Mesh, parallel};
 use progress::{Cancelled, Meter, Progress};
@@ -20,11 +20,11 @@ use progress::{Cancelled, Meter, Progress};
 use crate::sparse::SymmetricMatrix;
 use crate::triangulate::Cutter;
 
-/// The largest number of corners of a polygon that gets a virtual vertex. Polygons with more corners are cut
+/// The largest number of corners of a polygon that gets a virtual vertex. Polygons with more than 16 corners are cut
 /// into triangles.
 const MAX_CORNERS: usize = 16;
-/// All edges are lengthened by the same length if necessary, so that in every triangle the sum of two sides exceeds the
-/// third side by at least this fraction of the mean edge length.
+/// In every triangle, the sum of two sides must exceed the third side by at least this fraction of the mean edge
+/// length. If necessary, all edges are lengthened by the same length.
 const SLACK: f64 = 1e-5;
 /// The number of faces in a block. One thread computes the entries of the faces of a block.
 const FACES: usize = 4096;
@@ -47,12 +47,12 @@ const FACES: usize = 4096;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Laplacian {
-    /// The stiffness matrix, with one row for each vertex. The matrix is positive semidefinite, and each row
-    /// adds up to 0. The entry of an edge is minus the weight of the edge. The entries have no unit.
+    /// The stiffness matrix, with one row for each vertex. The matrix is positive semidefinite, and each row adds up
+    /// to 0. The entry for the two ends of an edge is minus the weight of the edge. The entries have no unit.
     pub stiffness: SymmetricMatrix,
-    /// The diagonal of the lumped mass matrix: the area that belongs to each vertex, in scene unit², at most
-    /// 1.8e308. The area is 0 for vertices without faces. For other vertices, the area is more than 0, unless
-    /// it is too small for an `f64`.
+    /// The diagonal of the lumped mass matrix: the area that belongs to each vertex, in scene unit², at most 1.8e308.
+    /// The area is 0 for vertices without faces. For vertices with faces, the area is more than 0, unless it is too
+    /// small for an `f64`.
     pub areas: Vec<f64>,
 }
 
@@ -60,14 +60,14 @@ impl Laplacian {
     /// Computes the Laplacian of a mesh. Rows of dead vertices are empty.
     ///
     /// A polygon with 4 to 16 corners is divided into triangles around a virtual vertex at the mean of its corners. The
-    /// value at the virtual vertex is the mean of the values at the corners. So the result does not depend on a
-    /// triangulation, and the gradient of a linear function on a flat polygon is exact. Polygons with more corners are
-    /// cut into triangles.
+    /// value at the virtual vertex is the mean of the values at the corners. For such a polygon, the result therefore
+    /// does not depend on a choice of triangles. The gradient of a linear function on a flat polygon is exact. Polygons
+    /// with more than 16 corners are cut into triangles.
     ///
-    /// If a triangle is degenerate or almost degenerate, the same small length is added to the lengths of all edges. In
-    /// every triangle, the sum of two sides then exceeds the third side by at least 1e-5 times the mean edge length. If
-    /// this is already true without the addition, nothing is added. All entries are therefore finite for any finite
-    /// positions.
+    /// If a triangle is degenerate or almost degenerate, the same small length is added to the lengths of all edges. A
+    /// triangle is almost degenerate if the sum of two of its sides exceeds the third side by less than 1e-5 times the
+    /// mean edge length. After the addition, no triangle is almost degenerate. All entries are therefore finite for any
+    /// finite positions.
     ///
     /// # Errors
     ///
@@ -83,7 +83,7 @@ impl Laplacian {
             let all = (b * FACES..n_faces.min((b + 1) * FACES)).map(FaceId::new);
             all.filter(|&f| mesh.has_face(f))
         };
-        // For each block of faces, the sum and the count of the lengths of the sides of triangles.
+        // For each block of faces: the sum of the lengths of all sides of its triangles, and the number of these sides.
         let sums: Result<Vec<[f64; 2]>, Cancelled> = parallel::map(n_blocks, |b| {
             let (mut sum, mut n, mut pieces) = (0.0, 0.0, Pieces::default());
             for f in faces(b) {
@@ -178,7 +178,7 @@ fn half_cotangents(corners: [DVec3; 3], more: f64) -> ([f64; 3], f64) {
         );
     }
     let [a, b, c] = lengths(corners).map(|l| l + more);
-    // Heron's formula. `more` was chosen so that all factors are more than 0.
+    // Heron's formula. `more` is large enough to make all four factors positive.
     let area = 0.25 * ((a + b + c) * (b + c - a) * (c + a - b) * (a + b - c)).sqrt();
     let half_cot = |a: f64, b: f64, c: f64| (b * b + c * c - a * a) / (8.0 * area);
     (
@@ -263,8 +263,8 @@ impl Pieces {
             }
         }
         if self.has_virtual {
-            // The energy of the values u is the sum of s(i) (u(i) - mean of u)² over the corners i, where s are
-            // the weights of the spokes.
+            // Let s(i) be the weight of the spoke to corner i. The energy of values u at the corners is the sum over i
+            // of s(i) (u(i) - m)², where m is the mean of u.
             let total: f64 = self.spokes.iter().sum();
             let count = n as f64;
             for i in 0..n {

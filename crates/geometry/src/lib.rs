@@ -1,4 +1,4 @@
-//! Algorithms over a [`Mesh`](mesh::Mesh) that go beyond one element and its neighbors.
+//! Algorithms that process more of a [`Mesh`](mesh::Mesh) than one element and its neighbors.
 //!
 //! | items | contents |
 //! | --- | --- |

@@ -8,11 +8,11 @@ use mesh::{CREASE, Column, Domain, EdgeId, FaceId, Mesh, Values, VertexId, paral
 pub(crate) enum Kind {
     /// The vertex is on no line, and may move anywhere.
     Inside,
-    /// The vertex is on one line. In simplification, it moves only when it merges with a neighbor on the line; in
-    /// remeshing, it moves along the line.
+    /// The vertex is on one line. In simplification, a vertex on a line moves only when it merges with a neighbor on
+    /// the line. In remeshing, a vertex on a line moves along the line.
     Line,
-    /// The vertex does not move: it is pinned, or lies at the end of a line, where lines meet, or where the
-    /// values on a line change.
+    /// The vertex does not move: it is pinned, or it is the end of a line, a meeting point of lines, or a point where
+    /// the values on a line change.
     Fixed,
 }
 
@@ -72,15 +72,14 @@ pub(crate) fn kinds(mesh: &Mesh, lines: &[bool], pinned: &[VertexId]) -> Vec<Kin
     kinds
 }
 
-/// Returns the columns of a domain whose values are labels, that is, tags and whole numbers, which cannot be
-/// averaged.
+/// Returns the columns of a domain whose values are labels: tags or whole numbers. Labels cannot be averaged.
 pub(crate) fn labels(mesh: &Mesh, domain: Domain) -> impl Iterator<Item = &Column> {
     let is_label = |column: &&Column| matches!(column.values, Values::Tag(_) | Values::Int(_));
     mesh.attributes().of(domain).iter().filter(is_label)
 }
 
-/// Returns the power of two, from 2^-1000 to 2^1000, that scales `length` to a number from 1 to 2 or as close to it as
-/// possible. Returns 1 if `length` is 0 or not finite.
+/// Returns a power of two that scales `length` to a number from 1 to 2. The power is limited to the range from 2^-1000
+/// to 2^1000. Returns 1 if `length` is 0 or not finite.
 pub(crate) fn inverse_power_of_two(length: f64) -> f64 {
     if length > 0.0 && length.is_finite() {
         let (_, exponent) = libm::frexp(length);

@@ -7,12 +7,12 @@ pub fn area(mesh: &Mesh) -> f64 {
     sum_over_faces(mesh, |f| mesh.face_area(f))
 }
 
-/// Returns the volume inside the mesh. The volume is negative if the faces are oriented inward. It is meaningful
-/// only for a closed mesh.
+/// Returns the volume inside the mesh. The volume is negative if the faces are oriented inward. The volume is
+/// meaningful only for a closed mesh.
 ///
-/// Each face is triangulated as a fan. The volume is the sum of the signed volumes of the tetrahedra from a fixed point
-/// to these triangles, by the divergence theorem. This fixed point is the center of the bounding box, so that the
-/// volume is accurate even for a mesh far from the origin.
+/// Each face is triangulated as a fan. By the divergence theorem, the volume is the sum of the signed volumes of
+/// tetrahedra. Each tetrahedron joins a fixed point to a triangle of the surface. The fixed point is the center of the
+/// bounding box, so that the volume is accurate even for a mesh far from the origin.
 pub fn volume(mesh: &Mesh) -> f64 {
     let middle = bounds(mesh).map_or(DVec3::ZERO, |[min, max]| 0.5 * (min + max));
     sum_over_faces(mesh, |f| {
@@ -48,8 +48,8 @@ pub fn bounds(mesh: &Mesh) -> Option<[DVec3; 2]> {
     })
 }
 
-/// Returns the total number of handles g of all components, from χ = 2c - 2g - b. Here c is the number of
-/// components with faces, b the number of boundary loops, and χ the Euler characteristic without isolated
+/// Returns the total number of handles g of all components, from χ = 2c - 2g - b. In this formula, c is the number of
+/// components with faces, b is the number of boundary loops, and χ is the Euler characteristic without isolated
 /// vertices.
 pub fn genus(mesh: &Mesh) -> i64 {
     let count = |n: usize| i64::try_from(n).expect("fewer than 2^32 elements");
@@ -60,7 +60,8 @@ pub fn genus(mesh: &Mesh) -> i64 {
 }
 
 /// Returns the component index of each vertex, by vertex index. Components are numbered from 0 in the order of the
-/// lowest vertex id of each component. An isolated vertex is a separate component. Dead vertices have `usize::MAX`.
+/// lowest vertex id of each component. An isolated vertex is a separate component. The index of a dead vertex is
+/// `usize::MAX`.
 pub fn components(mesh: &Mesh) -> Vec<usize> {
     let mut component = vec![usize::MAX; mesh.positions().len()];
     let mut n = 0;

@@ -62,9 +62,9 @@ pub fn separated(mesh: &Mesh) -> Vec<Mesh> {
 ///
 /// Elements keep their order and their values. An edge between two parts is copied to both. If the faces of a part form
 /// several fans around a vertex, the fan with the lowest boundary half-edge keeps the vertex. Each of the other fans
-/// gets a copy, which is numbered after all other vertices. A part with a new boundary loses the columns with
-/// [`Rule::Drop`](mesh::Rule::Drop). The parts are dense. Apart from sorting the faces, the time is linear in the size
-/// of the mesh, for any number of parts.
+/// around the vertex gets a copy of the vertex. The copies are numbered after all other vertices. A part with a new
+/// boundary loses the columns with [`Rule::Drop`](mesh::Rule::Drop). The parts are dense. Apart from sorting the faces,
+/// the time is linear in the size of the mesh, for any number of parts.
 ///
 /// # Panics
 ///
@@ -180,8 +180,8 @@ impl PartBuilder<'_> {
     }
 }
 
-/// Links the half-edges without a face into boundary loops, and gives each additional fan at a vertex a copy of
-/// the vertex. `vertices` has the source of each vertex; the sources of copies are appended.
+/// Links the half-edges without a face into boundary loops, and gives each additional fan at a vertex a copy of the
+/// vertex. `vertices` lists the old vertex that each vertex comes from. An entry is appended for each copy.
 fn link_boundary(c: &mut Connectivity, prev: &[HalfEdgeId], vertices: &mut Vec<VertexId>) {
     let boundary: Vec<HalfEdgeId> = (0..c.next.len())
         .map(HalfEdgeId::new)
@@ -274,7 +274,7 @@ mod tests {
             assert_eq!(part.n_faces(), shape.n_faces());
             assert!((area(part) - area(shape)).abs() < 1e-9);
             assert_eq!(part.n_boundary_loops(), shape.n_boundary_loops());
-            // No edge was cut, so no column is dropped.
+            // No edge was cut, so the part has all attribute columns of the mesh.
             assert_eq!(part.attributes().iter().count(), 4);
             let part_materials = part.get(MATERIAL).unwrap();
             assert!(part_materials.is_sorted());

@@ -1,24 +1,24 @@
 //! Exact geometric predicates.
 //!
 //! The results are those of exact arithmetic on the given coordinates. Source: Shewchuk, "Adaptive Precision
-//! Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997, as implemented by the crate `robust`.
-//! The results are exact if the products of the differences of coordinates neither overflow nor underflow. This
-//! is always true for coordinates that are 0 or from 1e-90 to 1e90 in magnitude.
+//! Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997, as implemented by the crate `robust`. The
+//! results are exact if the products of the differences of coordinates neither overflow nor underflow. No product
+//! overflows or underflows if every coordinate is 0 or from 1e-90 to 1e90 in magnitude.
 
 use std::cmp::Ordering;
 
 use mesh::{DVec2, DVec3};
 
 /// Returns the side of the line from `a` to `b` on which the point `c` lies: `Greater` on the left, `Less` on the
-/// right, `Equal` on the line. The result is the sign of the area of the triangle.
+/// right, `Equal` on the line. The result is the sign of the signed area of the triangle `a`, `b`, `c`.
 pub fn orient2d(a: DVec2, b: DVec2, c: DVec2) -> Ordering {
     let coord = |p: DVec2| robust::Coord { x: p.x, y: p.y };
     sign(robust::orient2d(coord(a), coord(b), coord(c)))
 }
 
-/// Returns the side of the plane through `a`, `b` and `c` on which the point `d` lies: `Greater` on the side of
-/// the normal (b − a) × (c − a), `Less` on the other side, `Equal` on the plane. The result is the sign of the
-/// volume of the tetrahedron.
+/// Returns the side of the plane through `a`, `b` and `c` on which the point `d` lies: `Greater` on the side of the
+/// normal (b − a) × (c − a), `Less` on the other side, `Equal` on the plane. The result is the sign of the signed
+/// volume of the tetrahedron with these four corners.
 pub fn orient3d(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> Ordering {
     let coord = |p: DVec3| robust::Coord3D {
         x: p.x,
@@ -50,7 +50,7 @@ mod tests {
         assert_eq!(orient3d(o, x, y, x + y), Ordering::Equal);
     }
 
-    /// Floating-point arithmetic without correction would put many of these points on the wrong side.
+    /// Without correction, floating-point arithmetic would put many points next to a line or plane on the wrong side.
     #[test]
     fn points_next_to_a_line_and_a_plane_are_on_their_sides() {
         let ulp = f64::EPSILON / 2.0;

@@ -74,7 +74,7 @@ pub fn samples(
         let Some((bits, std::cmp::Reverse(i))) = heap.pop() else {
             break;
         };
-        // If the weight of an entry has changed, the queue has a newer entry.
+        // If the weight of this candidate has changed, the queue has a newer entry for the same candidate.
         if !is_kept[i] || bits != f64::to_bits(crowding[i]) {
             continue;
         }
@@ -164,8 +164,8 @@ impl Grid {
         }
     }
 
-    /// Calls a function, in a fixed order, with each other point whose distance from point `i` is less than the size of
-    /// a cell.
+    /// Calls a function with every point other than `i` that is closer to point `i` than the size of a cell. The order
+    /// of the calls is fixed.
     fn each_near(&self, i: usize, mut each: impl FnMut(usize)) {
         let [x, y, z] = self.cells[i];
         for dx in [-1.0, 0.0, 1.0] {
@@ -228,7 +228,8 @@ mod tests {
                 least = least.min(a.position.distance(b.position));
             }
         }
-        // For independent random points, the smallest distance would be about a thirtieth of this distance.
+        // If the points were random and independent, their smallest distance would be about a thirtieth of the required
+        // distance.
         assert!(least > 0.6 * 2.0 * radius, "{least} {radius}");
     }
 

@@ -6,19 +6,18 @@ use mesh::{DVec3, Mesh};
 
 use crate::laplacian::{exponent, scaled};
 
-/// If the largest absolute coordinate is at least 2 to the power of minus this number and below 2 to the power of this
-/// number, the mesh is not scaled.
+/// A mesh is not scaled if its largest absolute coordinate is at least 2^-n and below 2^n, where n is this number.
 const ORDINARY: i32 = 64;
 
 /// A mesh, scaled by a power of two if its coordinates are very small or very large.
 ///
-/// Computations of areas and curvatures, and comparisons of distances, contain products of up to four lengths. For
-/// lengths of about 1e-90 or 1e90 scene units, these products are 0 or infinite. Scaling by a power of two changes only
-/// the exponent of a result.
+/// Computations of areas and curvatures, and comparisons of distances, contain products of up to four lengths. If the
+/// lengths are about 1e-90 or 1e90 scene units, a product of four lengths is 0 or infinite. Scaling by a power of two
+/// changes only the exponent of a result.
 #[derive(Clone, Debug)]
 pub struct Scaled<'a> {
     mesh: Cow<'a, Mesh>,
-    /// One unit of length of the scaled mesh is 2 to the power of this number, in scene units.
+    /// One unit of length of the scaled mesh is 2^n scene units, where n is this number.
     exponent: i32,
 }
 
@@ -75,7 +74,7 @@ impl<'a> Scaled<'a> {
     }
 }
 
-/// Returns the exponent, or 0 if the coordinates need no scaling.
+/// Returns `exponent`, or 0 if the coordinates need no scaling.
 fn ordinary(exponent: i32) -> i32 {
     if (-ORDINARY..ORDINARY).contains(&exponent) {
         0

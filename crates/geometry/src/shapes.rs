@@ -234,8 +234,8 @@ pub fn uv_sphere(around: u32, rings: u32) -> Mesh {
     of(positions, &polygons)
 }
 
-/// Returns the mesh with each polygon triangulated as a fan at its first corner. The triangles are in the order
-/// of the polygons. The polygons should be convex, as the faces of these shapes are. Attributes are dropped.
+/// Returns the mesh with each polygon triangulated as a fan at its first corner. The triangles are in the order of the
+/// polygons. The polygons should be convex, like the faces of the shapes in this module. Attributes are dropped.
 pub fn fans(mesh: &Mesh) -> Mesh {
     let number = |v: VertexId| u32::try_from(v.index()).expect("ids are below 2^32");
     let mut triangles = Vec::new();

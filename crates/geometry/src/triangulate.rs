@@ -8,9 +8,9 @@
 //!    a ------- b          a ------- b          '---'                  '---'
 //! ```
 //!
-//! A quadrilateral is cut along its shorter diagonal. A larger polygon is cut by ear clipping or into monotone pieces,
-//! then diagonals are flipped until the result is a constrained Delaunay triangulation. If this fails, the polygon
-//! becomes a fan. See [`Cutter`] for the details.
+//! A quadrilateral is cut along its shorter diagonal. A polygon with more than four corners is cut by ear clipping or
+//! into monotone pieces. Then diagonals are flipped until the result is a constrained Delaunay triangulation. A polygon
+//! that cannot be cut in this way becomes a fan. See [`Cutter`] for the details.
 //!
 //! Corner indices start at 0 and follow the face. The corners of a triangle are in ascending order, so a triangle
 //! has the orientation of the face.
@@ -32,9 +32,10 @@ const TOLERANCE: f64 = 1e-12;
 /// The largest number of corners for which a face is cut by ear clipping. Ear clipping of a face with this number of
 /// corners takes at most about 50 ms.
 const MAX_EARS: usize = 4096;
-/// The smallest number of corners for which the cut can be cancelled. Smaller faces take little time.
+/// The smallest number of corners for which the cut can be cancelled. Faces with fewer corners than this take little
+/// time.
 const MIN_CANCELLED: usize = 256;
-/// The largest number of corners for which a face is cut. A face with more corners becomes a fan.
+/// The largest number of corners for which a face is cut. A face with more corners than this becomes a fan.
 const MAX_CORNERS: usize = 10_000_000;
 
 /// How a face is cut.
@@ -44,9 +45,9 @@ pub enum Cut {
     Keep,
     /// The face is a quadrilateral and is cut along one diagonal.
     Quad {
-        /// Whether the diagonal runs from corner 0 to 2. Otherwise the diagonal runs from corner 1 to 3.
+        /// Whether the diagonal runs from corner 0 to 2. If false, the diagonal runs from corner 1 to 3.
         from_zero: bool,
-        /// Whether the other diagonal would be valid too.
+        /// Whether the quadrilateral could also be cut along its other diagonal.
         is_free: bool,
     },
     /// The face has more than four corners.
@@ -88,8 +89,9 @@ impl Cut {
     /// Replaces the contents of `into` by the diagonals: sorted pairs of corners, the lower corner first.
     pub fn diagonals(&self, into: &mut Vec<[u32; 2]>) {
         into.clear();
-        // In every triangle except one, the side from the last to the first corner is a diagonal, and each diagonal
-        // occurs once in this way. In the remaining triangle, this side is a side of the face.
+        // In every triangle except one, the side from the last to the first corner is a diagonal. Each diagonal is the
+        // side from the last to the first corner of exactly one triangle. In the remaining triangle, this side is the
+        // side of the face from its last to its first corner.
         let triangles = self.triangles();
         let last = u32::try_from(triangles.len()).expect("corners fit 32 bits") + 1;
         let sides = triangles.iter().map(|&[a, _, c]| [a, c]);
@@ -103,19 +105,19 @@ impl Cut {
 /// A quadrilateral is cut along its shorter diagonal. If both diagonals are equally long (relative difference of the
 /// squared lengths at most 1e-12), the quadrilateral is cut along the diagonal at its vertex with the lowest id. A
 /// diagonal is avoided if one of its triangles has zero area or is flipped, as seen along the face normal. A
-/// quadrilateral with a reflex corner is therefore cut at that corner. If both diagonals have this problem, neither is
-/// avoided.
+/// quadrilateral with a reflex corner is therefore cut at that corner. Neither diagonal is avoided if both have a
+/// triangle that has zero area or is flipped.
 ///
-/// A larger face is projected along its normal and cut by ear clipping (Held, "FIST: Fast Industrial-Strength
-/// Triangulation of Polygons", 2001, as implemented by the crate `earcut`). The time of ear clipping can grow with the
-/// square of the number of corners, so a face with more than 4096 corners is cut into monotone pieces instead (de Berg
-/// and others, "Computational Geometry: Algorithms and Applications", 2008, chapter 3). Then diagonals are flipped
-/// until the result is a constrained Delaunay triangulation.
+/// A face with more than four corners is projected along its normal and cut by ear clipping (Held, "FIST: Fast
+/// Industrial-Strength Triangulation of Polygons", 2001, as implemented by the crate `earcut`). The time of ear
+/// clipping can grow with the square of the number of corners. Therefore, a face with more than 4096 corners is cut
+/// into monotone pieces instead (de Berg and others, "Computational Geometry: Algorithms and Applications", 2008,
+/// chapter 3). Then diagonals are flipped until the result is a constrained Delaunay triangulation.
 ///
 /// A face becomes a fan around its vertex with the lowest id if it has more than ten million corners or cannot be cut.
-/// A face cannot be cut if its area is zero or its sides cross. A face with more than 4096 corners can also not be cut
-/// if some of its sides overlap, and some of its triangles are not Delaunay triangles if more than 1024 flips for each
-/// corner are needed.
+/// A face cannot be cut if its area is zero or its sides cross. A face with more than 4096 corners also becomes a fan
+/// if some of its sides overlap. If such a face needs more than 1024 flips for each corner, some of its triangles are
+/// not Delaunay triangles.
 ///
 /// # Examples
 ///
@@ -142,8 +144,8 @@ impl Cutter {
         self.cut_unless(&|| false, mesh, f)
     }
 
-    /// Returns how `f` is cut. For a face with many corners, `is_cancelled` is called many times. When it returns
-    /// `true`, the cut is not completed: the face becomes a fan.
+    /// Returns how `f` is cut. For a face with many corners, `is_cancelled` is called many times. When `is_cancelled`
+    /// returns `true`, the cut is not completed: the face becomes a fan.
     pub fn cut_unless(&mut self, is_cancelled: &dyn Fn() -> bool, mesh: &Mesh, f: FaceId) -> Cut {
         self.points.clear();
         let corners = mesh.face_vertices(f).map(|v| mesh.position(v));
@@ -306,7 +308,7 @@ fn with_sorted_corners(mut triangle: Triangle) -> Triangle {
     triangle
 }
 
-/// Inserts corners that no triangle uses, by splitting the triangle at the side that skips them.
+/// Inserts each corner that no triangle uses, by splitting the triangle that has a side that skips this corner.
 ///
 /// ```text
 ///        c                c
@@ -334,8 +336,8 @@ fn insert_skipped_corners(n: usize, triangles: &mut Vec<Triangle>) {
         let place = used.partition_point(|&u| u <= i);
         used.get(place).copied().unwrap_or(first)
     };
-    // The used corners form a polygon. `owner` has the triangle at each side of this polygon, indexed by the
-    // first corner of the side.
+    // The corners that are used by a triangle form a polygon. For each side of the polygon of used corners, `owner` has
+    // the triangle at this side. The index in `owner` is the first corner of the side.
     let mut owner = vec![None; n];
     for (t, triangle) in triangles.iter().enumerate() {
         for k in 0..3 {
@@ -354,8 +356,9 @@ fn insert_skipped_corners(n: usize, triangles: &mut Vec<Triangle>) {
         let Some(&c) = triangles[t].iter().find(|&&c| c != a && c != b) else {
             continue;
         };
-        // The triangle is split into several triangles with corner c. The first of these triangles has the side
-        // from c to a, and replaces the old triangle in the list. The last has the side from b to c.
+        // The old triangle is split into several triangles, which all have the corner c. The first of the new triangles
+        // has the side from c to a. It replaces the old triangle in the list. The last of the new triangles has the
+        // side from b to c.
         let mut from = a;
         let mut part = t;
         while from != b {
@@ -383,16 +386,17 @@ fn is_triangulation(n: usize, triangles: &[Triangle]) -> bool {
     }
     let n = u32::try_from(n).expect("corners fit 32 bits");
     // Each triangle has two sides that run from a lower to a higher corner index, and one side that runs from a higher
-    // to a lower index. The sides of the two kinds are in two lists. In both lists, the lower corner of a side comes
-    // first.
+    // to a lower index. The list `ascending` has the sides that run to a higher index, and the list `descending` has
+    // the others. In both lists, the lower corner of each side is written first.
     let mut ascending: Vec<[u32; 2]> = triangles
         .iter()
         .flat_map(|&[a, b, c]| [[a, b], [b, c]])
         .collect();
     let mut descending: Vec<[u32; 2]> = triangles.iter().map(|&[a, _, c]| [a, c]).collect();
-    // Removes the side of the polygon from corner n - 1 to corner 0 from the second list, and adds all other sides of
-    // the polygon to it. If the triangles are a triangulation, the two lists are then equal: each diagonal is in both
-    // lists, because its two triangles use it in opposite directions.
+    // The side of the polygon from corner n - 1 to corner 0 is removed from the list `descending`. All other sides of
+    // the polygon are added to this list. If the triangles form a triangulation, the lists `ascending` and `descending`
+    // are then equal. Each diagonal is in both lists, because the two triangles beside it use it in opposite
+    // directions.
     let whole = [0, n - 1];
     let Some(place) = descending.iter().position(|&side| side == whole) else {
         return false;
@@ -431,8 +435,9 @@ mod tests {
     fn invalid_triangulations_are_detected() {
         assert!(is_triangulation(5, &[[0, 1, 2], [0, 2, 3], [0, 3, 4]]));
         for wrong in [
-            // The lists have these faults, in order: too few triangles, a duplicate triangle, crossing diagonals, a
-            // triangle that contains a corner twice, and two triangles at one side of the polygon.
+            // Each of these lists has a different fault. The faults are, in order: too few triangles; a duplicate
+            // triangle; crossing diagonals; a triangle that contains a corner twice; two triangles at one side of the
+            // polygon.
             vec![[0, 1, 2], [0, 2, 4]],
             vec![[0, 1, 2], [0, 2, 4], [0, 2, 4]],
             vec![[0, 1, 2], [1, 2, 3], [0, 3, 4]],
@@ -450,7 +455,7 @@ mod tests {
         insert_skipped_corners(8, &mut triangles);
         triangles.sort_unstable();
         assert!(is_triangulation(8, &triangles), "{triangles:?}");
-        // The two triangles skip corners at all sides except their shared side.
+        // Each side of these two triangles skips a corner of the polygon, except the side that they share.
         let mut triangles = vec![[0, 2, 4], [0, 4, 6]];
         insert_skipped_corners(8, &mut triangles);
         triangles.sort_unstable();

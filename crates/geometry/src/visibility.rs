@@ -12,8 +12,8 @@ use crate::surface_index::SurfaceIndex;
 
 /// The distance from the surface at which rays start, relative to the diagonal of the bounding box.
 const OFFSET: f64 = 1e-7;
-/// A ray for the thickness starts on the face, near the vertex. Its distance from the vertex is at most twice this
-/// fraction of the length of the shorter edge of the corner.
+/// A ray for the thickness starts on the face, near the vertex. The distance between the vertex and the start of the
+/// ray is at most twice this fraction of the length of the shorter edge of the corner.
 const INWARD: f64 = 1e-3;
 /// The number of vertices in a block. One thread processes a block.
 const BLOCK: usize = 256;

@@ -11,7 +11,7 @@ use store::{Store, StoreError, folder_of};
 ///
 /// # Errors
 ///
-/// The reason why the path is refused. In a message, the reason follows the path.
+/// The reason why the path is refused. The reason is a text such as `is empty`, which follows the path in a message.
 pub(crate) fn inside(name: &str) -> Result<PathBuf, &'static str> {
     if name.is_empty() {
         return Err("is empty");
@@ -45,7 +45,8 @@ pub(crate) fn inside(name: &str) -> Result<PathBuf, &'static str> {
 ///
 /// # Errors
 ///
-/// The reason why the URI is refused. In a message, the reason follows the URI.
+/// The reason why the URI is refused. The reason is a text such as `has a backslash`, which follows the URI in a
+/// message.
 pub(crate) fn inside_uri(uri: &str) -> Result<PathBuf, &'static str> {
     if uri.contains('\\') {
         return Err("has a backslash");
@@ -152,7 +153,7 @@ impl<'a> Assets<'a> {
     ///
     /// # Errors
     ///
-    /// If the file is missing, is not a regular file, or a link leads out of the folder.
+    /// Returns an error if the file is missing, is not a regular file, or a link leads out of the folder.
     pub(crate) fn read(&mut self, name: &Path, limit: u64) -> io::Result<Vec<u8>> {
         let path = self.place(name);
         self.seen.insert(FileDependency {
@@ -167,7 +168,7 @@ impl<'a> Assets<'a> {
             .map_err(because)?;
         if !real.starts_with(folder) {
             return Err(io::Error::other(
-                "a link leads out of the folder of the file",
+                "a link in the path leads out of the folder of the file",
             ));
         }
         self.store.read_up_to(&real, limit).map_err(because)

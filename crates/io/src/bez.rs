@@ -82,7 +82,7 @@ fn curve(bytes: &[u8]) -> Result<Curve<DVec2>, Fault> {
 ///
 /// # Errors
 ///
-/// If an object does not consist of patches.
+/// Returns an error if an object does not consist of patches.
 pub(crate) fn write_bez(scene: &Scene) -> Result<SingleFile, Unwritable> {
     let mut all = Vec::new();
     let mut losses = Vec::new();
@@ -105,7 +105,7 @@ pub(crate) fn write_bez(scene: &Scene) -> Result<SingleFile, Unwritable> {
 ///
 /// # Errors
 ///
-/// If the scene does not consist of a single curve.
+/// Returns an error if the scene does not consist of a single curve.
 pub(crate) fn write_bzc(scene: &Scene) -> Result<SingleFile, Unwritable> {
     let [object] = scene.objects() else {
         let message = Format::Bzc.refused_count(scene.objects().len());

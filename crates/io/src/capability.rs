@@ -23,14 +23,14 @@ pub enum Storage {
 pub struct Stored<'a> {
     /// The format.
     pub format: Format,
-    /// For `.csv`, the elements that the rows list.
+    /// The elements that the rows of a `.csv` file list.
     pub rows: Rows,
     /// Whether the mesh has an attribute with this name.
     pub has: &'a dyn Fn(Domain, &str) -> bool,
 }
 
 impl Stored<'_> {
-    /// The name of the format in messages.
+    /// The name of the format, for messages.
     pub fn name(&self) -> String {
         match self.format {
             Format::Csv => format!("CSV with a row for each {}", self.rows.domain()),
@@ -40,8 +40,8 @@ impl Stored<'_> {
     }
 
     /// Returns how much of an attribute is stored. Only the type of `values` is used. If `values` is `None`, the
-    /// attribute is assumed to have the usual type of attributes with this name. If attributes with this name have no
-    /// usual type, and different types give different results, returns [`Storage::Partial`].
+    /// attribute is assumed to have the usual type of attributes with this name. Returns [`Storage::Partial`] if
+    /// attributes with this name have no usual type, and the result depends on the type.
     pub fn storage(&self, domain: Domain, name: &str, values: Option<&Values>) -> Storage {
         let of_type = |values: &Values| self.storage_of(domain, name, values);
         if let Some(values) = values {
@@ -75,7 +75,7 @@ impl Stored<'_> {
                 (Domain::Vertex, "normal", Values::Vec3(_)) => {
                     kept_if(!has(Domain::Corner, CORNER_NORMAL.name))
                 }
-                // Alpha is lost. A tag without faces is lost, and names can change.
+                // Alpha is lost. A tag that no face has is lost, and the names of tags can change.
                 (Domain::Vertex, "color", Values::Vec4(_)) | (Domain::Face, _, Values::Tag(_)) => {
                     Partial
                 }

@@ -57,7 +57,7 @@ pub(crate) fn clean(
             note(polygons, code, what, Elements::Faces(faces), notes);
         }
     }
-    let what = "faces with repeated corners: each corner used once";
+    let what = "faces with repeated corners: repetitions removed";
     let code = "corners-repeated";
     note(polygons, code, what, Elements::Faces(repeated), notes);
     let kept = keep(polygons, &is_dropped, &is_corner_kept);
@@ -87,7 +87,7 @@ fn corners(polygons: &Polygons, f: usize) -> &[u32] {
 }
 
 /// Returns the polygons that have repeated corners and at least three other corners. A corner is repeated if it has the
-/// same vertex as the previous corner. In `is_kept`, clears the flag of each repeated corner of these polygons.
+/// same vertex as the previous corner. Sets the flag of each repeated corner of these polygons in `is_kept` to false.
 fn repeated_corners(polygons: &Polygons, is_kept: &mut Vec<bool>) -> Vec<usize> {
     let kept_in = |corners: &[u32]| {
         let before = corners.iter().cycle().skip(corners.len().max(1) - 1);
@@ -123,7 +123,7 @@ fn degenerate(polygons: &Polygons) -> Vec<usize> {
         let points: Option<Vec<DVec3>> = points
             .map(|&v| polygons.positions.get(v as usize).copied())
             .collect();
-        // Indices out of range are reported when the mesh is built.
+        // An index out of range is reported later, when the mesh is built.
         points.is_some_and(|points| is_degenerate(&points))
     };
     parallel::filter(polygons.n_faces(), has_no_area)
@@ -347,7 +347,7 @@ mod tests {
         assert_eq!(kept, Some(vec![0, 1, 2]));
         assert_eq!(
             notes,
-            ["a: 2 faces with repeated corners: each corner used once (faces 0, 1)"]
+            ["a: 2 faces with repeated corners: repetitions removed (faces 0, 1)"]
         );
     }
 

@@ -27,8 +27,8 @@ impl CornerNumbers {
     /// time for a vertex with a million corners linear. If a vertex has more distinct values, a value can get a second
     /// number.
     pub(crate) fn new(mesh: &Mesh, equal: impl Fn(HalfEdgeId, HalfEdgeId) -> bool + Sync) -> Self {
-        // Each entry is written by only one task: an entry of `same` by the task that handles the origin of the
-        // half-edge, and an entry of `numbers` by the task that handles the number.
+        // Each entry of `same` is written by only one task: the task that handles the origin of the half-edge. Each
+        // entry of `numbers` is also written by only one task: the task that handles the number.
         let unset = || -> Vec<AtomicU32> { mesh::zeroed(mesh.n_half_edges()) };
         let (same, numbers) = (unset(), unset());
         let number_of = |i: usize| u32::try_from(i).unwrap_or(u32::MAX);

@@ -52,7 +52,7 @@ impl Rows {
 ///
 /// # Errors
 ///
-/// If an object is not a mesh.
+/// Returns an error if an object is not a mesh.
 pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<SingleFile, Unwritable> {
     let mut joined = joined(scene, Format::Csv)?;
     let (mesh, rows) = (&*joined.mesh, options.rows.unwrap_or_default());
@@ -211,7 +211,8 @@ fn quoted(name: &str) -> String {
     }
 }
 
-/// Returns the name if it is unused. Otherwise, appends the smallest number from 2 that makes the name unused.
+/// Returns the name if it is unused. If the name is used, appends the smallest number from 2 that makes the name
+/// unused.
 pub(crate) fn unused(name: String, is_used: impl Fn(&str) -> bool) -> String {
     if !is_used(&name) {
         return name;

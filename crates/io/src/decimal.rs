@@ -15,14 +15,14 @@ pub(crate) fn leading_number(text: &[u8]) -> Option<(f64, usize)> {
     x.is_finite().then_some((x, length))
 }
 
-/// Parses at most eight digits, beginning at `at`. Returns their value and the number of digits.
+/// Parses at most eight digits, beginning at `at`. Returns the value of the digits, and their number.
 ///
 /// Processes all digits at once as the bytes of one word (Lemire, "Quickly parsing eight digits", 2018).
 #[inline]
 pub(crate) fn up_to_eight_digits(text: &[u8], at: usize) -> (u64, usize) {
     let word = eight_bytes(text, at) ^ 0x3030_3030_3030_3030;
-    // The high bit is set in the lowest byte that is not a digit, and in no byte below it. The bytes above it can be
-    // wrong, so only the lowest set bit is used.
+    // In the lowest byte that is not a digit, the high bit is set. In all bytes below that byte, the high bit is 0. In
+    // the bytes above the lowest non-digit, the high bits can be wrong, so only the lowest set bit is used.
     let non_digits = (word.wrapping_add(0x7676_7676_7676_7676) | word) & 0x8080_8080_8080_8080;
     let count = non_digits.trailing_zeros() / 8;
     if count == 0 {
@@ -98,8 +98,8 @@ pub(crate) fn push_whole(out: &mut Vec<u8>, value: usize) {
     match u64::try_from(value) {
         Ok(value) if value < 100_000_000 => {
             // Computes all eight digits at once. The value is split into two halves, each half into pairs of digits,
-            // and each pair into digits. At the end, the first digit is in the lowest byte. Multiplications replace the
-            // divisions by 100 and 10.
+            // and each pair into digits. In the result, the first digit is in the lowest byte. Multiplications replace
+            // the divisions by 100 and 10.
             let halves = (value / 10_000) | (value % 10_000) << 32;
             let hundreds = ((halves * 10_486) >> 20) & 0x0000_007f_0000_007f;
             let pairs = hundreds | (halves - 100 * hundreds) << 16;

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::error::ReadError;
 
-/// An error at one position of a file. The name of the file is added later.
+/// An error at one position of a file. The error does not contain the name of the file, which is added later.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Fault {
     pub(crate) at: Location,
@@ -73,7 +73,7 @@ pub(crate) struct TextPosition {
 }
 
 impl TextPosition {
-    /// The first position of every text.
+    /// The position of the beginning of any text file.
     pub(crate) const START: Self = Self::of_line(1);
 
     /// The beginning of a line.

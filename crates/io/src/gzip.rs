@@ -34,7 +34,7 @@ pub(crate) fn plain(path: &Path) -> Cow<'_, Path> {
 ///
 /// # Errors
 ///
-/// [`ReadError::Compressed`] if the content is damaged or larger than `most`.
+/// Returns [`ReadError::Compressed`] if the content is damaged or larger than `most`.
 pub(crate) fn unpacked(path: &Path, bytes: Vec<u8>, most: u64) -> Result<Vec<u8>, ReadError> {
     if !is_compressed(path) {
         return Ok(bytes);
@@ -44,7 +44,7 @@ pub(crate) fn unpacked(path: &Path, bytes: Vec<u8>, most: u64) -> Result<Vec<u8>
         message,
     };
     let mut out = Vec::new();
-    // The memory grows with the decompressed content, so a wrong size in the file has no effect.
+    // The memory grows with the content that is actually decompressed, so a wrong size in the file has no effect.
     let mut decoder = MultiGzDecoder::new(&bytes[..]).take(most.saturating_add(1));
     let read = decoder.read_to_end(&mut out);
     read.map_err(|why| error(format!("the compressed content is damaged: {why}")))?;
@@ -62,7 +62,7 @@ pub(crate) fn unpacked(path: &Path, bytes: Vec<u8>, most: u64) -> Result<Vec<u8>
 ///
 /// # Errors
 ///
-/// If the file cannot be read or decompressed.
+/// Returns an error if the file cannot be read or decompressed.
 pub(crate) fn head(store: &dyn Store, path: &Path, most: u64) -> Result<Vec<u8>, ReadError> {
     if !is_compressed(path) {
         return Ok(store.read_up_to(path, most)?);
@@ -84,7 +84,7 @@ pub(crate) fn head(store: &dyn Store, path: &Path, most: u64) -> Result<Vec<u8>,
 ///
 /// # Errors
 ///
-/// The errors of `out` and of `write`.
+/// Returns the errors of `out` and of `write`.
 pub(crate) fn compress(
     out: &mut (dyn Write + Send),
     write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<u64>,

@@ -197,8 +197,8 @@ pub(crate) struct Settled<'a> {
 ///
 /// # Errors
 ///
-/// If an image would be embedded in an OBJ file, or if a folder for images cannot be created or is outside the folder
-/// of the file.
+/// Returns an error if an image would be embedded in an OBJ file, or if a folder for images cannot be created or is
+/// outside the folder of the file.
 pub(crate) fn settle<'a>(
     store: &dyn Store,
     path: &Path,
@@ -344,7 +344,7 @@ impl<'a> Copies<'a> {
             Some(real) if !real.starts_with(&root) => Err(WriteError::Scene {
                 path: self.path.to_path_buf(),
                 message: format!(
-                    "the folder {} of an image leads through a link out of the folder of the file",
+                    "the image folder {} leads out of the folder of the file through a link",
                     folder.display()
                 ),
             }),

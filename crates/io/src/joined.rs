@@ -16,7 +16,7 @@ use crate::writing::dense;
 pub(crate) struct Joined<'a> {
     /// The mesh without removed elements. The meshes of several objects are appended in order.
     pub(crate) mesh: Cow<'a, Mesh>,
-    /// The object name in losses: the name of the first object.
+    /// The object name that losses contain, which is the name of the first object.
     pub(crate) name: String,
     pub(crate) losses: Vec<Loss>,
 }
@@ -36,7 +36,7 @@ pub(crate) enum Names {
 ///
 /// # Errors
 ///
-/// If an object is not a mesh, or if the joined mesh would be too large.
+/// Returns an error if an object is not a mesh, or if the joined mesh would be too large.
 pub(crate) fn joined(scene: &Scene, format: Format) -> Result<Joined<'_>, Unwritable> {
     let mut meshes = Vec::new();
     let mut losses = Vec::new();

@@ -137,18 +137,18 @@ pub struct ReadOptions {
     pub strict: bool,
     /// Whether reading marks copies of vertices. Reading makes copies when it splits vertices so that the mesh becomes
     /// a manifold. If the mesh is then written to an `.obj`, `.ply`, `.off`, `.gltf` or `.glb` file, the marked copies
-    /// are merged again, and the file has the same vertices as the file that was read. This option is for conversions
-    /// without edits.
+    /// are merged again. The written file then has the same vertices as the file that was read. This option is for
+    /// conversions without edits.
     pub keep_vertices: bool,
-    /// The memory budget in bytes. This is the maximum size of all images together, and also the maximum size of the
-    /// decompressed content of a `.gz` file. Defaults to 4 GiB.
+    /// The memory budget in bytes. The budget is the maximum size of all images together, and also the maximum size of
+    /// the decompressed content of a `.gz` file. Defaults to 4 GiB.
     pub budget: Option<u64>,
 }
 
 /// The content of a file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Loaded {
-    /// The objects in the order of the file. Their names are unique within the file.
+    /// The objects in the order of the file. The names of the objects are unique within the file.
     pub objects: Vec<Object>,
     /// The nodes that place the objects. Empty if the file has no nodes.
     pub graph: Graph,
@@ -161,9 +161,9 @@ pub struct Loaded {
 /// How to write a file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct WriteOptions {
-    /// The origin of the content, such as the digest of a recipe. Stored as a comment in OBJ, MTL, PLY and OFF, in
-    /// the header of STL, as `asset.extras.meshwright` in glTF, and in the header of `.mws`. The Bezier formats
-    /// and tables (`.csv`, `.npz`) cannot store it.
+    /// The origin of the content, such as the digest of a recipe. The origin is stored as a comment in OBJ, MTL, PLY
+    /// and OFF, in the header of STL, as `asset.extras.meshwright` in glTF, and in the header of `.mws`. The Bezier
+    /// formats and tables (`.csv`, `.npz`) cannot store the origin.
     pub provenance: Option<String>,
     /// How the images of materials are written. If `None`, images are embedded in `.glb` files. For `.gltf` and `.obj`
     /// files, images in the folder of the original model are copied to the folder of the written file. OBJ files cannot
@@ -176,7 +176,8 @@ pub struct WriteOptions {
     /// other formats are refused.
     pub quantization: Option<Quantization>,
     /// For glTF, the maximum number of sets of four joints that are written for each vertex of a skinned mesh. If
-    /// `None`, the number of sets in the original file of the mesh, or 1 if the mesh was not read from a file.
+    /// `None`, the maximum is the number of sets in the original file of the mesh, or 1 if the mesh was not read from a
+    /// file.
     pub weight_sets: Option<u32>,
     /// The kind of elements of a `.csv` file. Each element has a row. If `None`, the rows list vertices. If this option
     /// is set, files of other formats are refused.
@@ -188,13 +189,13 @@ pub struct WriteOptions {
 /// The files that were written.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WriteReport {
-    /// The files. The last one is the requested file.
+    /// The files. The last file in the list is the requested file.
     pub files: Vec<PathBuf>,
     /// The total size of the files in bytes.
     pub bytes: u64,
     /// The content of the scene that the files do not store.
     pub losses: Vec<Loss>,
-    /// The effects of compression and quantization. `None` if neither was requested.
+    /// The effects of compression and quantization. `None` if neither compression nor quantization was requested.
     pub packing: Option<PackingReport>,
 }
 
@@ -202,7 +203,7 @@ pub struct WriteReport {
 ///
 /// # Errors
 ///
-/// [`ReadError`] with the position if the file cannot be read or breaks the rules of its format.
+/// Returns a [`ReadError`] with the position if the file cannot be read or breaks the rules of its format.
 pub fn read(store: &dyn Store, path: &Path, options: &ReadOptions) -> Result<Loaded, ReadError> {
     known_format(path)?;
     let mut loaded = read_bytes(store, path, store.read(path)?, options)?;
@@ -372,7 +373,7 @@ fn fail_if_left_out(path: &Path, notes: &[Note]) -> Result<(), ReadError> {
 ///
 /// # Errors
 ///
-/// [`ReadError`] if the file cannot be read, if the checked part breaks the rules of its format, or if
+/// Returns a [`ReadError`] if the file cannot be read, if the checked part breaks the rules of its format, or if
 /// [`ReadOptions::strict`] is set and some of the content would be left out.
 pub fn peek(store: &dyn Store, path: &Path, options: &ReadOptions) -> Result<Peek, ReadError> {
     let format = known_format(path)?;
@@ -441,8 +442,8 @@ pub fn peek(store: &dyn Store, path: &Path, options: &ReadOptions) -> Result<Pee
 ///
 /// # Errors
 ///
-/// [`WriteError`] if the format cannot store the scene or the files cannot be written. Existing files are then
-/// unchanged, unless the system failed to rename one of several files.
+/// Returns a [`WriteError`] if the format cannot store the scene or the files cannot be written. If writing fails,
+/// existing files are unchanged, unless the system failed to rename one of several files.
 pub fn write(
     store: &dyn Store,
     path: &Path,
@@ -494,9 +495,9 @@ fn write_placed(
         scene,
         files: mut all,
     } = images::settle(store, path, format, scene, options)?;
-    // The writers of OBJ, PLY, OFF and glTF use the marks to merge the copies of split vertices again. For all other
-    // formats, the marks are removed: the readers of these formats merge the copies by position, or the files contain
-    // all copies.
+    // In the scene, the copies of split vertices are marked. The writers of OBJ, PLY, OFF and glTF use these marks to
+    // merge the copies again. For all other formats, the marks of split vertices are removed. Either the readers of
+    // these formats merge the copies by position, or the files contain all copies.
     let scene = &*if keeps_vertices(path) {
         scene
     } else {

@@ -11,7 +11,7 @@ use crate::{Format, Rows, Storage, Stored};
 /// Content of a scene that a written file does not store.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Loss {
-    /// The name of the object. Empty if the loss concerns the whole scene, such as its cameras.
+    /// The name of the object. The name is empty if the loss concerns the whole scene, such as its cameras.
     pub object: String,
     /// The domain of the lost values. `None` if the loss concerns the object as a whole.
     pub domain: Option<Domain>,

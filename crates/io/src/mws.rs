@@ -174,7 +174,7 @@ mod tests {
         for i in 0..whole.len() {
             let mut changed = whole.clone();
             changed[i] ^= 1 << (i % 8);
-            // If a modified file can still be decoded, its meshes are valid.
+            // A modified file may be refused. If it can still be decoded, its meshes must be valid.
             if let Ok(scene) = scene_of(&changed, None, Placements::Keep) {
                 for mesh in scene.objects().iter().filter_map(|o| o.as_mesh()) {
                     assert_eq!(mesh.defects(), [], "byte {i}");

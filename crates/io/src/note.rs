@@ -343,8 +343,8 @@ pub(crate) struct Names {
 }
 
 impl Names {
-    /// Returns `name` if it is unused. Otherwise, returns the first unused name of `name.2`, `name.3` and so on, and
-    /// adds a note.
+    /// Returns `name` if it is unused. If `name` is used, returns the first unused name of `name.2`, `name.3` and so
+    /// on, and adds a note.
     pub(crate) fn unique(&mut self, name: &str, notes: &mut Notes) -> String {
         let mut new = name.to_owned();
         while !self.taken.insert(new.clone()) {
@@ -381,8 +381,8 @@ mod tests {
             ("animation channels left out", "animation channel left out"),
             ("members `extras` left out", "member `extras` left out"),
             (
-                "facet normals recomputed because they point away",
-                "facet normal recomputed because it points away",
+                "facet normals recomputed because they point away from the front of the facet",
+                "facet normal recomputed because it points away from the front of the facet",
             ),
             (
                 "uses of the extension \"a uses\" left out",

@@ -73,7 +73,7 @@ impl Bits {
         (1 << self.0) - 1
     }
 
-    /// Whether numbers are stored in one byte.
+    /// Whether numbers with this number of bits are stored in one byte.
     pub(crate) fn is_byte(self) -> bool {
         self.0 == 8
     }

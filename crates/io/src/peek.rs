@@ -19,7 +19,7 @@ pub struct Peek {
     pub graph: Graph,
     /// The content that reading would leave out, as far as it is known without building the objects. Examples are
     /// unused elements of a PLY file, statements of an OBJ file that do not describe polygons, and missing images and
-    /// material libraries. Reading can leave out more content.
+    /// material libraries. Reading can leave out content that is not listed here.
     pub left_out: Vec<Note>,
 }
 
@@ -33,7 +33,7 @@ pub struct PeekObject {
     /// The names of the materials of the object. `None` if the names are known only after reading.
     pub materials: Option<Vec<String>>,
     /// The attributes that the mesh can have, apart from those that [`PeekMesh`] describes. If [`PeekMesh::is_exact`]
-    /// is set, all attributes of the mesh. `None` if they are known only after reading.
+    /// is set, all attributes of the mesh. `None` if the attributes are known only after reading.
     pub attributes: Option<Vec<(Domain, String)>>,
 }
 
@@ -141,15 +141,15 @@ pub struct PeekMesh {
     /// The number of morph targets.
     pub targets: u64,
     /// The number of faces whose corners certainly have different vertices. Reading keeps these faces, unless a policy
-    /// drops them. In OBJ, OFF, PLY and binary STL files, these are the faces with at most 16 corners that have no
-    /// vertex twice. In `.mws` files, these are all faces. In other formats, the number is 0, because the vertices of
+    /// drops them. In OBJ, OFF, PLY and binary STL files, the faces that have at most 16 corners and no vertex twice
+    /// are counted. In `.mws` files, all faces are counted. In other formats, the number is 0, because the vertices of
     /// faces are not examined.
     pub simple_faces: u64,
     /// The number of corners of the faces that `simple_faces` counts.
     pub simple_corners: u64,
     /// Whether reading keeps all vertices of the file, and only splits some of them.
     pub keeps_vertices: bool,
-    /// Whether reading changes nothing, as in `.mws` files.
+    /// Whether reading gives the mesh without any changes, as from `.mws` files.
     pub is_exact: bool,
 }
 

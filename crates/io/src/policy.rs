@@ -5,9 +5,9 @@ use serde::{Deserialize, Serialize};
 
 /// How to handle polygons that do not form a clean mesh.
 ///
-/// Two cases are not configurable. A corner that repeats the vertex of the previous corner is removed: `f 1 2 2 3` is a
-/// triangle. A face that still contains a vertex twice is left out, because a mesh cannot represent such a face. Every
-/// change is reported as a [`Note`](crate::Note) with the affected elements.
+/// Repeated vertices in a face are always handled in the same way. A corner that repeats the vertex of the previous
+/// corner is removed: `f 1 2 2 3` is a triangle. A face that still contains a vertex twice is left out, because a mesh
+/// cannot represent such a face. Every change is reported as a [`Note`](crate::Note) with the affected elements.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Policies {
     /// Edges with more than two faces, and vertices at which groups of faces meet without a common edge.
@@ -16,8 +16,8 @@ pub struct Policies {
     pub orientation: Orientation,
     /// Faces with the same vertices as an earlier face, in the same or the opposite circular order.
     pub duplicates: CleanupPolicy,
-    /// Zero-area faces. The area counts as zero if it is at most 1e-14 times the square of the longest side, which
-    /// allows for rounding errors.
+    /// Zero-area faces. To allow for rounding errors, an area counts as zero if it is at most 1e-14 times the square of
+    /// the longest side.
     pub degenerate: CleanupPolicy,
     /// Vertices without a face.
     pub isolated: CleanupPolicy,

@@ -63,7 +63,7 @@ impl Polygons {
         self.offsets.len() - 1
     }
 
-    /// The arrays that give the positions of elements in notes.
+    /// The arrays from which notes take the positions of elements.
     pub(crate) fn arrays(&self) -> PolygonArrays<'_> {
         PolygonArrays {
             positions: &self.positions,
@@ -140,8 +140,9 @@ impl Polygons {
         gather(&mut self.attributes, Domain::Corner, &order);
     }
 
-    /// Applies the weights of morph targets, and then the joints. Without joints, applies `to_scene` instead. Returns
-    /// the number of normals that are left out. Removes the joint weights, which have no meaning without a skin.
+    /// Applies the weights of morph targets, and then the joints. If there are no joints, applies `to_scene` in their
+    /// place. Returns the number of normals that are left out. Removes the joint weights, which have no meaning without
+    /// a skin.
     pub(crate) fn apply_pose(&mut self, pose: &Pose, to_scene: &DAffine3) -> usize {
         let n = self.positions.len();
         pose.morph(&self.attributes, &mut self.positions);

@@ -24,13 +24,13 @@ pub(crate) enum Content<'a> {
 /// A function that appends a block of a few hundred kilobytes to a file.
 pub(crate) type Block<'a> = Box<dyn Fn(&mut Vec<u8>) + Send + Sync + 'a>;
 
-/// Writes all files to temporary files first. When all of them are complete, moves them to their paths in the given
-/// order. The last file is compressed if its name ends in `.gz`. Returns the paths and the total size in bytes.
+/// Writes all files to temporary files first. When all temporary files are complete, moves them to their paths in the
+/// given order. The last file is compressed if its name ends in `.gz`. Returns the paths and the total size in bytes.
 ///
 /// # Errors
 ///
-/// [`WriteError::Io`] with the file that could not be written. Existing files are then unchanged, unless the system
-/// failed to rename one of the later files.
+/// [`WriteError::Io`] with the file that could not be written. After this error, existing files are unchanged, unless
+/// the system failed to rename a file after others were already renamed.
 pub(crate) fn save(
     store: &dyn Store,
     files: Vec<(PathBuf, Content)>,
@@ -85,7 +85,8 @@ fn write_blocks(out: &mut (dyn Write + Send), blocks: &[Block]) -> io::Result<u6
     let mut ready: Vec<Vec<u8>> = Vec::new();
     let mut spare: Vec<Vec<u8>> = Vec::new();
     let mut n_bytes = 0;
-    // In the last round, no blocks are produced, and the last group is written.
+    // Each round writes one group of blocks and produces the next group. In the last round, only the last group is
+    // written.
     for group in blocks.chunks(in_group).chain([&[][..]]) {
         spare.resize_with(group.len(), Vec::new);
         let (written, ()) = rayon::join(

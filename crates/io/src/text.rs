@@ -107,7 +107,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// Reads the next word. A word ends before a blank, a line end, a backslash that continues the line, or the end of
-    /// the text. If the cursor is at one of these, the word is empty.
+    /// the text. If the cursor is already at the end of a word, the word is empty.
     pub(crate) fn word(&mut self) -> &'a [u8] {
         let start = self.at;
         while let Some(byte) = self.peek() {
@@ -299,7 +299,8 @@ pub(crate) fn is_not_finite(word: &[u8]) -> bool {
 ///
 /// # Errors
 ///
-/// If the text is in UTF-16 or UTF-32. The error is at the beginning of the text and names the encoding.
+/// If the text is in UTF-16 or UTF-32. The position of the error is the beginning of the text, and its message names
+/// the encoding.
 pub(crate) fn check_encoding(bytes: &[u8]) -> Result<(), Fault> {
     let is_wide = |first: usize| {
         let mut pairs = bytes.chunks_exact(2).take(16);

@@ -178,7 +178,8 @@ fn firsts(positions: &[DVec3]) -> Vec<u32> {
         .next_power_of_two()
         .min(MAX_BUCKETS);
     let keys = Keys::new();
-    // Within each chunk, positions are sorted by bucket and stored as hash and index.
+    // In `sorted`, the positions of each chunk are ordered by bucket. Each position is stored as its hash and its
+    // index.
     let mut sorted = mesh::zeroed::<u64>(positions.len());
     let chunks = sorted.chunks_mut(CHUNK).zip(positions.chunks(CHUNK));
     let starts: Vec<Vec<usize>> = parallel::consume(chunks, |chunk, (sorted, positions)| {
@@ -262,7 +263,7 @@ fn bits(p: DVec3) -> [u64; 3] {
     p.to_array().map(|x| (x + 0.0).to_bits())
 }
 
-/// Random keys of the hash. They protect against files that are crafted so that the hashes of all positions collide.
+/// Random keys of the hash, which protect against files that are crafted so that the hashes of all positions collide.
 struct Keys([u64; 3]);
 
 impl Keys {
@@ -299,7 +300,7 @@ fn low_half(product: u128) -> u64 {
     product as u64
 }
 
-/// Converts `i`, which is less than 2^32.
+/// Converts `i`, which is less than 2^32, to 32 bits.
 fn index(i: usize) -> u32 {
     u32::try_from(i).unwrap_or(u32::MAX)
 }

@@ -19,7 +19,7 @@ pub(crate) fn dense(mesh: &Mesh) -> Cow<'_, Mesh> {
     Cow::Owned(copy)
 }
 
-/// Appends a comment. `word` precedes each of its lines.
+/// Appends a comment, in which `word` precedes each line.
 pub(crate) fn push_comment(out: &mut Vec<u8>, word: &str, comment: Option<&str>) {
     for line in comment
         .into_iter()
@@ -51,7 +51,7 @@ pub(crate) fn uvs_of_vertices(mesh: &Mesh, uvs: &Values) -> Option<Values> {
     vertex_values(mesh, uvs, |a, b| bits(a) == bits(b))
 }
 
-/// The reason for the loss of non-finite numbers.
+/// The reason that is reported when non-finite numbers are lost.
 pub(crate) const NOT_FINITE: &str = "non-finite numbers, written as 0";
 
 /// Returns the values of a column. Replaces non-finite values by zero, and adds a loss for them.

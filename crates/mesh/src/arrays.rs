@@ -20,8 +20,8 @@ pub struct Connectivity {
     pub origin: Vec<VertexId>,
     /// For each half-edge, its face; [`FaceId::NONE`] on the boundary.
     pub face: Vec<FaceId>,
-    /// For each vertex, one of its outgoing half-edges. At a boundary vertex, this half-edge has no face. For an
-    /// isolated vertex, the entry is [`HalfEdgeId::NONE`].
+    /// For each vertex, one of its outgoing half-edges. At a boundary vertex, the entry is an outgoing half-edge
+    /// without a face. For an isolated vertex, the entry is [`HalfEdgeId::NONE`].
     pub vertex_half_edge: Vec<HalfEdgeId>,
     /// For each face, one of its half-edges.
     pub face_half_edge: Vec<HalfEdgeId>,
@@ -138,8 +138,8 @@ impl Mesh {
         self.n_living(Domain::Face)
     }
 
-    /// Returns the number of elements of this domain, including dead ones. Each column of the domain has
-    /// one value for each of them.
+    /// Returns the number of elements of this domain, including dead ones. Each column of the domain has this number of
+    /// values.
     #[inline]
     pub fn domain_len(&self, domain: Domain) -> usize {
         match domain {
@@ -242,8 +242,8 @@ impl Mesh {
         self.connectivity.face[h.index()].some()
     }
 
-    /// Returns an outgoing half-edge of `v`. If `v` is on the boundary, this half-edge has no face. Returns
-    /// `None` if `v` is isolated.
+    /// Returns an outgoing half-edge of `v`. If `v` is on the boundary, returns the outgoing half-edge that has no
+    /// face. Returns `None` if `v` is isolated.
     #[inline]
     pub fn vertex_half_edge(&self, v: VertexId) -> Option<HalfEdgeId> {
         self.connectivity.vertex_half_edge[v.index()].some()

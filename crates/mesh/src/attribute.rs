@@ -1,9 +1,9 @@
 //! Attributes: named, typed columns of values on vertices, corners, edges and faces.
 //!
-//! A column has one value for each element of its domain, and a [`Rule`] that defines what edits do with the
-//! values. The value of a corner is stored at its half-edge: the one that leaves the corner's vertex and lies
-//! on the corner's face. A half-edge without a face also has a value, but this value has no meaning. Edits
-//! keep that value at zero where this is cheap.
+//! A column has one value for each element of its domain, and a [`Rule`] that defines what edits do with the values.
+//! The value of a corner is stored at its half-edge: the one that leaves the corner's vertex and lies on the corner's
+//! face. A half-edge without a face also has a value, but this value has no meaning. Edits keep the value of a
+//! half-edge without a face at zero where this is cheap.
 //!
 //! Well-known attributes have constants ([`UV`], [`VERTEX_NORMAL`], ...). Programs may use any other name.
 
@@ -56,7 +56,7 @@ pub enum Rule {
     Interpolate,
     /// The values are unit vectors. New values are interpolated, then scaled to length 1. Transforms treat them as
     /// normals of the surface. Subdivision drops the column, because the vectors would be wrong. Many other operations
-    /// remove the normals for the same reason; see [`Mesh::remove_normals`](crate::Mesh::remove_normals).
+    /// also remove normals that would be wrong; see [`Mesh::remove_normals`](crate::Mesh::remove_normals).
     Normal,
     /// A new element gets the value of the old element that contained it. If no old element contained the new
     /// one, it gets the zero value. For example, both parts of a split edge keep the tags of the edge; a new

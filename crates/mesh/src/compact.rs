@@ -8,7 +8,7 @@ use crate::{Connectivity, EdgeId, FaceId, HalfEdgeId, Id, Mesh, VertexId};
 pub struct Renumbering {
     /// The new vertex for each old vertex index.
     pub vertices: Vec<VertexId>,
-    /// The new edge for each old edge index. Half-edge 2e + i becomes half-edge i of the new edge.
+    /// The new edge for each old edge index. Half-edge 2e + i, where i is 0 or 1, becomes half-edge i of the new edge.
     pub edges: Vec<EdgeId>,
     /// The new face for each old face index.
     pub faces: Vec<FaceId>,

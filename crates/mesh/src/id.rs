@@ -8,8 +8,8 @@ use bytemuck::{Pod, Zeroable};
 pub trait Id:
     Copy + Ord + fmt::Display + fmt::Debug + Pod + Send + Sync + Into<Element> + 'static
 {
-    /// The value that marks a missing element in the arrays of a
-    /// [`Connectivity`](crate::Connectivity). Accessors return `Option` instead.
+    /// The value that marks a missing element in the arrays of a [`Connectivity`](crate::Connectivity). Accessors
+    /// return an `Option` instead of this value.
     const NONE: Self;
 
     /// The domain of the attribute columns that ids of this kind index. A half-edge stands for the corner at its
@@ -36,8 +36,8 @@ macro_rules! id {
         pub struct $name(u32);
 
         impl $name {
-            /// The value that marks a missing element in the arrays of a
-            /// [`Connectivity`](crate::Connectivity). Accessors return `Option` instead.
+            /// The value that marks a missing element in the arrays of a [`Connectivity`](crate::Connectivity).
+            /// Accessors return an `Option` instead of this value.
             pub const NONE: Self = Self(u32::MAX);
 
             /// Creates the id with this index.

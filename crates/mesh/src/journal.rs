@@ -1,9 +1,9 @@
 //! Undo and redo of edits.
 //!
-//! [`Mesh::begin`] opens a journal. From then on every write records the value that it overwrites. [`Mesh::rollback`]
-//! restores the mesh bit for bit. [`Mesh::commit`] returns a [`Change`] that can be reverted later and then redone.
-//! Memory and time are proportional to the size of the change, not to the size of the mesh. While no journal is open, a
-//! write costs only one additional comparison.
+//! [`Mesh::begin`] opens a journal. While the journal is open, every write records the value that it overwrites.
+//! [`Mesh::rollback`] restores the mesh bit for bit. [`Mesh::commit`] returns a [`Change`] that can be reverted later
+//! and then redone. Memory and time are proportional to the size of the change, not to the size of the mesh. While no
+//! journal is open, a write costs only one additional comparison.
 //!
 //! Calls can be nested: each `begin` opens a level, which the matching `commit` or `rollback` ends. An inner
 //! `rollback` undoes the edits since the inner `begin`; an inner `commit` makes these edits part of the outer
@@ -14,7 +14,8 @@
 //! overwrites; this record is the change that redoes the edits.
 //!
 //! If the entries (without copies of whole arrays) take at least as much memory as the mesh plus 64 KiB, one copy of
-//! the mesh replaces them before the next edit starts. A level that has a copy of the mesh needs no further entries.
+//! the mesh replaces them before the next edit starts. If a level of the journal has a copy of the mesh, no further
+//! entries are recorded for it.
 
 use bytemuck::cast_slice_mut;
 use glam::DVec3;
@@ -53,8 +54,8 @@ const JOURNAL_ALLOWANCE: usize = 1 << 16;
 pub(crate) struct Journal {
     recorded: Change,
     levels: Vec<Level>,
-    /// The numbers of elements when the innermost level was opened. Only changes of these elements are
-    /// recorded. All numbers are 0 if the whole mesh was recorded.
+    /// The numbers of elements when the innermost level was opened. Changes are recorded only for elements that existed
+    /// at that time. All numbers are 0 if the whole mesh was recorded.
     lengths: Lengths,
 }
 

@@ -40,9 +40,9 @@ fn ordinary(v: DVec3) -> (DVec3, i32) {
 impl Mesh {
     /// Returns the area vector of a face: its length is the area, its direction is the normal.
     ///
-    /// The area vector is half the sum of the cross products of consecutive corners, relative to the first
-    /// corner (Newell's method). The result is exact for planar polygons. For other polygons, the length is the
-    /// area of the projection along the normal.
+    /// The area vector is half the sum of the cross products of consecutive corners, relative to the first corner
+    /// (Newell's method). The result is exact for planar polygons. If a polygon is not planar, the length is the area
+    /// of its projection along the normal.
     pub fn area_vector(&self, f: FaceId) -> DVec3 {
         let mut corners = self.face_vertices(f).map(|v| self.position(v));
         let Some(first) = corners.next() else {

@@ -1,6 +1,6 @@
 //! Runs work on all threads, in blocks of elements. No result depends on the number of threads.
 //!
-//! All functions share one loop of the crate `rayon`. The loop calls a `dyn` closure. A generic loop would be compiled
+//! All functions share one loop of the crate `rayon`. The loop calls a `dyn` closure: a generic loop would be compiled
 //! again for every closure, which would slow down builds.
 
 use std::ops::Range;
@@ -51,8 +51,8 @@ pub fn map<R: Send>(n: usize, make: impl Fn(usize) -> R + Sync) -> Vec<R> {
     results(n, &make)
 }
 
-// A function that takes a `dyn` closure is compiled once for each type of results or elements, and not once for each
-// closure.
+// If a function takes a `dyn` closure, it is not compiled again for each closure. It is compiled once for each type of
+// results or elements.
 
 fn results<R: Send>(n: usize, make: &(dyn Fn(usize) -> R + Sync)) -> Vec<R> {
     let mut results: Vec<Mutex<Option<R>>> = Vec::with_capacity(n);
@@ -103,10 +103,10 @@ pub fn collect<T: Send>(n: usize, value: impl Fn(usize) -> T + Sync) -> Vec<T> {
     });
     #[expect(
         unsafe_code,
-        reason = "safe code would collect values of types without a zero value in blocks and copy them once more"
+        reason = "types may have no zero value, so safe code would collect the blocks separately and copy all values once more"
     )]
     // SAFETY: the capacity is at least n, and `fill` has passed each of the first n slots to the closure, which wrote
-    // it. If `value` panics, this line is not reached.
+    // it. If the closure `value` panics, `set_len` is not called.
     unsafe {
         all.set_len(n);
     }
@@ -182,8 +182,8 @@ where
     fold(n, T::default(), term, |a, b| a + b)
 }
 
-/// Folds like [`sum`], with the operation `join` instead of addition and `start` instead of zero. Every block starts
-/// with `start`, so joining a value with `start` must not change the value.
+/// Folds like [`sum`], with the operation `join` instead of addition and `start` instead of zero. The fold of every
+/// block begins with `start`. Therefore, joining a value with `start` must not change the value.
 pub fn fold<T: Copy + Send + Sync>(
     n: usize,
     start: T,
@@ -194,8 +194,9 @@ pub fn fold<T: Copy + Send + Sync>(
     blocks.into_iter().fold(start, join)
 }
 
-/// Returns the number of elements in a block of a list of `n` elements. Blocks of short lists are smaller, so that the
-/// work is spread over all threads. Sums do not call this function: their blocks always have [`BLOCK`] elements.
+/// Returns the number of elements in a block of a list of `n` elements. Short lists are divided into smaller blocks
+/// than long lists, so that the work is spread over all threads. Sums do not call this function: their blocks always
+/// have [`BLOCK`] elements.
 fn block_for(n: usize) -> usize {
     const SMALLEST: usize = 64;
     (n / (8 * rayon::current_num_threads())).clamp(SMALLEST, BLOCK)

@@ -13,9 +13,9 @@ use crate::{EdgeId, HalfEdgeId, Mesh};
 const STEPS: [usize; 4] = [32, 24, 16, 8];
 
 impl Mesh {
-    /// Asks the processor to prefetch the memory that later edits will use, if these edit the edges after index `at` of
-    /// `edges`, in order. The call is only a hint: the mesh does not change. `edges` may contain ids of elements that
-    /// are dead or do not exist.
+    /// Asks the processor to prefetch memory for later edits of the edges after index `at` of `edges`, in order. The
+    /// call is only a hint: the mesh does not change. `edges` may contain ids of elements that are dead or do not
+    /// exist.
     ///
     /// # Examples
     ///
@@ -34,7 +34,7 @@ impl Mesh {
             let e = edges.get(at + STEPS[step]).copied();
             e.into_iter().flat_map(EdgeId::half_edges)
         };
-        // Both halves are adjacent in memory.
+        // The two halves of an edge are adjacent in memory, so only the first half is prefetched.
         if let Some(h) = halves(0).next() {
             self.fetch(h);
         }

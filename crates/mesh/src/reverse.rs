@@ -8,10 +8,10 @@
 //!  a --- h -> b         a <- h --- b       next'(h)   = prev(h)
 //! ```
 //!
-//! In a face, the half-edge h that leaves a vertex v becomes the half-edge that ends at v. The half-edge before
-//! h, prev(h), becomes the one that leaves v. So prev(h) replaces h in three roles: as the half-edge of v (if
-//! h is on the boundary, so is prev(h)), as the half-edge of the face, and as the half-edge that stores the
-//! values of the corner at v. Reversing twice restores the connectivity of all living elements.
+//! In a face, the half-edge h that leaves a vertex v becomes the half-edge that ends at v. The half-edge before h,
+//! prev(h), becomes the one that leaves v. So prev(h) replaces h in three roles: as the half-edge of v, as the
+//! half-edge of the face, and as the half-edge that stores the values of the corner at v. If h is on the boundary, so
+//! is prev(h). Reversing twice restores the connectivity of all living elements.
 
 use crate::attribute::Attributes;
 use crate::{Connectivity, Domain, HalfEdgeId, Mesh};
@@ -134,7 +134,7 @@ mod tests {
     fn reversing_twice_gives_the_same_mesh() {
         for mut mesh in meshes().into_iter().map(numbered) {
             let twice = mesh.reversed().reversed();
-            // Entries of dead elements have no meaning.
+            // The entries of dead elements have no meaning, so the meshes are compacted before they are compared.
             assert_eq!(twice.is_dense(), mesh.is_dense());
             mesh.compact();
             let mut twice = twice;

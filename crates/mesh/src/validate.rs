@@ -1,12 +1,11 @@
-//! Validation: listing every broken invariant with its element, and a faster test of whether any invariant is
-//! broken.
+//! Validation: lists every broken invariant with its element. A faster test says whether any invariant is broken.
 
 use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::{Connectivity, Domain, EdgeId, Element, FaceId, HalfEdgeId, Id, Mesh, VertexId};
 
-/// A broken invariant. The order is that of the list in the crate's documentation.
+/// A broken invariant. The variants have the order of the list of invariants in the crate's documentation.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Defect {
     /// The length of an array does not match the number of elements.
@@ -20,10 +19,10 @@ pub enum Defect {
     Dangling {
         /// The array.
         array: &'static str,
-        /// The element that the entry belongs to.
+        /// The element whose array entry is invalid.
         element: Element,
     },
-    /// The half-edge is the `next` of no half-edge, or of several.
+    /// The half-edge must be the `next` of exactly one half-edge, but it is the `next` of none or of several.
     #[error("{0} must be the `next` of exactly one half-edge")]
     NextNotPermutation(HalfEdgeId),
     /// `next` lies on a different face.
@@ -58,7 +57,8 @@ pub enum Defect {
     /// A coordinate of a position is infinite or not a number.
     #[error("the position of {0} is not finite")]
     NotFinite(VertexId),
-    /// The length of a column is not the number of elements of its domain.
+    /// The length of an attribute column differs from the number of elements in its domain (vertices, edges, faces or
+    /// corners).
     #[error("the {domain} attribute {name} has the wrong length")]
     ColumnLength {
         /// The domain.
@@ -99,8 +99,8 @@ impl Mesh {
     /// Returns every broken invariant with its element; an empty list for a valid mesh. Never panics,
     /// whatever the arrays contain. Takes linear time.
     ///
-    /// If array lengths are wrong or entries refer to missing elements, the invariants that depend on them
-    /// are not checked.
+    /// If an array has the wrong length, or an entry refers to a missing element, then the invariants that need this
+    /// array or entry are not checked.
     pub fn defects(&self) -> Vec<Defect> {
         let mut defects = Vec::new();
         self.check_lengths(&mut |defect| defects.push(defect));
@@ -141,9 +141,10 @@ impl Mesh {
                 );
                 is_permutation && is_linked
             }
-            // `next` is a permutation that stays on its face. So a walk around a face returns to its start, and
-            // walks around different faces are disjoint. Together the walks visit all corners only if every
-            // face is one loop. The same is true of walks around vertices.
+            // `next` is a permutation of the half-edges, and it leads to a half-edge of the same face. Therefore a walk
+            // around a face returns to its start, and the walks around different faces are disjoint. All these walks
+            // together visit all corners only if the half-edges of each face form a single loop. The walks around
+            // vertices are checked in the same way.
             && {
                 let faces = |e| self.edge_faces(e).into_iter().flatten().count();
                 self.sum(|f| self.loop_of_face(f, usize::MAX)) == self.sum(|e| Ok(faces(e)))
@@ -215,7 +216,7 @@ impl Mesh {
         check_entry("face_half_edge", f, has_edge, report);
     }
 
-    /// Checks invariants 3 and 4, but not whether `next` is a permutation.
+    /// Checks invariants 3 and 4 of the crate's documentation at one half-edge, except that `next` is a permutation.
     fn check_links(&self, h: HalfEdgeId, report: ReportDefect) {
         let (next, twin) = (self.next(h), h.twin());
         if self.face(next) != self.face(h) {
@@ -233,7 +234,8 @@ impl Mesh {
         }
     }
 
-    /// Checks invariants 3 to 7, provided that every entry refers to an existing element.
+    /// Checks invariants 3 to 7 of the crate's documentation. Every entry of the arrays must refer to an existing
+    /// element.
     fn check_loops(&self, report: ReportDefect) {
         let mut n_reached = vec![0_u8; self.domain_len(Domain::Corner)];
         let mut corners = vec![0_usize; self.domain_len(Domain::Face)];
@@ -344,7 +346,7 @@ impl Mesh {
     }
 }
 
-/// Reports the entry of `element` in `array` if the element that the entry refers to does not exist.
+/// Reports a defect if the entry of `element` in `array` refers to an element that does not exist.
 #[inline]
 fn check_entry(
     array: &'static str,
@@ -358,7 +360,7 @@ fn check_entry(
     }
 }
 
-/// Whether a check reports no defect.
+/// Whether `check` reports no defect.
 fn finds_no_defect(check: impl FnOnce(ReportDefect)) -> bool {
     let mut finds_no_defect = true;
     check(&mut |_| finds_no_defect = false);

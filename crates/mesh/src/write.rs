@@ -1,6 +1,6 @@
-//! Writing single entries of the arrays, for the edits of this crate. An open journal records the
-//! overwritten values. Edits must change connectivity only through these functions, so that every
-//! edit can be undone.
+//! Functions that write single entries of the mesh arrays. The edits of this crate use them. If a journal is open, each
+//! write records the value that it overwrites. Edits must change connectivity only through these functions, so that
+//! every edit can be undone.
 
 use glam::DVec3;
 
@@ -52,7 +52,7 @@ impl Mesh {
     }
 
     /// Adds an edge between two vertices, with zero attribute values. The caller must set `face` and `next` of both
-    /// halves.
+    /// half-edges.
     pub(crate) fn push_edge(&mut self, origin: VertexId, target: VertexId) -> EdgeId {
         let e = EdgeId::new(self.connectivity.next.len() / 2);
         self.connectivity.next.extend([HalfEdgeId::NONE; 2]);
@@ -82,39 +82,41 @@ impl Mesh {
         }
     }
 
-    /// Copies all values of element `from` to element `to`, regardless of their rules.
+    /// Copies all attribute values of element `from` to element `to`, even of attributes whose rule does not copy
+    /// values.
     #[inline]
     pub(crate) fn copy_values<I: Id>(&mut self, from: I, to: I) {
         self.edit_values(to, |column| column.values.copy(from.index(), to.index()));
     }
 
-    /// Exchanges the values of two elements, regardless of their rules.
+    /// Exchanges the attribute values of two elements, even of attributes whose rule does not copy values.
     pub(crate) fn swap_values<I: Id>(&mut self, a: I, b: I) {
         self.edit_values(b, |_| {});
         self.edit_values(a, |column| column.values.swap(a.index(), b.index()));
     }
 
-    /// Negates the normals of an element.
+    /// Negates the normals that are stored as attributes of an element.
     pub(crate) fn negate_normals<I: Id>(&mut self, element: I) {
         let i = element.index();
         self.edit_values(element, |column| column.negate_normals(i..i + 1));
     }
 
-    /// Sets the interpolated values of element `to`, which lies between `a` and `b` at `t` (0 at `a`, 1 at
-    /// `b`). Columns whose rule does not interpolate stay as they are.
+    /// Interpolates the attribute values of elements `a` and `b` at the parameter `t` (0 at `a`, 1 at `b`), and stores
+    /// the result at element `to`. Attributes whose rule does not interpolate are not changed.
     #[inline]
     pub(crate) fn mix_values<I: Id>(&mut self, a: I, b: I, t: f64, to: I) {
         self.edit_values(to, |column| column.mix(a, b, t, to));
     }
 
-    /// Sets the interpolated values of element `to` to the mean of the values of `from`. Columns whose
-    /// rule does not interpolate stay as they are. `from` may contain `to`.
+    /// Sets the attribute values of element `to` to the mean of the values of the elements `from`. Attributes whose
+    /// rule does not interpolate are not changed. `from` may contain `to`.
     pub(crate) fn average_values<I: Id>(&mut self, from: &[I], to: I) {
         self.edit_values(to, |column| column.average(from, to));
     }
 
-    /// Merges the values of edge `from` into edge `to`, when the two become one edge. The larger number is kept, and a
-    /// tag is set if either edge had it. Columns of other types stay as they are.
+    /// Merges the attribute values of edge `from` into edge `to`, when the two become one edge. For a floating-point
+    /// number, the larger of the two values is kept. For a tag, `to` gets the tag if either edge has it. Values of
+    /// other types are not changed.
     pub(crate) fn merge_values(&mut self, from: EdgeId, to: EdgeId) {
         let (source, target) = (from.index(), to.index());
         self.edit_values(to, |column| match &mut column.values {
@@ -124,11 +126,12 @@ impl Mesh {
         });
     }
 
-    /// Updates the values of corner `to` when an edge at its vertex collapses to the point at `t` (0 at the first end
-    /// of the edge, 1 at the second). For each side of the edge that has a face, `sides` has the two corners of this
-    /// face at the ends of the edge. Corner `to` is at end `end` of the edge (0 or 1). If `to` has the same value as
-    /// the corner of one side at this end, `to` gets the interpolated value of that side. `to` must not be one of the
-    /// corners in `sides`.
+    /// Updates the attribute values of corner `to` when an edge at its vertex collapses to a point. The parameter `t`
+    /// of this point is 0 at the first end of the edge and 1 at the second end. `sides` has one entry for each side of
+    /// the edge. For a side with a face, the entry contains the two corners of this face at the ends of the edge. `end`
+    /// (0 or 1) is the end of the edge at which corner `to` lies. If one of the sides has a corner at this end with the
+    /// same value as `to`, then `to` gets the value interpolated between the two corners of that side. `to` must not be
+    /// one of the corners in `sides`.
     pub(crate) fn follow_values(
         &mut self,
         sides: [Option<[HalfEdgeId; 2]>; 2],
@@ -149,7 +152,7 @@ impl Mesh {
         !self.attributes.of(Domain::Corner).is_empty()
     }
 
-    /// Changes the values of an element in all columns. If a journal is open, the old values are first recorded.
+    /// Changes the values of an element in all attribute columns. If a journal is open, first records the old values.
     #[inline]
     fn edit_values<I: Id>(&mut self, element: I, edit: impl Fn(&mut Column)) {
         let columns = self.attributes.of_mut(I::DOMAIN);
@@ -162,7 +165,7 @@ impl Mesh {
         columns.iter_mut().for_each(edit);
     }
 
-    /// Removes the columns whose rule is [`Rule::Drop`](crate::Rule::Drop), and bounds the size of the journal.
+    /// Removes the attributes whose rule is [`Rule::Drop`](crate::Rule::Drop), and limits the size of the journal.
     /// Every edit of the connectivity calls this function before its first change.
     #[inline]
     pub(crate) fn drop_columns_by_rule(&mut self) {

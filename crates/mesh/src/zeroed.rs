@@ -1,11 +1,11 @@
 //! Large arrays.
 //!
-//! The system maps each page of memory when it is first touched. For an array that is written once, mapping
-//! pages of 4 KiB takes as long as writing the array; mapping pages of 2 MiB takes a third of that time.
+//! The system maps each page of memory when it is first touched. If an array is written only once, mapping its memory
+//! in pages of 4 KiB takes as long as writing it. With pages of 2 MiB, mapping takes a third of this time.
 
 use bytemuck::Zeroable;
 
-/// Arrays of at least this many bytes request large pages. Smaller arrays would waste memory.
+/// Arrays of at least this many bytes request large pages. For smaller arrays, large pages would waste memory.
 #[cfg(any(target_os = "linux", test))]
 const LARGE: usize = 8 << 20;
 
@@ -18,8 +18,8 @@ pub struct OutOfMemory {
     pub bytes: usize,
 }
 
-/// Returns `n` zero values. The memory is first touched when it is written, so the threads that fill the array
-/// share the work of mapping its pages. Large arrays request large pages from the system.
+/// Returns `n` zero values. The memory of the array is not touched before it is written. The threads that fill the
+/// array therefore share the work of mapping its pages. Large arrays request large pages from the system.
 ///
 /// # Panics
 ///
@@ -32,7 +32,7 @@ pub fn zeroed<T: Zeroable>(n: usize) -> Vec<T> {
     new
 }
 
-/// Returns an empty list with space for `n` values. As in [`zeroed`], large lists request large pages.
+/// Returns an empty list with space for `n` values. Like [`zeroed`], requests large pages for large lists.
 ///
 /// # Panics
 ///
@@ -46,18 +46,18 @@ pub(crate) fn reserved<T>(n: usize) -> Vec<T> {
     new
 }
 
-/// Checks that the system has memory for `bytes` more bytes. Computations that allocate several large arrays call this
-/// function first, because a failed allocation of a standard collection aborts the program.
+/// Checks that the system has memory for `bytes` more bytes. Call this function before a computation that allocates
+/// several large arrays: if an allocation of a standard collection fails, the program aborts.
 ///
 /// # Panics
 ///
-/// Unwinds with [`OutOfMemory`] if the system does not have this memory.
+/// Unwinds with [`OutOfMemory`] if the system does not have `bytes` bytes of free memory.
 pub fn require_memory(bytes: usize) {
     let mut probe: Vec<u8> = Vec::new();
     if probe.try_reserve_exact(bytes).is_err() {
         unwind(bytes);
     }
-    // Without this line, the compiler can remove the allocation.
+    // Without `black_box`, the compiler can remove the allocation.
     std::hint::black_box(&probe);
 }
 

@@ -17,8 +17,8 @@ const RESERVED: [&str; 9] = [
     "uv",
 ];
 
-/// The name of a new attribute. It must not be empty and must not start or end with whitespace. Names with a fixed
-/// meaning, such as `uv`, `normal` and `color`, are not allowed.
+/// The name of a new attribute. The name must not be empty and must not start or end with whitespace. Names with a
+/// fixed meaning, such as `uv`, `normal` and `color`, are not allowed.
 #[derive(Clone, Debug, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(try_from = "String", into = "String")]
 #[schemars(inline)]

@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 use progress::Progress;
 use store::{Entry, NewFile, Store, StoreError};
 
-/// The maximum number of bytes that are written between two checks for cancellation.
+/// The number of bytes after which a write checks for cancellation.
 const PIECE: usize = 1 << 20;
 
-/// A store that reports progress while files are written. If the run is canceled, writing fails.
+/// A store that reports progress while it writes files. If the run is canceled, the write fails.
 pub struct CancellableStore<'a> {
     store: &'a dyn Store,
     progress: &'a dyn Progress,

@@ -1,4 +1,4 @@
-//! The context that an operation runs in: progress, cancellation, the random stream, files, the memory budget.
+//! The context in which an operation runs: progress reports, cancellation, random seeds, files and the memory budget.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -8,15 +8,15 @@ use scene::Scene;
 
 use crate::{CancellableStore, Files, OpError};
 
-/// The context that an operation runs in.
+/// The context in which an operation runs.
 pub struct Context<'a> {
     progress: &'a dyn Progress,
     files: &'a Files,
     /// The objects named in the step's `on:`; `None` if the step acts on all objects that it supports.
     pub on: Option<&'a [String]>,
-    /// The label of the step in the recipe. The selection `Random` is seeded with this label and with its own `seed`,
-    /// so two steps with the same seed select different elements. Random positions and numbers, such as those of
-    /// `Scatter` and `Displace`, depend only on their `seed`.
+    /// The label of the step in the recipe. The selection `Random` combines this label with its own `seed`, so two
+    /// steps with the same seed select different elements. Random positions and numbers, such as those of `Scatter` and
+    /// `Displace`, depend only on their `seed`.
     pub stream: &'a str,
     /// The memory budget of meshes, in bytes.
     pub budget: u64,
@@ -24,7 +24,8 @@ pub struct Context<'a> {
     pub materials: Vec<String>,
     /// The name of the object that is being changed.
     object: String,
-    /// The other objects of the scene; `None` for an object that is not a mesh.
+    /// The other objects of the scene, each with its name and its mesh. The mesh is `None` if the object has another
+    /// kind of geometry.
     others: Vec<(String, Option<Arc<Mesh>>)>,
     /// Notes on the selections of the step, for its report.
     notes: Mutex<Vec<String>>,
@@ -46,8 +47,8 @@ impl<'a> Context<'a> {
         }
     }
 
-    /// Reports that `done` of `total` parts of the work are done. Every operation calls this method before its first
-    /// change and at least every few milliseconds.
+    /// Reports to the user that `done` of `total` parts of the work are finished. Every operation calls this method
+    /// before its first change and at least every few milliseconds.
     ///
     /// # Errors
     ///
@@ -56,9 +57,9 @@ impl<'a> Context<'a> {
         Ok(self.progress.report(what, done, total)?)
     }
 
-    /// Sets the object on which selections are evaluated. Stores the materials of this object, and the other objects
-    /// for [`other_mesh`](Self::other_mesh). Until [`clear_object`](Self::clear_object) is called, the context shares
-    /// the meshes of the other objects with the scene.
+    /// Sets the object that the step changes and whose elements selections select. Also stores the materials of this
+    /// object, and the other objects of the scene for [`other_mesh`](Self::other_mesh). The context shares the meshes
+    /// of the other objects with the scene until [`clear_object`](Self::clear_object) is called.
     pub fn set_object(&mut self, scene: &Scene, name: &str) {
         let (mut materials, mut others) = (Vec::new(), Vec::new());
         for object in scene.objects() {
@@ -73,15 +74,15 @@ impl<'a> Context<'a> {
         self.others = others;
     }
 
-    /// Clears the object that [`set_object`](Self::set_object) has set.
+    /// Clears everything that [`set_object`](Self::set_object) has stored.
     pub fn clear_object(&mut self) {
         self.materials.clear();
         self.object.clear();
         self.others.clear();
     }
 
-    /// Returns the mesh of another object of the scene, as it is before the step. `user` is the caller as named in
-    /// messages, such as `Project`.
+    /// Returns the mesh of another object of the scene, in its state before the step. `user` is the name of the calling
+    /// operation in error messages, such as `Project`.
     ///
     /// # Errors
     ///
@@ -128,8 +129,9 @@ impl<'a> Context<'a> {
         self.progress
     }
 
-    /// Returns the store of the run, for writing long files. Writing reports progress, and fails if the run is
-    /// canceled. After such a failure, [`advance`](Self::advance) returns [`OpError::Cancelled`].
+    /// Returns the store of the run, for writing long files. Writes to this store report progress and fail if the run
+    /// is canceled. If a write failed because of the cancellation, [`advance`](Self::advance) then returns
+    /// [`OpError::Cancelled`].
     pub fn cancellable_store(&self) -> CancellableStore<'_> {
         CancellableStore::new(&*self.files.store, self.progress)
     }

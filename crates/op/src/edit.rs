@@ -18,8 +18,8 @@ pub enum OnRefusal {
 }
 
 impl OnRefusal {
-    /// Returns the planned number of edited elements: the number of `selected` elements or, if refusals are skipped,
-    /// from 0 to this number.
+    /// Returns the planned number of edited elements: the number of selected elements. If refusals are skipped, it is
+    /// any number from 0 to the number of selected elements.
     #[must_use]
     pub fn done(self, selected: Range) -> Range {
         match self {
@@ -40,7 +40,7 @@ impl OnRefusal {
     ///
     /// # Errors
     ///
-    /// Returns `refused` for [`OnRefusal::Error`], and for any error that is not a refusal.
+    /// Returns the error `refused` if this is [`OnRefusal::Error`], or if the error is not a refusal.
     pub fn refuse(self, refused: OpError, report: &mut Report) -> Result<(), OpError> {
         match self {
             Self::Error => Err(refused),
@@ -69,12 +69,12 @@ impl From<Seams> for mesh::Seams {
     }
 }
 
-/// An element, or a pair of elements, that an edit changes.
+/// The target of an edit: an element, or a pair of elements.
 pub trait EditTarget: Copy {
     /// Returns the elements.
     fn elements(self) -> Vec<Element>;
 
-    /// Asks the processor to prefetch the memory that the edits after index `at` of the list will access.
+    /// Asks the processor to prefetch the memory for the edits that follow index `at` in the list.
     fn fetch_ahead(_: &Mesh, _: &[Self], _at: usize) {}
 }
 
@@ -107,16 +107,17 @@ impl<E: EditTarget> EditTarget for [E; 2] {
     }
 }
 
-/// Edits the elements in order. Each edit is checked against the mesh as edited so far.
+/// Edits the elements in order. Each edit is checked against the mesh as the edits before it have changed it.
 ///
-/// The report counts the edits and, for [`OnRefusal::Skip`], the refused edits by reason. Elements that an earlier edit
-/// of the same call removed count as refused. `what` is the name of the task that progress
-/// reports show.
+/// The report counts the edits and, for [`OnRefusal::Skip`], the refused edits by reason. If an earlier edit of the
+/// same call has removed an element, the edit of that element counts as refused. `what` is the name of the task that
+/// progress reports show.
 ///
 /// # Errors
 ///
-/// Returns [`OpError::Cancelled`] if canceled. With [`OnRefusal::Error`], returns the first refusal. The mesh can then
-/// be partly edited. The operation returns the error, and its caller rolls the edits back.
+/// Returns [`OpError::Cancelled`] if the run was canceled. With [`OnRefusal::Error`], returns the first refusal as the
+/// error. If this function returns an error, some of the elements may already be edited. The operation must return the
+/// error, and the caller of the operation undoes the edits.
 pub fn edit_each<I: EditTarget>(
     mesh: &mut Mesh,
     elements: &[I],

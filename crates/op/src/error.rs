@@ -18,39 +18,39 @@ pub enum Refusal {
     Boundary,
     /// An edge has a face on both sides, and the edit needs a boundary edge.
     NotBoundary,
-    /// A face is not a triangle, and the edit supports only triangles.
+    /// A face is not a triangle, but the edit needs a triangle.
     NotTriangle,
     /// Both triangles of an edge have the same opposite vertex.
     SameOpposite,
-    /// One face lies, or would lie, on both sides of an edge.
+    /// The same face lies on both sides of an edge, or would after the edit.
     SameFace,
-    /// Two vertices would be joined by a second edge.
+    /// The edit would create a second edge between two vertices.
     DuplicateEdge,
-    /// A vertex has too few edges for the edit.
+    /// A vertex does not have enough edges for the edit.
     FewEdges,
-    /// A face has too few corners for the edit.
+    /// A face does not have enough corners for the edit.
     FewCorners,
     /// A face would have the same vertex at two corners.
     RepeatedVertex,
-    /// Around an edge, no face would remain, or only two faces that lie back to back.
+    /// The faces around an edge would all vanish, or only two faces would remain that lie back to back.
     Vanishes,
-    /// The ends of an edge have a common neighbor that is not a corner of a triangle beside the edge, so the ends
-    /// cannot be merged.
+    /// The two ends of an edge cannot be merged because they have a common neighbor that is not a corner of a triangle
+    /// at the edge.
     Link,
-    /// An edge inside the surface joins two boundary vertices, so its ends cannot be merged.
+    /// The two ends of an edge cannot be merged because both lie on the boundary, but the edge does not.
     JoinsBoundaries,
     /// Corner attributes differ between the two sides of an edge.
     Seam,
-    /// A position on an edge is not strictly between its ends, or two bevels of an edge would overlap.
+    /// A position on an edge is not strictly between the ends of the edge, or two bevels of an edge would overlap.
     OutsideEdge,
     /// A coordinate or length is not finite, or is outside its range.
     BadNumber,
-    /// The faces around a vertex would be separated into several fans.
+    /// The edit would separate the faces around a vertex into several fans.
     Pinch,
-    /// The faces are only a part of their connected component.
+    /// The given faces are only a part of their connected component, and the edit needs the whole component.
     PartOfComponent,
     /// The elements do not have the relation that the edit needs. For example, two vertices are not corners of a common
-    /// face, or an element is given twice.
+    /// face, or the same element is given twice.
     WrongPlace,
     /// An element, tag, attribute, material or path along edges that the step needs does not exist, or no longer
     /// exists.
@@ -115,9 +115,9 @@ pub enum OpError {
     Refused {
         /// The reason.
         reason: Refusal,
-        /// The reason in words, with the names of the elements.
+        /// A message that describes the refusal and names the elements.
         message: String,
-        /// The elements that caused the refusal, as ids of the mesh at the time of the refusal.
+        /// The elements that caused the refusal. The ids of the elements belong to the mesh at the time of the refusal.
         elements: Vec<Element>,
         /// The locations of the elements.
         places: Vec<ErrorLocation>,
@@ -202,7 +202,8 @@ impl OpError {
         }
     }
 
-    /// Sets the locations of the elements, if the error is a refusal. `object` is the name of the object with the mesh.
+    /// Stores where the elements of the error are, if the error is a refusal. `object` is the name of the object with
+    /// the mesh.
     #[must_use]
     pub(crate) fn placed(mut self, object: &str, mesh: &Mesh) -> Self {
         if let Self::Refused {

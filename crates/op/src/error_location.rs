@@ -39,7 +39,7 @@ mod tests {
         }
     }
 
-    /// Runs the operation on a tetrahedron. Returns its error, and the locations in the error.
+    /// Applies `SplitAndFlip` to a tetrahedron. Returns the error of the operation and the locations in the error.
     fn refused(edges: &[usize]) -> (OpError, Vec<ErrorLocation>) {
         let mut scene = Scene::new();
         let mesh = shapes::tetrahedron();
@@ -67,7 +67,7 @@ mod tests {
 
         let (error, places) = refused(&[refused_edge.index()]);
 
-        // The locations are the two vertices that are already joined, and the edge whose flip is refused.
+        // The error has three locations: the two vertices that are already joined, and the edge whose flip is refused.
         let Some(EditError::DuplicateEdge(v, w)) = mesh.clone().flip_edge(refused_edge).err()
         else {
             panic!("{error}");

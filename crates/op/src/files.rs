@@ -1,11 +1,11 @@
-//! The files of a run: the paths that a recipe may read and write, and a log of all uses of files.
+//! The files of a run: where a recipe may read and write, and a log of each use of a file.
 //!
-//! Paths of input files are relative to the folder of the recipe. Output files are always inside the output folder. A
-//! path that leads out of this folder is refused.
+//! Paths of input files are relative to the folder of the recipe. Output files are always inside the output folder. An
+//! output path that leads out of the output folder is refused.
 //!
-//! All uses of files are logged, so that the step cache knows the dependencies of a step. An operation that reads files
-//! reports each file with [`Files::has_read`]. If an operation requests a path but does not report that it read the
-//! file, the dependencies of the step are unknown, and the step is never cached.
+//! Each use of a file is logged. The step cache reads the log to find the dependencies of a step. An operation that
+//! reads files reports each file with [`Files::has_read`]. If an operation requests a path but never reports that it
+//! read the file, the dependencies of the step are unknown. The step is then never cached.
 
 use std::fmt;
 use std::path::{Component, Path, PathBuf};
@@ -18,44 +18,45 @@ use crate::OpError;
 /// Why a path cannot be used.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum FileError {
-    /// The path leads out of the output folder.
+    /// The output path leads out of the output folder.
     #[error(
         "the output path \"{0}\" must stay inside the output folder: use a relative path without \".\", \
          \"..\", \"\\\" and \":\""
     )]
     Outside(String),
-    /// The path does not end with a file name.
+    /// The output path does not end with a file name.
     #[error("the output path \"{0}\" does not end with a file name")]
     NoName(String),
-    /// A placeholder in the path is not known.
+    /// An output path contains an unknown placeholder.
     #[error(
         "unknown placeholder {{{0}}} in \"{1}\"; known placeholders, which stand for the file names of path parameters: {2}"
     )]
     Placeholder(String, String, String),
-    /// The path leads out of the output folder through a symbolic link.
+    /// The output path leads out of the output folder through a symbolic link.
     #[error("\"{0}\" leads out of the output folder through a link")]
     Link(String),
 }
 
-/// The files of a run: the folders, and the values of the placeholders in output paths.
+/// The files of a run: its folders, and the values of the placeholders in output paths.
 #[derive(Clone, Debug)]
 pub struct Files {
-    /// Where files are read and written. Defaults to the disk.
+    /// The store from which files are read and to which they are written. Defaults to the disk.
     pub store: Arc<dyn Store>,
     /// The folder of the recipe.
     pub input: PathBuf,
     /// The output folder.
     pub output: PathBuf,
-    /// Names and values of placeholders. For example, ("model.stem", "cow") replaces `{model.stem}` in an output path
-    /// with `cow`.
+    /// The names of the placeholders and the values that replace them. For example, ("model.stem", "cow") replaces
+    /// `{model.stem}` in an output path with `cow`.
     pub placeholders: Vec<(String, String)>,
-    /// A line with the provenance of the outputs, for formats that can store it.
+    /// A line that describes the provenance of the outputs. Output files contain this line if their format can store
+    /// it.
     pub provenance: Option<String>,
     /// The uses of files so far.
     pub log: FileLog,
 }
 
-/// A log of the uses of files, in order. Clones share one list.
+/// A log of each use of a file, in order of time. Clones share one list.
 #[derive(Clone, Debug, Default)]
 pub struct FileLog(Arc<Mutex<Vec<FileUse>>>);
 
@@ -88,7 +89,7 @@ impl FileLog {
         self.lock().push(file);
     }
 
-    /// Removes all entries and returns them.
+    /// Removes all entries of the log and returns them.
     pub fn take(&self) -> Vec<FileUse> {
         std::mem::take(&mut self.lock())
     }
@@ -113,8 +114,8 @@ impl Default for Files {
 }
 
 impl Files {
-    /// Returns the path of an input file: `path` relative to the folder of the recipe. If the caller reads the file, it
-    /// must call [`has_read`](Self::has_read).
+    /// Returns the full path of an input file. `path` is relative to the folder of the recipe. If the caller reads the
+    /// file, it must call [`has_read`](Self::has_read).
     pub fn to_read(&self, path: &str) -> PathBuf {
         let full = self.input.join(path);
         let file = FileUse::Requested {
@@ -125,9 +126,9 @@ impl Files {
         full
     }
 
-    /// Logs that a file was read: either a file whose path [`to_read`](Self::to_read) returned, or another file that
-    /// such a file refers to. If an operation calls this method for every requested path, the step can be cached. The
-    /// result of a cached step must not depend on the contents of any other file.
+    /// Logs that a file was read. The file can be one whose path [`to_read`](Self::to_read) returned, or another file
+    /// that such a file refers to. A step can be cached only if its operation calls this method for every input path
+    /// that it requested. If a step is cached, its result must depend only on the contents of files that were logged.
     pub fn has_read(&self, path: impl Into<PathBuf>) {
         self.log.note(FileUse::Read(path.into()));
     }
@@ -155,7 +156,8 @@ impl Files {
         self.store.make_folder(store::folder_of(path))
     }
 
-    /// Returns the path of an output file: `path` with its placeholders replaced, inside the output folder.
+    /// Returns the full path of an output file in the output folder. `path` may contain placeholders, which are
+    /// replaced.
     ///
     /// # Errors
     ///
@@ -183,8 +185,9 @@ impl Files {
         Ok(self.output.join(relative))
     }
 
-    /// Returns the text of an error about output files, for a person. Paths of output files in the text are relative to
-    /// the output folder, as in the recipe, because the output folder is a temporary folder during a run.
+    /// Returns the text of an error about output files, for people to read. In this text, the paths of output files are
+    /// relative to the output folder, as in the recipe. A full path would name the temporary folder into which a run
+    /// writes.
     pub fn output_error(&self, error: impl fmt::Display) -> OpError {
         // The path of the folder ends with a separator, unless it is empty.
         let folder = self.output.join("").display().to_string();
@@ -221,7 +224,7 @@ impl Files {
         Ok(filled)
     }
 
-    /// Refuses a path whose existing folders lead out of the output folder through a symbolic link.
+    /// Returns an error if the existing folders of a path lead out of the output folder through a symbolic link.
     ///
     /// # Errors
     ///

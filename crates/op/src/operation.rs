@@ -14,14 +14,15 @@ use crate::{
     Report, TargetKind, target_names,
 };
 
-/// An operation that changes one mesh. In a scene, the operation acts on every mesh, or on the meshes named in `on:`.
+/// An operation that changes one mesh. In a scene, the operation acts on every mesh. If the step has `on:`, it acts
+/// only on the meshes named there.
 pub trait MeshOperation:
     Debug + Send + Sync + Serialize + DeserializeOwned + JsonSchema + 'static
 {
     /// The name of the step in recipes, which is the name of the struct.
     const NAME: &'static str;
-    /// The version of the results. It must be increased when a new version of the program can give a different result
-    /// for the same parameters and input.
+    /// The version of the results. Increase it if a new version of the program can give a different result for the same
+    /// parameters and input.
     const VERSION: u32 = 1;
     /// What the operation does, in one line without a full stop, for lists of operations.
     const SUMMARY: &'static str;
@@ -29,15 +30,15 @@ pub trait MeshOperation:
     const EXAMPLE: &'static str;
     /// Earlier names of the operation. Recipes can still use these names.
     const ALIASES: &'static [&'static str] = &[];
-    /// Words that other programs use for the operation, in lower case. If a recipe uses one of these words as the name
-    /// of a step, the error suggests this operation.
+    /// Names for the operation in other programs, in lower case. If a recipe uses one of these words as the name of a
+    /// step, the error suggests this operation.
     const WORDS: &'static [&'static str] = &[];
-    /// The word that step tables show after the number of changed elements, such as `flipped` in `12 flipped`. If
-    /// empty, the tables do not show the number.
+    /// The word that step tables show after the number of changed elements, such as `flipped` in `12 flipped`. If the
+    /// word is empty, the tables do not show this number.
     const DONE: &'static str = "";
 
-    /// Returns the names of other objects whose meshes the operation reads with [`Context::other_mesh`], each with the
-    /// name of the parameter that contains it. Without `on:`, a step does not act on these objects.
+    /// Returns the names of the other objects whose meshes the operation reads with [`Context::other_mesh`]. Each name
+    /// comes with the name of the parameter that contains it. A step without `on:` does not act on these objects.
     fn reads(&self) -> Vec<(&str, &'static str)> {
         Vec::new()
     }
@@ -47,25 +48,25 @@ pub trait MeshOperation:
         Vec::new()
     }
 
-    /// Returns the problems with the mesh of the object `name`, which is one of the objects that the operation
-    /// [`reads`](Self::reads).
+    /// Returns the problems that the mesh of the object `name` would cause. The operation [`reads`](Self::reads) this
+    /// object.
     fn plan_reading(&self, name: &str, mesh: &MeshPlan) -> Vec<Problem> {
         let _ = (name, mesh);
         Vec::new()
     }
 
-    /// Changes `plan` in the same way as [`apply`](Self::apply) will change the mesh, and returns the problems. This
-    /// method runs before any geometry exists and must be fast.
+    /// Changes `plan` in the same way as [`apply`](Self::apply) will change the mesh. Returns the problems of the step.
+    /// This method runs before any geometry exists and must be fast.
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem>;
 
     /// Changes the mesh. The mesh [is dense](Mesh::is_dense): ids are indices into its arrays, such as `positions()`.
-    /// Calls [`Context::advance`] before its first change. An operation that computes a new mesh stores it with
+    /// Must call [`Context::advance`] before the first change. An operation that computes a new mesh stores it with
     /// [`Mesh::replace`].
     ///
     /// # Errors
     ///
-    /// Returns an [`OpError`]. The mesh can then be partly changed. The caller has opened the journal of the mesh and
-    /// rolls the changes back.
+    /// Returns an [`OpError`]. If an error is returned, a part of the mesh may already be changed. The caller has
+    /// opened the journal of the mesh, and undoes the changes after an error.
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError>;
 }
 
@@ -75,8 +76,8 @@ pub trait Operation:
 {
     /// The name of the step in recipes, which is the name of the struct.
     const NAME: &'static str;
-    /// The version of the results. It must be increased when a new version of the program can give a different result
-    /// for the same parameters and input.
+    /// The version of the results. Increase it if a new version of the program can give a different result for the same
+    /// parameters and input.
     const VERSION: u32 = 1;
     /// What the operation does, in one line without a full stop, for lists of operations.
     const SUMMARY: &'static str;
@@ -84,27 +85,29 @@ pub trait Operation:
     const EXAMPLE: &'static str;
     /// Earlier names of the operation. Recipes can still use these names.
     const ALIASES: &'static [&'static str] = &[];
-    /// Words that other programs use for the operation, in lower case. If a recipe uses one of these words as the name
-    /// of a step, the error suggests this operation.
+    /// Names for the operation in other programs, in lower case. If a recipe uses one of these words as the name of a
+    /// step, the error suggests this operation.
     const WORDS: &'static [&'static str] = &[];
-    /// The word that step tables show after the number of changed elements, such as `flipped` in `12 flipped`. If
-    /// empty, the tables do not show the number.
+    /// The word that step tables show after the number of changed elements, such as `flipped` in `12 flipped`. If the
+    /// word is empty, the tables do not show this number.
     const DONE: &'static str = "";
     /// Whether a step can choose objects with `on:`.
     const TAKES_ON: bool = false;
-    /// Whether the operation leaves the scene unchanged when it fails. If false, the runner keeps the meshes from
-    /// before the step, and the operation changes copies of these meshes.
+    /// Whether the operation leaves the scene unchanged when it fails. If false, the runner keeps the meshes in their
+    /// state before the step, and the operation changes copies of them.
     const ATOMIC: bool = false;
 
-    /// Changes `plan` in the same way as [`apply`](Self::apply) will change the scene, and returns the problems.
+    /// Changes `plan` in the same way as [`apply`](Self::apply) will change the scene. Returns the problems of the
+    /// step.
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem>;
 
-    /// Changes the scene, whose meshes [are dense](Mesh::is_dense). Calls [`Context::advance`] before its first change.
+    /// Changes the scene, whose meshes [are dense](Mesh::is_dense). Must call [`Context::advance`] before the first
+    /// change.
     ///
     /// # Errors
     ///
-    /// Returns an [`OpError`]. The scene can then be partly changed. The runner restores the scene from before the
-    /// step.
+    /// Returns an [`OpError`]. If an error is returned, a part of the scene may already be changed. The runner then
+    /// restores the scene to its state before the step.
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError>;
 }
 
@@ -188,8 +191,8 @@ impl<T: MeshOperation> Operation for T {
             }
         }
         for (name, change) in changes {
-            // The change can contain a whole mesh. It is dropped here so that its memory is free before compacting
-            // allocates memory.
+            // The change can contain a whole mesh. The change is dropped here, so that its memory is free before
+            // compacting allocates memory.
             drop(change);
             mesh_mut(scene, name)?.compact();
         }
@@ -225,7 +228,7 @@ fn apply_to<T: MeshOperation>(
     mesh.begin();
     let done = operation.apply(mesh, cx);
     cx.clear_object();
-    // An operation that assigns a mesh instead of calling `Mesh::replace` discards the journal.
+    // An operation that assigns a new mesh to `*mesh` instead of calling `Mesh::replace` discards the journal.
     let is_recording = mesh.is_recording();
     let mut report = match done {
         Ok(report) => report,

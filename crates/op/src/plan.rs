@@ -63,7 +63,7 @@ impl Range {
         }
     }
 
-    /// Returns the range of the difference of two counts, at least 0.
+    /// Returns the range of the difference of two counts. Neither end becomes negative.
     #[must_use]
     pub const fn minus(self, other: Self) -> Self {
         let max = if self.max == u64::MAX {
@@ -77,7 +77,8 @@ impl Range {
         }
     }
 
-    /// Returns the range of this count reduced by `n`, at least 0. `max` must be a known limit, not `u64::MAX`.
+    /// Returns the range of this count minus `n`. Neither end becomes negative. The upper end `max` must be a known
+    /// limit, not `u64::MAX`.
     #[must_use]
     pub const fn less(self, n: u64) -> Self {
         Self {
@@ -101,8 +102,8 @@ impl Range {
         self.times(Self::exactly(n))
     }
 
-    /// Returns the range from 0 to the highest count. Use this method if a step can remove any number of the elements,
-    /// or leave any number of them out.
+    /// Returns the range from 0 to the highest count. Use this method if a step can remove or omit any number of the
+    /// elements.
     #[must_use]
     pub const fn or_less(self) -> Self {
         Self::at_most(self.max)
@@ -117,7 +118,7 @@ impl Range {
         }
     }
 
-    /// Returns the range with both ends limited to at most `cap`.
+    /// Returns this range with both ends reduced to `cap` where they exceed it.
     #[must_use]
     pub fn capped(self, cap: u64) -> Self {
         Self {
@@ -147,11 +148,11 @@ pub struct MeshPlan {
     pub edges: Range,
     /// The number of faces.
     pub faces: Range,
-    /// The degrees of the faces: the lowest and the highest number of corners.
+    /// The range of the degrees of the faces. The degree of a face is its number of corners.
     pub degrees: Range,
     /// The known attributes.
     pub attributes: Vec<PlannedAttribute>,
-    /// Whether the mesh can have attributes that are not listed, as a mesh from a file can.
+    /// Whether the mesh can have attributes that are not in `attributes`. A mesh from a file can have such attributes.
     pub has_unlisted_attributes: bool,
     /// The names of the materials; `None` if they are unknown.
     pub materials: Option<Vec<String>>,
@@ -219,8 +220,8 @@ impl MeshPlan {
         self.degrees == Range::exactly(3)
     }
 
-    /// Returns the number of corners of some of the faces: at most two for each edge of the mesh. `faces` is the number
-    /// of these faces.
+    /// Returns the possible number of corners of some of the faces. The number is at most twice the number of edges of
+    /// the mesh. `faces` is the number of the faces whose corners are counted.
     pub fn corners_of(&self, faces: Range) -> Range {
         faces.times(self.degrees).capped(self.edges.by(2).max)
     }
@@ -258,8 +259,8 @@ impl MeshPlan {
             .retain(|a| a.domain != domain || a.name != name);
     }
 
-    /// Removes the normals and tangents of vertices, corners and morph targets. Operations that change the shape use
-    /// this method.
+    /// Removes the normals and tangents of vertices, corners and morph targets. Operations that change the shape of the
+    /// mesh call this method.
     pub fn drop_normals(&mut self) {
         self.drop_attribute(Domain::Vertex, VERTEX_NORMAL.name);
         self.drop_attribute(Domain::Corner, CORNER_NORMAL.name);
@@ -301,7 +302,8 @@ impl MeshPlan {
     }
 }
 
-/// Returns the names `name`, `name.2`, `name.3` and so on, each with its number. The first number is `first`.
+/// Returns an iterator over the names `name`, `name.2`, `name.3` and so on, each together with its number. The first
+/// number is `first`.
 pub(crate) fn numbered(name: &str, first: u64) -> impl Iterator<Item = (u64, String)> {
     (first..).map(move |number| match number {
         1 => (1, name.to_owned()),
@@ -318,8 +320,8 @@ fn missing_element_message(number: u64, count: Range, nouns: [&str; 2]) -> Optio
     (number >= n).then(message)
 }
 
-/// Returns the size of one value of an attribute, in bytes. The lowest size is 0 if it is not certain that the
-/// attribute exists.
+/// Returns the size of one value of an attribute, in bytes. The lower end of the range is 0 if it is not certain that
+/// the attribute exists.
 fn value_bytes(attribute: &PlannedAttribute) -> Range {
     let name = &attribute.name;
     let exactly = |bytes: usize| Range::exactly(bytes as u64);
@@ -367,34 +369,35 @@ pub struct PlannedObject {
     pub name: String,
     /// The geometry.
     pub geometry: PlannedGeometry,
-    /// The number of root nodes that reference the object and are not in the graph of the plan, because their
-    /// placements are unknown.
+    /// The number of root nodes that reference the object but are missing from the graph of the plan, because their
+    /// transforms are not yet known.
     pub unplaced_nodes: u64,
 }
 
-/// The plan of a scene at one point of a recipe. Each step changes the plan as it will change the scene.
+/// The plan of a scene at one point of a recipe. When a step is planned, it changes this plan in the same way as it
+/// will change the scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Plan {
     objects: Vec<PlannedObject>,
-    /// The index of each object by its name. The map is empty between [`objects_mut`](Self::objects_mut) and the next
-    /// [`insert`](Self::insert).
+    /// Maps the name of each object to its index. The map is empty after [`objects_mut`](Self::objects_mut) was called
+    /// and until the next [`insert`](Self::insert).
     index_by_name: HashMap<String, usize>,
-    /// For each name that was passed to [`free_name`](Self::free_name), the last number that `free_name` chose for this
-    /// name. All lower numbers are taken. The map is cleared together with `index_by_name`.
+    /// Maps each name that was passed to [`free_name`](Self::free_name) to the last number that `free_name` chose for
+    /// it. All lower numbers are taken. This map and `index_by_name` are always cleared together.
     taken_numbers: HashMap<String, u64>,
     is_edited: bool,
-    /// The files that the steps so far read.
+    /// The files that the steps planned so far read.
     pub inputs: Vec<PathBuf>,
-    /// The files that the steps so far write.
+    /// The files that the steps planned so far write.
     outputs: IndexSet<PathBuf>,
-    /// The data that the current step certainly loses, apart from attributes of meshes that the step changes.
+    /// The data that the current step certainly loses. Attributes of meshes that the step changes are not included.
     pub losses: Vec<Loss>,
-    /// The data that the current step can lose. The loss is not certain, because the values or the existence of the
-    /// data are unknown.
+    /// The data that the current step may lose. The loss is uncertain because the values of the data, or whether the
+    /// data exist, are unknown.
     pub possible_losses: Vec<Loss>,
     graph: Arc<Graph>,
-    /// Whether an earlier step could not be read or planned. The scene can then have objects that are missing from
-    /// the plan.
+    /// Whether an earlier step could not be read or planned. In this case, the scene can have objects that are missing
+    /// from the plan.
     pub incomplete: bool,
 }
 
@@ -429,8 +432,8 @@ impl Plan {
         &self.objects
     }
 
-    /// Returns the objects for modification. To add an object, use [`insert`](Self::insert) instead, which is faster
-    /// because its time does not grow with the number of objects.
+    /// Returns the objects for modification. To add an object, use [`insert`](Self::insert) instead: its time does not
+    /// grow with the number of objects.
     pub fn objects_mut(&mut self) -> &mut Vec<PlannedObject> {
         self.is_edited = true;
         self.index_by_name.clear();
@@ -438,8 +441,8 @@ impl Plan {
         &mut self.objects
     }
 
-    /// Returns whether [`objects_mut`](Self::objects_mut) was called since the last call of this method. If not,
-    /// the only changes are new objects at the end.
+    /// Returns whether [`objects_mut`](Self::objects_mut) was called since the last call of this method. If
+    /// `objects_mut` was not called, objects may have been added at the end, but nothing else has changed.
     pub fn take_edited(&mut self) -> bool {
         std::mem::take(&mut self.is_edited)
     }
@@ -454,10 +457,11 @@ impl Plan {
             .map(|&place| &self.objects[place])
     }
 
-    /// Returns the first name that no object has among `name`, `name.2`, `name.3` and so on.
+    /// Returns the first of the names `name`, `name.2`, `name.3` and so on that no object has.
     pub fn free_name(&mut self, name: &str) -> String {
         self.fill_index();
-        // Removing an object clears the map, so all numbers below the number in the map are still taken.
+        // The map has the last number that was given to a name. Removing an object clears the map, so all lower numbers
+        // are still taken.
         let first = self.taken_numbers.get(name).copied().unwrap_or(1);
         let is_free = |(_, name): &(u64, String)| !self.index_by_name.contains_key(name);
         let (number, free) = numbered(name, first)
@@ -474,7 +478,7 @@ impl Plan {
         }
     }
 
-    /// Adds an object, or returns a problem if the name is taken.
+    /// Adds an object, or returns a problem if another object has this name.
     pub fn insert(&mut self, name: &str, geometry: PlannedGeometry) -> Option<Problem> {
         self.fill_index();
         let taken = self.taken(name, "name");
@@ -490,8 +494,8 @@ impl Plan {
         taken
     }
 
-    /// Adds a copy of the object `from` with another geometry and the same nodes, or returns a problem if the name is
-    /// taken.
+    /// Adds an object `to` with the same nodes as the object `from` but with another geometry. Returns a problem if
+    /// another object has this name.
     pub fn insert_copy(
         &mut self,
         from: &str,
@@ -509,20 +513,20 @@ impl Plan {
         taken
     }
 
-    /// Removes an object, and its nodes as [`Scene::remove`] does.
+    /// Removes an object from the plan. Its nodes are removed in the same way as by [`Scene::remove`].
     pub fn remove(&mut self, name: &str) {
         self.objects_mut().retain(|o| o.name != name);
         self.edit_graph(|graph| graph.remove_object(name));
     }
 
-    /// Returns the nodes that place the objects, with their skins and animations. Scales, rotations and the hierarchy
-    /// are those that the scene will have. Translations that depend on points can differ from those of the scene.
+    /// Returns the nodes that place the objects, with their skins and animations. The scales, rotations and hierarchy
+    /// of these nodes are exact. Translations that are computed from points can differ from those of the scene.
     /// [`Graph::arrays`] is incomplete.
     pub fn graph(&self) -> &Graph {
         &self.graph
     }
 
-    /// Changes the nodes, if there are any.
+    /// Calls `change` with the nodes, unless there are no nodes.
     pub fn edit_graph(&mut self, change: impl FnOnce(&mut Graph)) {
         if !self.graph.is_empty() {
             change(Arc::make_mut(&mut self.graph));
@@ -542,7 +546,8 @@ impl Plan {
         (unplaced.saturating_add(self.graph.nodes_of(name).len() as u64)).max(1)
     }
 
-    /// Returns a problem if an object already has this name. `field` is the parameter that contains the name.
+    /// Returns a problem if an object already has this name. `field` is the name of the parameter that contains the
+    /// object name.
     pub fn taken(&self, name: &str, field: &str) -> Option<Problem> {
         self.object(name)?;
         let message = scene::DuplicateName(name.to_owned()).to_string();
@@ -550,7 +555,7 @@ impl Plan {
     }
 
     /// If no object has this name, returns a problem that lists the known names. Always returns `None` if the plan is
-    /// incomplete. `path` is the path of the parameter that contains the name.
+    /// incomplete. `path` is the path of the parameter that contains the object name.
     pub fn missing<const N: usize>(&self, name: &str, path: [&str; N]) -> Option<Problem> {
         if self.incomplete || self.object(name).is_some() {
             return None;
@@ -566,13 +571,13 @@ impl Plan {
         Some(problem.help(format!("objects at this point: {known}")))
     }
 
-    /// Returns the files that the steps so far write, in the order of the steps.
+    /// Returns the files that the steps planned so far write, in the order of the steps.
     pub fn outputs(&self) -> &IndexSet<PathBuf> {
         &self.outputs
     }
 
-    /// Adds a file that the step writes, and returns the problems of its `path`. `check` returns a problem if the file
-    /// name extension is not supported.
+    /// Adds a file that the step writes. Returns the problems with its `path`. `check` is called with the path, and
+    /// returns a problem if the file name extension is not supported.
     pub fn write(
         &mut self,
         cx: &PlanContext,
@@ -595,26 +600,25 @@ impl Plan {
 /// The context in which a step is planned.
 #[derive(Clone, Copy, Debug)]
 pub struct PlanContext<'a> {
-    /// Where files are read and written.
+    /// The input and output files of the run.
     pub files: &'a Files,
-    /// The objects named in the step's `on:`, all of which exist; `None` if the step acts on all objects that it
-    /// supports.
+    /// The objects named in the step's `on:`, all of which exist; `None` if the step has no `on:`.
     pub on: Option<&'a [String]>,
     /// The memory budget of meshes, in bytes.
     pub budget: u64,
 }
 
-/// A problem of a step that is found before anything runs.
+/// A problem with a step that is found before any step runs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problem {
     /// The description of the problem, in lower case and without a full stop.
     pub message: String,
     /// How to solve the problem.
     pub help: Option<String>,
-    /// The path of the parameter: the names of fields and variants, and the indices of items, from the outside in.
-    /// The path is empty if the problem concerns the whole step.
+    /// The path of the parameter: names of fields and variants, and indices of list items, from the outermost to the
+    /// innermost. The path is empty if the problem concerns the whole step.
     pub path: Vec<String>,
-    /// Whether the problem is only a warning, so that the recipe can run.
+    /// Whether the problem is only a warning, which does not keep the recipe from running.
     pub is_warning: bool,
 }
 
@@ -644,7 +648,7 @@ impl Problem {
         self
     }
 
-    /// Sets the help: how to solve the problem.
+    /// Sets the help text, which says how to solve the problem.
     #[must_use]
     pub fn help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());

@@ -8,7 +8,7 @@ use schemars::{Schema, SchemaGenerator};
 
 use crate::{Context, Loss, OpError, Operation, Plan, PlanContext, Problem, Report};
 
-/// Two operations have the same name.
+/// An error: two operations have the same name.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("two operations are named {0}: rename one, or register the second with `with_override`")]
 pub struct DuplicateOperation(pub String);
@@ -25,7 +25,7 @@ pub struct Registry {
 pub struct Entry {
     /// The name of the step in recipes.
     pub name: &'static str,
-    /// The version of the operation's results.
+    /// The version of the results of the operation.
     pub version: u32,
     /// What the operation does, in one line.
     pub summary: &'static str,
@@ -81,7 +81,8 @@ impl Entry {
     ///
     /// # Errors
     ///
-    /// Returns an error with the reason and the location if the parameters are not valid for this operation.
+    /// Returns an error if the parameters are not valid for this operation. The error contains the reason and the
+    /// location.
     pub fn deserialize(&self, step: &Value) -> Result<Box<dyn Step>, ron_tree::Error> {
         match &step.kind {
             ValueKind::Call(call) => (self.deserialize)(&call.body),
@@ -127,7 +128,7 @@ impl Registry {
         register(self)
     }
 
-    /// Checks that no name is used twice.
+    /// Checks that no two operations share a name.
     ///
     /// # Errors
     ///
@@ -167,7 +168,7 @@ pub trait Step: fmt::Debug + Send + Sync {
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError>;
     /// See [`Operation::ATOMIC`].
     fn is_atomic(&self) -> bool;
-    /// Returns the parameters in canonical form: RON with every default written out.
+    /// Returns the parameters of the step in canonical form: in RON, with all default values included.
     fn canonical(&self) -> String;
 }
 
@@ -209,7 +210,7 @@ impl<T: Operation> Step for T {
     }
 }
 
-/// Returns a value as RON. The value is a trait object, so that the serializer is compiled only once.
+/// Returns a value as RON. Because the value is passed as a trait object, the serializer is compiled only once.
 ///
 /// # Panics
 ///
@@ -218,7 +219,7 @@ pub fn to_ron(value: &dyn erased_serde::Serialize) -> String {
     ron::to_string(value).expect("parameters are plain data")
 }
 
-/// Returns the loss of channels of animations. `before` is the number of channels before the step.
+/// Returns the loss report for lost animation channels. `before` is the number of animation channels before the step.
 fn lost_channels(before: usize, graph: &Graph) -> Option<Loss> {
     let lost = before.saturating_sub(graph.n_channels());
     let noun = if lost == 1 { "channel" } else { "channels" };

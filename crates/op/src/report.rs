@@ -12,11 +12,11 @@ use crate::{OpError, Refusal};
 pub struct Report {
     /// The number of elements or objects that were changed or created.
     pub changed: u64,
-    /// Edits that were refused and skipped, by reason.
+    /// The edits that were refused and therefore skipped, grouped by reason.
     pub refused: Vec<Refused>,
-    /// Attributes and other data that were lost.
+    /// The attributes and other data that the step lost.
     pub losses: Vec<Loss>,
-    /// Changes that were made while a file was read.
+    /// The changes that were made to the data of a file while it was read.
     pub changes: Vec<ReadingChange>,
     /// Other facts, one line each.
     pub notes: Vec<String>,
@@ -25,17 +25,17 @@ pub struct Report {
 /// A change that was made while a file was read, such as the reversal of faces.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
 pub struct ReadingChange {
-    /// A stable name of the kind of change, for programs, such as `faces-reversed`.
+    /// A name for this kind of change that programs can rely on, such as `faces-reversed`.
     pub code: String,
     /// The number of elements or values that were changed.
     pub count: u64,
-    /// The changed elements, by their indices in the file, if the elements are known.
+    /// The changed elements, if they are known, given by their indices in the file.
     pub elements: Option<ReadingElements>,
-    /// The change in words, with the name of the file.
+    /// A message that describes the change and names the file.
     pub message: String,
 }
 
-/// Elements of a file, given by their indices in the file, counted from 0.
+/// Elements of a file, given by their indices in the file. Indices start at 0.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
 pub enum ReadingElements {
     /// Vertices.
@@ -60,9 +60,9 @@ pub struct Refused {
 /// Data that a step or a file format could not preserve.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
 pub struct Loss {
-    /// A stable name of the kind of loss, for programs, such as `attribute-lost`.
+    /// A name for this kind of loss that programs can rely on, such as `attribute-lost`.
     pub code: String,
-    /// The number of lost values, elements or other things, if it is known.
+    /// The number of lost values, elements or other items, if it is known.
     pub count: Option<u64>,
     /// The object or the file that lost the data. The name is empty if the loss concerns the whole scene, such as its
     /// animations.
@@ -85,8 +85,8 @@ impl fmt::Display for Loss {
 }
 
 impl Loss {
-    /// Creates a loss that occurred while a file was read. `code` is used as the code of the loss and as the name of
-    /// the lost data. `message` describes the loss and names the file.
+    /// Creates a loss that occurred while a file was read. `code` is used both as the code of the loss and as the name
+    /// of the lost data. `message` describes the loss and names the file.
     pub fn reading(file: &str, code: &str, count: u64, message: impl Into<String>) -> Self {
         Self {
             code: code.to_owned(),
@@ -133,7 +133,7 @@ impl Loss {
         format!("{} may lose {}: {}", self.owner(), self.what, self.reason)
     }
 
-    /// Returns the text that stands for the object in messages.
+    /// Returns the words for the owner of the lost data in messages: the name of the object, or `the scene`.
     fn owner(&self) -> String {
         match self.object.as_str() {
             "" => "the scene".to_owned(),
@@ -158,7 +158,7 @@ impl Report {
         self
     }
 
-    /// Adds the note `what: n`, unless `n` is 0.
+    /// Adds the note "`what`: `n`" to the report, unless `n` is 0.
     #[must_use]
     pub fn count(self, what: &str, n: usize) -> Self {
         if n > 0 {
@@ -168,8 +168,8 @@ impl Report {
         }
     }
 
-    /// Counts edits that were refused for this reason. `first` returns the message of the first of these edits. `first`
-    /// is called only if the report has no refusal for this reason yet.
+    /// Counts edits that were refused for this reason. `first` returns the message of the first of the refused edits.
+    /// `first` is called only if the report does not yet count a refusal for this reason.
     pub(crate) fn count_refused(
         &mut self,
         reason: Refusal,
@@ -190,7 +190,7 @@ impl Report {
     ///
     /// # Errors
     ///
-    /// Returns `error` unless it is [`OpError::Refused`].
+    /// Returns `error` as it is if it is not [`OpError::Refused`].
     pub fn refuse(&mut self, error: OpError) -> Result<(), OpError> {
         let OpError::Refused {
             reason, message, ..
@@ -202,7 +202,7 @@ impl Report {
         Ok(())
     }
 
-    /// Adds the report of another part of the step.
+    /// Adds the counts, losses and notes of a report for another part of the step.
     pub fn merge(&mut self, other: Self) {
         self.changed += other.changed;
         for refused in other.refused {

@@ -1,4 +1,5 @@
-//! Helpers for operations that work on a whole scene: sources, which create an object, and checks of object names.
+//! Helpers for operations on a whole scene. The helpers support operations that create an object, and check the names
+//! of objects.
 
 use std::collections::HashSet;
 
@@ -9,13 +10,14 @@ use scene::{Object, Scene};
 use crate::plan::numbered;
 use crate::{Context, MeshPlan, OpError, Plan, PlannedGeometry, Problem, Report, Vector};
 
-/// The largest number of edges of a mesh that is built from polygons. Each edge adds at most two corners to the faces,
-/// each corner can need two half-edges, and the largest id of a half-edge is 2^32 - 2.
+/// The largest number of edges of a mesh that is built from polygons. Each edge adds at most two corners to the faces.
+/// Each corner can need two half-edges. The largest possible id of a half-edge is 2^32 - 2.
 const MAX_EDGES: u64 = (u32::MAX as u64 - 1) / 4;
 
-/// A mesh that a step creates: the name of its object, its counts, and the problems of the parameters.
+/// A mesh that a step creates. A `Source` consists of the name of the new object, the counts of the mesh, and the
+/// problems of the step's parameters.
 ///
-/// An operation describes its source once and uses it in both of its methods:
+/// An operation creates the same `Source` in both its `plan` and its `apply` method:
 ///
 /// ```
 /// use geometry::shapes;
@@ -39,15 +41,15 @@ pub struct Source<'a> {
     name: Option<&'a str>,
     counts: MeshPlan,
     scale: DVec3,
-    /// The parameters that determine `scale`, for error messages.
+    /// The names of the parameters that determine `scale`, for error messages.
     scale_parameters: &'static str,
     center: DVec3,
     problems: Vec<Problem>,
 }
 
 impl<'a> Source<'a> {
-    /// Creates a source for a new object and a mesh with these counts. If `name` is omitted, the object gets the name
-    /// of the operation in lower case, followed by `.2`, `.3` and so on if that name is taken.
+    /// Creates a source for a new object and a mesh with these counts. If `name` is omitted, the object is named after
+    /// the operation, in lower case. If that name is taken, `.2`, `.3` or a later number is added.
     pub fn new(operation: &'static str, name: Option<&'a str>, counts: MeshPlan) -> Self {
         let source = Self {
             operation,
@@ -68,9 +70,9 @@ impl<'a> Source<'a> {
         source
     }
 
-    /// Scales the mesh along each axis by a factor above 0, and then moves it from the origin to `center`, which is the
-    /// value of the operation's parameter `center`. `parameters` names the parameters that determine the factors, for
-    /// error messages.
+    /// Scales the mesh along each axis by a factor above 0, and then moves it from the origin to the point `center`.
+    /// The point `center` is a parameter of the operation. `parameters` contains the names of the parameters that
+    /// determine the scale factors, for error messages.
     #[must_use]
     pub fn placed(mut self, parameters: &'static str, scale: [f64; 3], center: Vector) -> Self {
         self.scale_parameters = parameters;
@@ -97,14 +99,15 @@ impl<'a> Source<'a> {
         problems
     }
 
-    /// Adds the object at the end of a scene. `make` creates the mesh and is called only if there are no problems, the
-    /// name is free and the memory is sufficient.
+    /// Adds the object at the end of a scene. `make` creates the mesh. `make` is called only if there are no problems,
+    /// the name is not taken, and the memory is sufficient.
     ///
     /// # Errors
     ///
-    /// Returns [`OpError::Parameter`] for the first problem, or if a coordinate overflows; [`OpError::Object`] if the
-    /// name is taken; [`OpError::Budget`] if the mesh would exceed the memory budget of `cx` or the largest supported
-    /// number of edges; [`OpError::Cancelled`]. The scene is unchanged.
+    /// Returns [`OpError::Parameter`] for the first problem, or if a coordinate overflows. Returns [`OpError::Object`]
+    /// if the name is taken. Returns [`OpError::Budget`] if the mesh would exceed the memory budget of `cx` or the
+    /// largest supported number of edges. Returns [`OpError::Cancelled`] if the run was canceled. The scene is
+    /// unchanged.
     pub fn insert(
         self,
         scene: &mut Scene,
@@ -156,7 +159,7 @@ impl<'a> Source<'a> {
     }
 }
 
-/// Returns the first name that no object of the scene has among `name`, `name.2`, `name.3` and so on.
+/// Returns the first of the names `name`, `name.2`, `name.3` and so on that no object of the scene has.
 fn free_name(scene: &Scene, name: &str) -> String {
     let taken: HashSet<&str> = scene.objects().iter().map(|o| o.name.as_str()).collect();
     let mut names = numbered(name, 1).map(|(_, name)| name);

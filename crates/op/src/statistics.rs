@@ -1,4 +1,4 @@
-//! Statistics of values of elements.
+//! Statistics of the values of an attribute or of other values of elements.
 
 use mesh::parallel;
 

@@ -1,4 +1,4 @@
-//! Tags: helpers of the operations that mark elements.
+//! Helpers for operations that mark elements with a tag.
 
 use mesh::{Column, Domain, Id, Mesh, Rule, Values};
 use schemars::JsonSchema;
@@ -25,7 +25,8 @@ impl TagName {
         &self.0
     }
 
-    /// Returns one flag for each element of a mesh: whether it has the tag. If the tag does not exist, no flag is set.
+    /// Returns one flag for each element of a mesh. The flag says whether the element has the tag. If the tag does not
+    /// exist, all flags are false.
     ///
     /// # Errors
     ///
@@ -42,7 +43,7 @@ impl TagName {
         }
     }
 
-    /// Tags the marked elements and removes the tag from all others.
+    /// Adds the tag to the marked elements and removes it from all other elements.
     pub fn write(&self, mesh: &mut Mesh, domain: Domain, marks: Vec<bool>) {
         let (name, rule, values) = (self.0.clone(), Rule::Copy, Values::Tag(marks));
         mesh.insert_column(domain, Column { name, rule, values });
@@ -66,12 +67,13 @@ impl From<TagName> for String {
     }
 }
 
-/// Tags the selected elements and removes the tag from all others. Returns the number of elements that gained or lost
-/// the tag.
+/// Adds the tag to the selected elements and removes it from all other elements. Returns the number of elements that
+/// gained or lost the tag.
 ///
 /// # Errors
 ///
-/// Returns the errors of [`Select::resolve`]; [`OpError::Parameter`] if an attribute of a different type has this name.
+/// Returns the errors of [`Select::resolve`]. Returns [`OpError::Parameter`] if an attribute of a different type has
+/// this name.
 pub fn tag<S: Select>(
     mesh: &mut Mesh,
     name: &TagName,

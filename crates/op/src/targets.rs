@@ -10,14 +10,14 @@ use scene::{Geometry, Scene};
 use crate::source::named_object;
 use crate::{Context, OpError, Plan, PlanContext, PlannedGeometry, Problem, Range, Report};
 
-/// How messages describe the kind of objects that an operation works on.
+/// The words that messages use for the kind of objects that an operation works on.
 #[derive(Clone, Copy, Debug)]
 pub struct TargetKind {
     /// The name of the operation.
     pub operation: &'static str,
-    /// What the operation does, as a verb phrase: `changes meshes`.
+    /// What the operation does, as a verb phrase such as `changes meshes`.
     pub does: &'static str,
-    /// What is missing if the scene has no object to act on, for messages: `no mesh to change`.
+    /// The words that messages use if the scene has no object of this kind, such as `no mesh to change`.
     pub none: &'static str,
     /// What a recipe must do to get an object of this kind.
     pub help: &'static str,
@@ -33,7 +33,7 @@ impl TargetKind {
         }
     }
 
-    /// Returns the message about an object of the wrong kind.
+    /// Returns the error message for an object of the wrong kind.
     pub fn wrong_kind_message(&self, name: &str, kind: &str) -> String {
         format!(
             "{} {}, but the type of \"{name}\" is {kind}",
@@ -42,7 +42,7 @@ impl TargetKind {
     }
 
     /// Plans the operation on each object that it acts on. `change` updates the plan of an object and returns the
-    /// problems, or `None` if the object is of the wrong kind.
+    /// problems. `change` returns `None` if the object is of the wrong kind.
     pub fn plan(
         &self,
         plan: &mut Plan,
@@ -79,8 +79,8 @@ impl TargetKind {
     }
 }
 
-/// Returns the names of the objects that a step acts on, in the order of the scene: the objects named in `on:`, or all
-/// objects whose geometry `is_wanted` accepts.
+/// Returns the names of the objects that a step acts on, in the order of the scene. If the step has `on:`, these are
+/// the objects named there. If not, these are all objects whose geometry `is_wanted` accepts.
 ///
 /// # Errors
 ///
@@ -101,8 +101,8 @@ pub fn target_names(
     Ok(targets.map(|o| o.name.clone()).collect())
 }
 
-/// Returns a scene of the objects that a step acts on: the objects named in `on:` with the nodes that reference them,
-/// or all objects.
+/// Returns a scene with the objects that a step acts on. If the step has `on:`, the scene has the objects named there
+/// and the nodes that reference them. If not, the scene has all objects.
 pub fn target_scene<'s>(scene: &'s Scene, cx: &Context) -> Cow<'s, Scene> {
     let Some(on) = cx.on else {
         return Cow::Borrowed(scene);
@@ -110,8 +110,8 @@ pub fn target_scene<'s>(scene: &'s Scene, cx: &Context) -> Cow<'s, Scene> {
     Cow::Owned(scene.only(|name| on.iter().any(|wanted| wanted == name)))
 }
 
-/// Plans an operation on curves. `change` receives the number of control points of a curve and returns the
-/// planned result and the problems.
+/// Plans an operation on curves. `change` receives the number of control points of a curve, and returns the planned
+/// result and the problems of the step.
 pub fn plan_curves(
     operation: &'static str,
     plan: &mut Plan,
@@ -132,7 +132,7 @@ pub fn plan_curves(
 ///
 /// # Errors
 ///
-/// Returns [`OpError::Object`] if an object named in `on:` does not exist or is not a curve, and the errors of
+/// Returns [`OpError::Object`] if an object named in `on:` does not exist or is not a curve. Also returns the errors of
 /// `change`.
 pub fn change_curves(
     operation: &'static str,

@@ -8,10 +8,10 @@ use crate::{
     PlannedGeometry, Problem, Refusal, Report,
 };
 
-/// Reads the parameters of an operation as in a recipe: `(levels: 2)`.
+/// Reads the parameters of an operation from text in the form used in recipes, such as `(levels: 2)`.
 pub use ron_tree::from_str as read;
 
-/// Returns the mesh after `operation`.
+/// Applies `operation` to a mesh and returns the resulting mesh.
 ///
 /// # Panics
 ///
@@ -23,7 +23,7 @@ pub fn applied(operation: &impl Operation, mesh: Mesh) -> Mesh {
         .0
 }
 
-/// Returns the mesh after `operation`, and the report.
+/// Applies `operation` to a mesh, and returns the resulting mesh and the report.
 ///
 /// # Errors
 ///
@@ -46,7 +46,7 @@ pub fn try_applied(operation: &impl Operation, mesh: Mesh) -> Result<(Mesh, Repo
     Ok((mesh.as_ref().clone(), report))
 }
 
-/// Runs `operation` on a scene, in the working directory and without a memory budget.
+/// Runs `operation` on a scene. Files are read relative to the working directory, and the memory budget is unlimited.
 ///
 /// # Errors
 ///
@@ -60,12 +60,12 @@ pub fn run(operation: &impl Operation, scene: &mut Scene) -> Result<Report, OpEr
     operation.apply(scene, &mut Context::new(&NoProgress, &files))
 }
 
-/// Returns the mesh that a source (an operation that creates an object) creates in an empty scene.
+/// Runs an operation that creates an object in an empty scene, and returns the mesh of the object.
 ///
 /// # Panics
 ///
-/// Panics if the operation fails or does not create exactly one object, if its plan has errors or differs from the
-/// mesh, or if the mesh breaks an invariant.
+/// Panics if the operation fails or does not create exactly one object. Also panics if its plan has errors or differs
+/// from the mesh, or if the mesh breaks an invariant.
 pub fn made(operation: &impl Operation) -> Mesh {
     let files = Files::default();
     let mut plan = Plan::default();
@@ -98,7 +98,7 @@ pub fn made(operation: &impl Operation) -> Mesh {
     mesh.as_ref().clone()
 }
 
-/// Plans `operation` on a mesh. Returns the plan of the resulting mesh, and the problems.
+/// Plans `operation` on a mesh. Returns the plan of the resulting mesh and the problems of the step.
 pub fn planned(operation: &impl MeshOperation, mesh: &Mesh) -> (MeshPlan, Vec<Problem>) {
     let files = Files::default();
     let cx = PlanContext {
@@ -111,11 +111,12 @@ pub fn planned(operation: &impl MeshOperation, mesh: &Mesh) -> (MeshPlan, Vec<Pr
     (plan, problems)
 }
 
-/// Returns the mesh after `operation`, and checks its counts and degrees against the plan.
+/// Applies `operation` to a mesh, checks the counts and degrees of the resulting mesh against the plan, and returns
+/// this mesh.
 ///
 /// # Panics
 ///
-/// Panics in the same cases as [`applied`], and if a count or degree is outside of its planned range.
+/// Panics in the same cases as [`applied`]. Also panics if a count or a degree is outside of its planned range.
 pub fn applied_as_planned(operation: &impl MeshOperation, mesh: &Mesh) -> Mesh {
     let new = applied(operation, mesh.clone());
     assert!(is_as_planned(operation, mesh, &new), "the plan holds");
@@ -127,7 +128,8 @@ pub fn counts(mesh: &Mesh) -> [usize; 3] {
     [mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()]
 }
 
-/// Whether the counts and degrees of `after`, the result of `operation` on `before`, are within the plan.
+/// Whether the counts and degrees of the mesh `after` are within their planned ranges. `operation` created `after` from
+/// `before`.
 pub fn is_as_planned(operation: &impl MeshOperation, before: &Mesh, after: &Mesh) -> bool {
     let (plan, _) = planned(operation, before);
     plan.vertices.contains(after.n_vertices() as u64)

@@ -38,19 +38,19 @@ pub trait Progress: Sync {
     }
 }
 
-/// Adds up the progress that several threads make on one computation, and reports the sum.
+/// Counts the parts of one computation that several threads have finished, and reports the total.
 pub struct Meter<'a> {
     listener: &'a dyn Progress,
     task: &'static str,
     done: AtomicU64,
     total: u64,
-    /// Progress is reported whenever the sum reaches or passes a multiple of this interval.
+    /// Progress is reported whenever the number of finished parts reaches or passes a multiple of this interval.
     interval: u64,
 }
 
 impl<'a> Meter<'a> {
-    /// Creates a meter for a computation of `total` parts, named by `task`. Reports every addition unless
-    /// [`every`](Self::every) sets an interval.
+    /// Creates a meter for the computation `task`, which consists of `total` parts. Every call of [`add`](Self::add) is
+    /// reported, unless [`every`](Self::every) sets an interval.
     pub fn new(listener: &'a dyn Progress, task: &'static str, total: u64) -> Self {
         Self {
             listener,
@@ -61,13 +61,15 @@ impl<'a> Meter<'a> {
         }
     }
 
-    /// Sets the number of parts between two reports. This is useful for callers that add few parts in each call.
+    /// Sets the number of finished parts between two reports. An interval is useful if each call of `add` adds only a
+    /// few parts.
     #[must_use]
     pub fn every(self, interval: u64) -> Self {
         Self { interval, ..self }
     }
 
-    /// Adds `n` to the number of parts that are done. Adding 0 always reports and so checks for cancellation.
+    /// Adds `n` to the number of finished parts. If `n` is 0, the call always sends a report and therefore checks for
+    /// cancellation.
     ///
     /// # Errors
     ///

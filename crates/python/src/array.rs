@@ -1,4 +1,4 @@
-//! Memory that `NumPy` views without a copy, and values copied from arrays.
+//! Memory that `NumPy` reads without a copy, and values that are copied from arrays.
 
 use std::ffi::c_int;
 use std::sync::Arc;
@@ -9,20 +9,20 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::ffi;
 use pyo3::prelude::*;
 
-/// A read-only view of memory. `numpy.frombuffer` makes an array of it without a copy. The memory is kept alive as long
-/// as a view exists.
+/// A read-only view of memory. `numpy.frombuffer` makes an array from this view without a copy. The memory is not freed
+/// as long as a view of it exists.
 #[pyclass(frozen, module = "meshwright._core")]
 pub(crate) struct Array {
     memory: Memory,
-    /// The type of the numbers, as `NumPy` writes it.
+    /// The type of the numbers, as a `NumPy` type name such as `float64`.
     #[pyo3(get)]
     dtype: &'static str,
-    /// The number of numbers in each row.
+    /// The number of values in each row.
     #[pyo3(get)]
     columns: usize,
 }
 
-/// Memory that never changes: a part of a shared mesh, or a list that only this array has.
+/// Memory that never changes. The memory is either a part of a shared mesh, or a list that belongs only to this array.
 enum Memory {
     Part(Arc<Mesh>, Part),
     Ids(Vec<u32>),
@@ -44,7 +44,7 @@ pub(crate) enum Part {
 }
 
 impl Array {
-    /// Views a part of a mesh. `None` if the mesh has no such column.
+    /// Views a part of a mesh. `None` if the mesh does not have the attribute.
     pub(crate) fn of(mesh: &Arc<Mesh>, part: Part) -> Option<Self> {
         let (dtype, columns) = match &part {
             Part::Positions => ("float64", 3),
@@ -127,7 +127,7 @@ fn bytes_of(values: &Values) -> &[u8] {
     }
 }
 
-/// Returns the type and the number of the components of a value.
+/// Returns the type of the components of an attribute value, and the number of components.
 fn kind(values: &Values) -> (&'static str, usize) {
     let dtype = match values {
         Values::Int(_) => "int32",
@@ -172,7 +172,7 @@ impl Array {
     }
 }
 
-/// Copies a contiguous buffer of rows with `columns` numbers each.
+/// Copies the values of a contiguous buffer, each row of which has `columns` numbers.
 pub(crate) fn values_from(buffer: &Bound<'_, PyAny>, columns: usize) -> PyResult<Values> {
     let py = buffer.py();
     let untyped = PyUntypedBuffer::get(buffer)?;

@@ -11,10 +11,10 @@ use crate::array::{Array, values_from};
 use crate::interrupt::run;
 use crate::mesh_views::{Mesh, number};
 
-/// Builds a mesh from three arrays: the positions (`float64`, three numbers for each vertex); the index of the first
-/// corner of each face, and at the end the number of all corners (`uint32`); and the vertex of each corner (`uint32`).
-/// Returns the mesh, a description of each repair, the index of the position that each vertex has, and the index of the
-/// polygon that each face comes from.
+/// Builds a mesh from three arrays. The first array has the positions (`float64`, three numbers for each vertex). The
+/// second has the index of the first corner of each face, followed by the number of all corners (`uint32`). The third
+/// has the vertex of each corner (`uint32`). Returns four values: the mesh, a description of each repair, the index of
+/// the input position of each vertex, and the index of the input polygon of each face.
 #[pyfunction]
 pub(crate) fn from_arrays(
     py: Python<'_>,

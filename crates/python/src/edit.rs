@@ -47,7 +47,7 @@ impl Editor {
         Self(Mutex::new((*mesh.0).clone()))
     }
 
-    /// The mesh as edited so far, with new ids, so that the ids have no gaps.
+    /// A copy of the mesh with all edits so far. Its elements are renumbered so that the ids have no gaps.
     fn mesh(&self) -> Mesh {
         let mut mesh = self
             .0
@@ -58,13 +58,13 @@ impl Editor {
         Mesh(Arc::new(mesh))
     }
 
-    /// The number of vertices, of edges and of faces.
+    /// The numbers of vertices, edges and faces.
     fn counts(&self) -> (usize, usize, usize) {
         let mesh = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         (mesh.n_vertices(), mesh.n_edges(), mesh.n_faces())
     }
 
-    /// The edge between two vertices; `None` if there is none.
+    /// The edge between two vertices; `None` if they share no edge.
     fn edge(&self, py: Python<'_>, v: u32, w: u32) -> PyResult<Option<u32>> {
         let (v, w) = (id::<VertexId>(v)?, id::<VertexId>(w)?);
         self.edit(py, |mesh| {

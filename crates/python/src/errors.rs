@@ -1,11 +1,11 @@
-//! The exceptions. Their classes are written in Python.
+//! The exceptions. The exception classes are written in Python.
 
 use mesh::EditError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use recipe::{Diagnostic, LineIndex, Source};
 
-/// Creates an exception of the class `name` of the module `meshwright._errors`.
+/// Creates an exception of a class in the Python module `meshwright._errors`. The class has the name `name`.
 fn exception<'py, A>(py: Python<'py>, name: &str, arguments: A) -> PyErr
 where
     A: pyo3::call::PyCallArgs<'py>,
@@ -19,12 +19,12 @@ where
     }
 }
 
-/// An error without a place in a recipe.
+/// Creates an error that does not refer to a place in a recipe.
 pub(crate) fn error(py: Python<'_>, message: &str) -> PyErr {
     exception(py, "Error", (message,))
 }
 
-/// A recipe or a step that cannot run, or that failed.
+/// Creates the error for a recipe or step that cannot run or that failed.
 pub(crate) fn recipe_error(
     py: Python<'_>,
     sources: &[Source],
@@ -61,7 +61,7 @@ pub(crate) fn problems<'py>(
     Ok(list)
 }
 
-/// A refused edit: the message, the name of the reason, and the elements, such as `e12`.
+/// Creates the error for a refused edit, with the message, the name of the reason, and the elements, such as `e12`.
 pub(crate) fn edit_error(py: Python<'_>, refused: EditError) -> PyErr {
     let reason = format!("{refused:?}");
     let end = reason.find(|c: char| !c.is_alphanumeric());

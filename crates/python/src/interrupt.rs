@@ -1,5 +1,5 @@
-//! Runs work on another thread. Meanwhile, the calling thread lets other Python threads run, calls the progress
-//! callback, and checks for Ctrl-C, which Python reports only on the main thread.
+//! Runs work on another thread. While the work runs, the calling thread lets other Python threads run, calls the
+//! progress callback, and checks for Ctrl-C. Python reports Ctrl-C only on the main thread.
 
 use std::panic::resume_unwind;
 use std::process;
@@ -13,13 +13,14 @@ use op::Progress;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
-/// How often signals are checked and progress is shown.
+/// The time between two checks for signals. The progress is shown at the same interval.
 const INTERVAL: Duration = Duration::from_millis(40);
 
-/// The id of the process that has run work. The threads of this process do not exist in forked processes.
+/// The id of the process in which the worker threads were started. If this process is forked, its threads do not exist
+/// in the new process.
 static PROCESS: AtomicU32 = AtomicU32::new(0);
 
-/// Receives progress on the threads of the work, for the calling thread.
+/// Receives progress reports on the worker threads and keeps them for the calling thread.
 #[derive(Default)]
 pub(crate) struct Monitor {
     is_cancelled: AtomicBool,
@@ -29,7 +30,7 @@ pub(crate) struct Monitor {
 
 impl Progress for Monitor {
     fn advance(&self, task: &str, done: u64, total: u64) -> bool {
-        // If the calling thread is reading, this report is skipped.
+        // If the calling thread is reading the last report at this moment, the new report is skipped.
         if let Ok(mut latest) = self.latest.try_lock() {
             *latest = Some((task.to_owned(), done, total));
         }
@@ -43,12 +44,13 @@ impl Listener for Monitor {
     }
 }
 
-/// Runs `work`. `callback(step, task, done, total)` is called at intervals on this thread; an exception in it cancels
-/// the work.
+/// Runs `work`. `callback(step, task, done, total)` is called at intervals on the calling thread. If the callback
+/// raises an exception, the work is canceled.
 ///
 /// # Errors
 ///
-/// The exception of Ctrl-C or of the callback. `RuntimeError` in a forked process whose parent has already run work.
+/// Raises the exception that Ctrl-C or the callback raised. Raises `RuntimeError` in a forked process if its parent
+/// process has already run work.
 pub(crate) fn run<T: Send>(
     py: Python<'_>,
     callback: Option<&Bound<'_, PyAny>>,
@@ -94,7 +96,8 @@ pub(crate) fn run<T: Send>(
     }
 }
 
-/// Reports the end of the work to the calling thread when dropped, so that the thread stops waiting even after a panic.
+/// Tells the calling thread, when dropped, that the work has ended. The calling thread therefore stops waiting even
+/// after a panic.
 struct End<'a>(&'a AtomicBool, thread::Thread);
 
 impl Drop for End<'_> {
@@ -104,7 +107,7 @@ impl Drop for End<'_> {
     }
 }
 
-/// Passes the latest progress to the callback.
+/// Passes the latest progress report to the callback.
 fn show(monitor: &Monitor, callback: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
     let Some(callback) = callback else {
         return Ok(());

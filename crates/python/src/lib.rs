@@ -1,5 +1,5 @@
-//! The compiled part of the Python package `meshwright`. The Python sources beside this crate add names, types and
-//! documentation; they are what users call.
+//! The compiled part of the Python package `meshwright`. Users call the Python sources in `python/meshwright`. These
+//! sources add names, types and documentation to the compiled part.
 //!
 //! ```text
 //! scenes.rs     Scene: the objects of a scene; runs one step on a scene
@@ -40,7 +40,7 @@ fn schema() -> String {
     recipe::schema(&REGISTRY).to_string()
 }
 
-/// Returns the operations as JSON: their names, summaries, examples, and whether they take `on`.
+/// Returns the operations as JSON: for each, its name, its summary, an example, and whether a step takes `on`.
 #[pyfunction]
 fn operations() -> String {
     let entries = REGISTRY.entries().iter().map(|entry| {
@@ -54,14 +54,14 @@ fn operations() -> String {
     serde_json::Value::Array(entries.collect()).to_string()
 }
 
-/// Runs the program `meshwright`, and returns its exit code. The first of the arguments is the name of the program.
+/// Runs the program `meshwright`, and returns its exit code. The first argument is the name of the program.
 #[pyfunction]
 #[expect(clippy::needless_pass_by_value, reason = "Python passes a new list")]
 fn program(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
     py.detach(|| cli::run_with(&REGISTRY, &arguments))
 }
 
-/// Returns the recipes that `meshwright test` runs for these recipes and folders.
+/// Returns the recipes that `meshwright test` would run for the given recipes and folders.
 #[pyfunction]
 #[expect(clippy::needless_pass_by_value, reason = "Python passes a new list")]
 fn tested_recipes(py: Python<'_>, paths: Vec<PathBuf>) -> PyResult<Vec<PathBuf>> {
@@ -69,7 +69,7 @@ fn tested_recipes(py: Python<'_>, paths: Vec<PathBuf>) -> PyResult<Vec<PathBuf>>
     found.map_err(|message| errors::error(py, &message))
 }
 
-/// Returns the input files that `meshwright batch` processes for these paths and patterns.
+/// Returns the input files that `meshwright batch` would process for the given paths and patterns.
 #[pyfunction]
 #[expect(clippy::needless_pass_by_value, reason = "Python passes a new list")]
 fn batch_inputs(py: Python<'_>, patterns: Vec<String>) -> PyResult<Vec<String>> {

@@ -9,7 +9,8 @@ use crate::array::Array;
 use crate::interrupt::run;
 use crate::mesh_views::Mesh;
 
-/// The cotangent Laplacian: the start of each row, the columns and values of the entries, and the areas of vertices.
+/// Returns the cotangent Laplacian as four arrays: the start of each row, the columns of the entries, the values of the
+/// entries, and the areas of the vertices.
 #[pyfunction]
 pub(crate) fn laplacian(py: Python<'_>, mesh: &Mesh) -> PyResult<(Array, Array, Array, Array)> {
     let (starts, columns, values, areas) = run(py, None, |progress| {
@@ -36,7 +37,8 @@ pub(crate) fn laplacian(py: Python<'_>, mesh: &Mesh) -> PyResult<(Array, Array, 
     ))
 }
 
-/// The matrix from positions to refined positions: the start of each row, columns, values, and the number of columns.
+/// Returns the matrix that maps positions to refined positions, as the start of each row, the columns of the entries,
+/// the values of the entries, and the number of columns.
 #[pyfunction]
 pub(crate) fn subdivision(
     py: Python<'_>,

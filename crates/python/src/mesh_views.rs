@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use crate::array::{Array, Part, values_from};
 use crate::interrupt::run;
 
-/// A mesh, which never changes. Its ids run from 0 without gaps.
+/// A mesh, which never changes. The ids of its elements run from 0 without gaps.
 #[pyclass(frozen, module = "meshwright._core")]
 pub(crate) struct Mesh(pub(crate) Arc<Kernel>);
 
@@ -50,12 +50,12 @@ fn corner_half_edges(mesh: &Kernel) -> Vec<HalfEdgeId> {
 
 #[pymethods]
 impl Mesh {
-    /// The number of vertices, of edges and of faces.
+    /// The numbers of vertices, edges and faces.
     fn counts(&self) -> (usize, usize, usize) {
         (self.0.n_vertices(), self.0.n_edges(), self.0.n_faces())
     }
 
-    /// A part of the mesh: `positions`, `next`, `origin`, `face`, `vertex_half_edge` or `face_half_edge`.
+    /// One of the arrays of the mesh: `positions`, `next`, `origin`, `face`, `vertex_half_edge` or `face_half_edge`.
     fn array(&self, part: &str) -> PyResult<Array> {
         let part = match part {
             "positions" => Part::Positions,
@@ -106,7 +106,7 @@ impl Mesh {
         described.collect()
     }
 
-    /// The values of an attribute. Values of corners are in the order of the corners, and copied.
+    /// The values of an attribute. Values of corners are copied, and their order is that of the corners, face by face.
     fn attribute(&self, py: Python<'_>, domain_name: &str, name: &str) -> PyResult<Array> {
         let domain = domain(domain_name)?;
         let missing = || PyKeyError::new_err(name.to_owned());
@@ -127,7 +127,8 @@ impl Mesh {
         Ok(Array::column(values))
     }
 
-    /// The mesh with an additional attribute. Its values are a contiguous buffer of rows.
+    /// A copy of the mesh with an additional attribute. The values of the new attribute are a contiguous buffer of
+    /// rows.
     fn with_attribute(
         &self,
         py: Python<'_>,
@@ -184,7 +185,7 @@ impl Mesh {
         Ok(Self(Arc::new(changed)))
     }
 
-    /// The mesh without this attribute.
+    /// A copy of the mesh without this attribute.
     fn without_attribute(&self, domain_name: &str, name: &str) -> PyResult<Self> {
         let mut mesh = (*self.0).clone();
         let removed = mesh.remove_column(domain(domain_name)?, name);
@@ -192,7 +193,8 @@ impl Mesh {
         Ok(Self(Arc::new(mesh)))
     }
 
-    /// The mesh with other positions: a contiguous buffer of three numbers for each vertex.
+    /// A copy of the mesh with new positions. The positions are given as a contiguous buffer of three numbers for each
+    /// vertex.
     fn with_positions(&self, py: Python<'_>, positions: &Bound<'_, PyAny>) -> PyResult<Self> {
         let Values::Vec3(positions) = values_from(positions, 3)? else {
             return Err(PyValueError::new_err("positions must be numbers"));
@@ -228,23 +230,23 @@ impl Mesh {
         run(py, None, |_| geometry::area(&self.0))
     }
 
-    /// The volume inside the mesh, for a closed mesh.
+    /// The volume that the mesh encloses, if the mesh is closed.
     fn volume(&self, py: Python<'_>) -> PyResult<f64> {
         run(py, None, |_| geometry::volume(&self.0))
     }
 
-    /// The minimum and the maximum of the positions; `None` for a mesh without vertices.
+    /// The lowest and the highest coordinates of the vertices; `None` for a mesh without vertices.
     fn bounds(&self, py: Python<'_>) -> PyResult<Option<[[f64; 3]; 2]>> {
         let bounds = run(py, None, |_| geometry::bounds(&self.0))?;
         Ok(bounds.map(|bounds| bounds.map(|point| point.to_array())))
     }
 
-    /// The number of vertices minus edges plus faces.
+    /// The Euler characteristic: the number of vertices, minus the number of edges, plus the number of faces.
     fn euler_characteristic(&self) -> i64 {
         self.0.euler_characteristic()
     }
 
-    /// The broken invariants in words; empty for every mesh that this package makes.
+    /// A description of each broken invariant. The list is empty for every mesh that this package creates.
     fn defects(&self, py: Python<'_>) -> PyResult<Vec<String>> {
         run(py, None, |_| {
             self.0.defects().iter().map(ToString::to_string).collect()

@@ -1,4 +1,4 @@
-//! Recipes: read, checked and run.
+//! Functions that read, check and run recipes.
 
 use std::path::{Path, PathBuf};
 
@@ -17,7 +17,7 @@ pub(crate) struct Recipe(Loaded);
 
 #[pymethods]
 impl Recipe {
-    /// Reads and checks a recipe. Without a text, reads the file `path`. Relative paths in `set` are relative to the
+    /// Reads and checks a recipe. If no text is given, reads the file `path`. Relative paths in `set` start at the
     /// working directory.
     #[new]
     #[pyo3(signature = (text, path, set, preset, out, budget))]
@@ -51,12 +51,12 @@ impl Recipe {
         loaded.map(Self).map_err(|message| error(py, &message))
     }
 
-    /// The errors and warnings, as dictionaries.
+    /// The errors and warnings of the recipe, as dictionaries.
     fn problems<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
         problems(py, &self.0.recipe.sources, &self.0.diagnostics)
     }
 
-    /// Raises the errors, if there are any.
+    /// Raises an exception with the errors of the recipe, if there are any.
     fn check(&self, py: Python<'_>) -> PyResult<()> {
         if self.0.has_errors() {
             let sources = &self.0.recipe.sources;
@@ -91,13 +91,13 @@ impl Recipe {
         self.0.recipe.expectations.len()
     }
 
-    /// The largest memory of all meshes after any step, in bytes; `None` if it is unknown.
+    /// The largest amount of memory that all meshes together take after any step, in bytes; `None` if it is unknown.
     fn peak_bytes(&self) -> Option<u64> {
         let peaks = self.0.forecast.steps.iter().map(|step| step.bytes.max);
         peaks.max().filter(|&peak| peak < u64::MAX)
     }
 
-    /// Runs the recipe. Returns the scene, and a dictionary with the digest, the steps and the files.
+    /// Runs the recipe. Returns the scene, and a dictionary with the digest of the scene, the steps and the files.
     fn run<'py>(
         &self,
         py: Python<'py>,

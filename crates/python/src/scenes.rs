@@ -19,14 +19,14 @@ use crate::errors::{error, problems, recipe_error};
 use crate::interrupt::{Monitor, run};
 use crate::mesh_views::{Mesh, domain, number};
 
-/// The folder of outputs in memory.
+/// The output folder, if files are kept in memory.
 const OUT: &str = "out";
 
 /// A scene, which never changes.
 #[pyclass(frozen, module = "meshwright._core")]
 pub(crate) struct Scene(pub(crate) Kernel);
 
-/// Where a step reads and writes files.
+/// The place where a step reads and writes files: folders on disk, or memory.
 enum Place {
     Disk { input: PathBuf, output: PathBuf },
     Memory(Arc<Memory>),
@@ -41,7 +41,7 @@ struct Done {
     written: Vec<(PathBuf, Vec<u8>)>,
 }
 
-/// Why a step did not run, or failed.
+/// The errors of a step that could not run or that failed.
 struct Failed(Vec<Source>, Vec<Diagnostic>);
 
 fn step(
@@ -147,8 +147,8 @@ impl Scene {
             .ok_or_else(|| PyTypeError::new_err(format!("{name:?} is {kind}, expected a mesh")))
     }
 
-    /// The ids of the elements of a mesh that a selection matches. If no domain is given, the selection must be valid
-    /// for only one domain.
+    /// The ids of the elements of a mesh that a selection matches. If no domain is given, there must be exactly one
+    /// domain for which the selection is valid.
     fn select(
         &self,
         py: Python<'_>,
@@ -177,13 +177,14 @@ impl Scene {
         Ok(materials.iter().map(|m| m.name.as_str()).collect())
     }
 
-    /// The scene with only these objects, and the nodes that show them.
+    /// A copy of the scene with only these objects and the nodes that place them.
     #[expect(clippy::needless_pass_by_value, reason = "Python passes a new list")]
     fn only(&self, names: Vec<String>) -> Self {
         Self(self.0.only(|name| names.iter().any(|n| n == name)))
     }
 
-    /// The scene with this mesh as the geometry of the object `name`, which is added if it does not exist.
+    /// A copy of the scene in which this mesh is the geometry of the object `name`. The object is added if it does not
+    /// exist.
     fn with_mesh(&self, name: &str, mesh: &Mesh) -> PyResult<Self> {
         let mut scene = self.0.clone();
         if let Some((geometry, _)) = scene.parts_mut(name) {
@@ -196,8 +197,8 @@ impl Scene {
         Ok(Self(scene))
     }
 
-    /// The scene with the objects of another scene, and the nodes that show them. `names` are the new names of the
-    /// objects.
+    /// A scene with the objects of both scenes, and the nodes that place them. `names` maps names of objects to new
+    /// names.
     fn joined(&self, other: &Self, names: BTreeMap<String, String>) -> PyResult<Self> {
         let message = |error: scene::DuplicateName| PyValueError::new_err(error.to_string());
         let (mut scene, mut other) = (self.0.clone(), other.0.clone());
@@ -209,12 +210,12 @@ impl Scene {
         Ok(Self(scene))
     }
 
-    /// The scene without nodes, with every object moved to the place where its nodes show it.
+    /// A copy of the scene without nodes. Each object is moved to the place that its nodes give it.
     fn placed(&self) -> Self {
         Self(self.0.placed().into_owned())
     }
 
-    /// Whether nodes place objects of the scene.
+    /// Whether the scene has nodes, which place its objects.
     fn has_nodes(&self) -> bool {
         !self.0.graph().is_empty()
     }
@@ -224,13 +225,13 @@ impl Scene {
         run(py, None, |_| self.0.digest().to_string())
     }
 
-    /// Runs the steps of a recipe on this scene. `files` are inputs in memory; outputs then stay in memory, too. If
-    /// `files` is `None`, files are on disk. Returns the new scene, and a dictionary with the report of each step,
-    /// warnings and the outputs in memory.
+    /// Runs the steps of a recipe on this scene. `files` are input files in memory. If they are given, output files
+    /// stay in memory, too. If `files` is `None`, files are read from and written to disk. Returns the new scene, and a
+    /// dictionary. The dictionary has the report of each step, the warnings, and the outputs that are kept in memory.
     #[pyo3(signature = (text, input, output, files, budget, progress))]
     #[expect(
         clippy::too_many_arguments,
-        reason = "called from one place in Python, by position"
+        reason = "called from one place in Python, with positional arguments"
     )]
     fn run<'py>(
         &self,

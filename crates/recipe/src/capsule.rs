@@ -5,9 +5,9 @@
 //! capsule/before.mws     the scene before that step, bit for bit
 //! ```
 //!
-//! `recipe.ron` is an ordinary recipe in which parameters are replaced by their values, and calls and repetitions by
-//! their steps. Steps keep their labels, so that they make the same random choices as in the original run. The files
-//! that the steps read are not copied: `recipe.ron` refers to their original locations.
+//! `recipe.ron` is an ordinary recipe. Its parameters are replaced by their values, and calls and repetitions are
+//! replaced by the steps that they stand for. Each step keeps its label, so it makes the same random choices as in the
+//! original run. The files that the steps read are not copied: `recipe.ron` refers to their original locations.
 
 use std::path::{Path, PathBuf};
 
@@ -22,8 +22,9 @@ use ron_tree::{Span, Value, ValueKind, string_literal};
 /// The file name of the scene in a capsule.
 pub const BEFORE: &str = "before.mws";
 
-/// Returns the text of the recipe for a capsule in `folder`. The text contains the steps of `recipe` from the index
-/// `from` on. The step at this index failed with `message`. `inputs` are the files that `recipe` reads.
+/// Returns the text of the recipe for a failure capsule in `folder`. The text contains the steps of `recipe`, starting
+/// with the step at the index `from`. The step at the index `from` failed with `message`. `inputs` are the files that
+/// `recipe` reads.
 pub fn capsule(
     recipe: &Recipe,
     from: usize,
@@ -83,8 +84,8 @@ fn line(step: &RecipeStep, value: &Value) -> String {
 }
 
 impl Rebase<'_> {
-    /// Returns the edits of a recipe's text that rewrite the relative paths of input files. `value` is the tree of the
-    /// text, and `inputs` are the files that the recipe reads.
+    /// Returns the edits of a recipe's text that rewrite the relative paths of input files. `value` is the syntax tree
+    /// of this text, and `inputs` are the files that the recipe reads.
     pub fn edits(&self, value: &Value, inputs: &[PathBuf]) -> Vec<(Span, String)> {
         let mut edits = Vec::new();
         let mut values = vec![value.clone()];
@@ -103,7 +104,7 @@ impl Rebase<'_> {
     }
 }
 
-/// Rewrites the paths of input files: a path relative to `folders.from` becomes relative to `folders.to`.
+/// Rewrites the paths of input files. A path relative to `folders.from` becomes a path relative to `folders.to`.
 fn rebase_inputs(value: &mut Value, folders: Rebase, inputs: &[PathBuf]) {
     match &mut value.kind {
         ValueKind::String(text) if inputs.contains(&folders.from.join(&**text)) => {

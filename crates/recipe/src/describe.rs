@@ -9,9 +9,10 @@ use crate::schema_check::Schema;
 pub struct FieldDoc {
     /// The name of the parameter.
     pub name: String,
-    /// The kind of value that the parameter takes, with its range.
+    /// The kind of value that the parameter takes, with the range of the value.
     pub kind: String,
-    /// `None` if the parameter is required. Otherwise the default as RON, or the text `none` if there is no default.
+    /// `None` if the parameter is required. For an optional parameter, the default value as RON, or the text `none` if
+    /// there is no default value.
     pub default: Option<String>,
     /// The description of the parameter.
     pub doc: String,
@@ -24,7 +25,7 @@ pub struct FieldDoc {
 pub struct VariantDoc {
     /// The name of the variant.
     pub name: String,
-    /// How the variant is written, such as `Sharp(above: ..)`.
+    /// The form in which the variant is written, such as `Sharp(above: ..)`.
     pub written: String,
     /// The description of the variant.
     pub doc: String,
@@ -37,13 +38,14 @@ pub fn fields(schema: &Json) -> Vec<FieldDoc> {
     fields_of(&Schema::root(schema), true)
 }
 
-/// Returns the fields of `part`, which is a part of the schema `root`, such as the content of a variant.
+/// Returns the fields of `part`, which is a part of the JSON schema `root`, such as the fields of a variant.
 pub fn fields_in(root: &Json, part: &Json) -> Vec<FieldDoc> {
     fields_of(&Schema::new(root, part), true)
 }
 
-/// Returns the fields of a schema. If `with_variants` is set, each field whose type is an enumeration includes the
-/// variants of that type. Variants cannot be included at every level, because selections contain selections.
+/// Returns the fields of a schema. If `with_variants` is set, the description of each field whose type is an
+/// enumeration contains the variants of the type. Variants cannot be included at every level, because a selection can
+/// contain other selections.
 fn fields_of(schema: &Schema, with_variants: bool) -> Vec<FieldDoc> {
     let required: Vec<&str> = schema.required().collect();
     let described = |name: &str| {
@@ -65,14 +67,14 @@ fn fields_of(schema: &Schema, with_variants: bool) -> Vec<FieldDoc> {
     schema.fields().filter_map(described).collect()
 }
 
-/// The documentation of a type of parameters: an enumeration or a struct.
+/// The documentation of a type that parameters use: an enumeration or a struct.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TypeDoc {
     /// The name of the type.
     pub name: String,
     /// The description of the type.
     pub doc: String,
-    /// The fields of the type, if the type is a struct, written `(a: .., b: ..)`.
+    /// The fields of the type, if the type is a struct. A struct is written `(a: .., b: ..)`.
     pub fields: Vec<FieldDoc>,
     /// The variants of the type, if the type is an enumeration.
     pub variants: Vec<VariantDoc>,
@@ -102,25 +104,25 @@ pub fn types(schema: &Json) -> Vec<TypeDoc> {
     types
 }
 
-/// Returns the reasons that `refused:` can name.
+/// Returns the reasons for a refusal that a recipe can name in `refused:`.
 pub fn refusals() -> Vec<VariantDoc> {
     variants(&Schema::root(&crate::schema::of::<op::Refusal>()))
 }
 
-/// Returns all expectations, in the order of the documentation.
+/// Returns the documentation of all expectations, in a fixed order.
 pub fn expectations() -> Vec<VariantDoc> {
     variants(&Schema::root(crate::schema::expectation()))
 }
 
-/// Returns the types of selections, and the type of the regions that some selections use.
+/// Returns the documentation of the selection types, and of the type of regions that some selections use.
 pub fn selections() -> Vec<TypeDoc> {
     let mut all = types(crate::schema::expectation());
     all.retain(TypeDoc::is_selection);
     all
 }
 
-/// Describes the kind of value that a schema allows: the name of the type if the type has a name and is not a tuple, or
-/// else the form of the value.
+/// Describes the kind of value that a schema allows. The description is the name of the type or, if the type is a tuple
+/// or has no name, the form of the value.
 fn kind(schema: &Schema) -> String {
     match schema.reference() {
         Some(name) if schema.list("prefixItems").is_empty() => name.to_owned(),
@@ -153,8 +155,8 @@ fn form(schema: &Schema) -> String {
     }
 }
 
-/// Describes the range of a number, such as ` from 2 to 720`, ` above 0` or `, at least 3`. Empty if every number is
-/// allowed.
+/// Describes the allowed range of a number, such as ` from 2 to 720`, ` above 0` or `, at least 3`. The text is empty
+/// if every number is allowed.
 fn range(schema: &Schema) -> String {
     let bound = |keyword| schema.numbers(keyword).next();
     let lowest = bound("minimum");
@@ -181,7 +183,7 @@ fn range(schema: &Schema) -> String {
     }
 }
 
-/// Formats a number of a schema. Whole numbers have no decimal point.
+/// Formats a number of a schema. A whole number is written without a decimal point.
 fn number(x: &serde_json::Number) -> String {
     let text = x.to_string();
     text.strip_suffix(".0").unwrap_or(&text).to_owned()
@@ -245,8 +247,8 @@ fn default_of(schema: &Schema, value: &Json) -> String {
     }
 }
 
-/// Formats a JSON value as RON. An object whose only key is capitalized is written as a variant. An array of 1 to 4
-/// numbers is written as a tuple. Fields without a value are left out.
+/// Formats a JSON value as RON. An object with only one key is written as a variant if the key starts with a capital
+/// letter. An array of 1 to 4 numbers is written as a tuple. Fields without a value are omitted.
 fn to_ron(value: &Json) -> String {
     match value {
         Json::Null => "none".to_owned(),

@@ -5,13 +5,15 @@
 //!                          thread 2: job 5
 //! ```
 //!
-//! Jobs run on the same threads as the parallel loops inside them. While every thread has a job, no thread is idle, so
-//! each loop runs on the thread of its job at no extra cost. When no jobs are left to start, idle threads help with the
-//! loops of the last jobs. If there is not enough memory for the next job, a thread does not block, because a blocked
-//! thread could not help with these loops. Instead, the thread returns to the pool. A thread that has completed a job
-//! starts the next job if there is now enough memory, and wakes another thread if the limits allow one more job. While
-//! a thread waits inside a job for a part of a loop, the thread does not start another job. So no job has to wait for
-//! another job, and a job cannot deadlock on a lock that a suspended job on the same thread holds.
+//! Jobs run on the same threads as the parallel loops inside them. As long as every thread has a job, no thread is
+//! idle. Each loop then runs entirely on the thread of its job and costs nothing extra. When no more jobs can start,
+//! idle threads help with the parallel loops of the last jobs. If there is not enough memory for the next job, the
+//! thread does not wait for memory, because a waiting thread could not help with the loops of other jobs. Instead, the
+//! thread returns to the thread pool. When a thread completes a job, memory becomes free. If there is now enough
+//! memory, the thread starts the next job. The thread wakes another thread if the limits allow one more job. While a
+//! job waits for a part of its parallel loop, the thread of the job does not start another job. Therefore, no job has
+//! to wait until another job has ended. A job also cannot deadlock on a lock that a suspended job on the same thread
+//! holds.
 
 use std::any::Any;
 use std::cell::Cell;
@@ -28,9 +30,10 @@ use crate::check::Forecast;
 /// Limits for running jobs in parallel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct JobLimits {
-    /// The number of threads. 0 means one for each processor.
+    /// The number of threads. 0 means one thread for each processor.
     pub threads: usize,
-    /// The maximum number of jobs that run at the same time, at most one for each thread. 0 means one for each thread.
+    /// The maximum number of jobs that run at the same time. The number of jobs cannot exceed the number of threads. 0
+    /// means as many jobs as threads.
     pub jobs: usize,
     /// The memory budget, in bytes, that all running jobs share.
     pub budget: u64,
@@ -59,25 +62,26 @@ pub struct Jobs<B, S, W> {
     pub count: usize,
     /// Returns the estimated peak memory of a job, in bytes.
     pub bytes: B,
-    /// Returns `true` if no more jobs should start.
+    /// Returns `true` if no more jobs should be started.
     pub stop: S,
     /// Runs a job.
     pub work: W,
 }
 
 impl<B, S, W> Jobs<B, S, W> {
-    /// Runs the jobs. `ended` is called on the calling thread with all jobs that ended since the last call, in the
-    /// order in which they ended. Every job is passed to `ended` exactly once.
+    /// Runs the jobs. Calls `ended` on the calling thread. Each call of `ended` receives the jobs that have ended since
+    /// the previous call, in the order in which they ended. Each job is passed to `ended` exactly once.
     ///
-    /// Jobs start in the order of their indices. A job starts if the number of running jobs is below the maximum, and
-    /// if the bytes of the job and of the running jobs together are within the budget. A job that needs more bytes than
-    /// the budget counts as if it needed exactly the budget. A panic ends only the job that panicked.
+    /// Jobs start in the order of their indices. A job starts if two conditions hold: fewer jobs are running than the
+    /// maximum, and the memory of the job and of all running jobs together is within the budget. If a job needs more
+    /// memory than the budget, it counts as if it needed exactly the budget. If a job panics, the other jobs are not
+    /// affected.
     ///
     /// This method blocks, so it must not be called from a thread of a rayon pool.
     ///
     /// # Errors
     ///
-    /// [`JobsError`] if the threads cannot be started. In that case, no job has started.
+    /// Returns [`JobsError`] if the threads cannot be started. No job was started if this error is returned.
     pub fn run<T>(
         &self,
         limits: JobLimits,
@@ -111,7 +115,7 @@ impl<B, S, W> Jobs<B, S, W> {
     }
 }
 
-/// Returns a pool whose threads have stacks of 8 MiB, the usual stack size of a main thread.
+/// Returns a thread pool whose threads have stacks of 8 MiB, which is the usual stack size of a main thread.
 fn pool(threads: usize) -> Result<ThreadPool, ThreadPoolBuildError> {
     ThreadPoolBuilder::new()
         .num_threads(threads)
@@ -137,7 +141,7 @@ fn deliver<T>(
 }
 
 thread_local! {
-    /// Whether this thread runs a job, or waits for a part of a job that it runs.
+    /// Whether this thread runs a job. A thread that waits for a part of its job also counts.
     static RUNS_JOB: Cell<bool> = const { Cell::new(false) };
 }
 
@@ -166,11 +170,12 @@ where
     S: Fn() -> bool + Sync,
     W: Fn(usize) -> T + Sync,
 {
-    /// Runs jobs until no job can start. Wakes another thread whenever it has started a job and the limits allow one
-    /// more. If `is_broadcast`, all threads were started together, so the first job wakes no other thread.
+    /// Runs jobs until no job can start. After starting a job, wakes another thread if the limits allow one more job.
+    /// If `is_broadcast` is set, all threads were started together. The first job therefore does not wake another
+    /// thread.
     fn work<'s>(&'s self, scope: &Scope<'s>, is_broadcast: bool) {
-        // This thread already runs a job. That job waits for a part of a loop. If the thread started another job now,
-        // the waiting job could not continue before the other job has ended.
+        // This thread already runs a job. The job that runs on this thread is waiting for a part of a loop. If the
+        // thread started another job now, the waiting job could not continue until the other job has ended.
         if RUNS_JOB.get() {
             return;
         }
@@ -222,8 +227,8 @@ where
         })
     }
 
-    /// Returns the bytes of the next job, if there is one and the limits allow it to start. A job that needs more bytes
-    /// than the budget counts as if it needed exactly the budget.
+    /// Returns the memory of the next job, in bytes. Returns `None` if there is no next job, or if the limits do not
+    /// allow it to start. If a job needs more memory than the budget, it counts as if it needed exactly the budget.
     fn admissible(&self, state: &State) -> Option<u64> {
         if state.next >= self.jobs.count || state.running >= self.max_running {
             return None;
@@ -249,7 +254,7 @@ fn message(payload: &(dyn Any + Send)) -> String {
     text.unwrap_or("it panicked without a message").to_owned()
 }
 
-/// Sorts results into the order of their jobs.
+/// Puts results that arrive in any order into the order of their jobs.
 #[derive(Debug)]
 pub struct InOrder<T> {
     next: usize,
@@ -271,7 +276,8 @@ impl<T> InOrder<T> {
         self.waiting.insert(job, result);
     }
 
-    /// Returns the next job in order with its result, if the result has been added.
+    /// Returns the next result in the order of jobs, with the index of its job. Returns `None` if this result has not
+    /// been added yet.
     pub fn take(&mut self) -> Option<(usize, T)> {
         let result = self.waiting.remove(&self.next)?;
         self.next += 1;
@@ -279,15 +285,17 @@ impl<T> InOrder<T> {
     }
 }
 
-/// The estimated memory, in bytes, for each byte of the input files if a forecast has no upper limit for its meshes.
-/// The memory holds the file itself, its mesh, and an edited copy of the mesh. A mesh is about as large as its file if
-/// the file is text, and up to three times as large if the file is binary.
+/// The estimated memory for each byte of the input files, in bytes. This estimate is used if a forecast has no upper
+/// limit for the memory of its meshes. The memory must be enough for the file itself, its mesh, and an edited copy of
+/// the mesh. The mesh of a text file is about as large as the file. The mesh of a binary file is up to three times as
+/// large as the file.
 const BYTES_FOR_EACH_BYTE_READ: u64 = 8;
 
 impl Forecast {
-    /// Returns the estimated peak memory of the run, in bytes. If the forecast has an upper limit for the meshes of
-    /// every step, the estimate is the size of the input files plus the largest upper limit. Otherwise the estimate is
-    /// eight times the size of the input files, but at least the largest lower limit.
+    /// Returns the estimated peak memory of the run, in bytes. If the forecast has an upper limit for the memory of the
+    /// meshes after every step, the estimate is the size of the input files plus the largest of these limits. If the
+    /// forecast of some step has no upper limit, the estimate is eight times the size of the input files, but at least
+    /// the largest lower limit of a step.
     pub fn peak_bytes(&self) -> u64 {
         let size = |path: &std::path::PathBuf| Path::metadata(path).map_or(0, |m| m.len());
         let read: u64 = self.inputs.iter().map(size).sum();
@@ -319,7 +327,7 @@ mod tests {
         }
     }
 
-    /// Runs jobs that take 0 bytes, and returns how they ended, in order.
+    /// Runs jobs that need no memory. Returns how each job ended, in the order of the jobs.
     fn ends<T: Send>(
         count: usize,
         limits: JobLimits,
@@ -346,7 +354,7 @@ mod tests {
         all
     }
 
-    /// Runs nested parallel loops, which are slow for some jobs.
+    /// Runs a parallel loop inside another parallel loop. The loops take long for some values of `i`.
     fn nested(i: usize) -> u64 {
         let sum = |n: u64| (0..n).into_par_iter().map(|x| x % 7).sum::<u64>();
         (0..40_u64)

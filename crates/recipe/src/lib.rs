@@ -5,11 +5,11 @@
 //! text --read--> Recipe + diagnostics --check--> Forecast + diagnostics --run--> Outcome
 //! ```
 //!
-//! [`read`] turns text into operations of a [`Registry`](op::Registry) and reports every error at once. It checks each
-//! value against the schema of the value's type (module [`schema_check`]), and then deserializes the value. [`check`]
-//! plans all steps without computing geometry: it forecasts counts and memory, reports forecasts above the budget as
-//! errors, and checks files and names. [`run`] runs the steps. Outputs are written only if every step succeeds and
-//! every expectation holds.
+//! [`read`] turns text into operations of a [`Registry`](op::Registry), and reports all errors at once. [`read`] also
+//! checks each value against the schema of its type (module [`schema_check`]), and then deserializes the value.
+//! [`check`] plans all steps without computing geometry. [`check`] forecasts the element counts and the memory, reports
+//! an error if a forecast is above the budget, and checks files and names. [`run`] runs the steps. Outputs are written
+//! only if every step succeeds and every expectation holds.
 
 pub mod capsule;
 pub mod compare;

@@ -1,5 +1,5 @@
-//! The parameters of a recipe. A recipe declares its parameters with a type and a default, and they can be set on the
-//! command line.
+//! The parameters of a recipe. A recipe declares each parameter with a type and a default value. The command line can
+//! set parameters to other values.
 
 use std::fmt::Display;
 use std::path::Path;
@@ -11,14 +11,15 @@ use store::Store;
 use crate::source::{below, rebase_path};
 use ron_tree::{Number, Span, Value, ValueKind, parse};
 
-/// How to rewrite a relative path: a path relative to `from` becomes a path to the same file relative to `to`.
+/// How to rewrite a relative path. A path relative to `from` becomes a path relative to `to` that leads to the same
+/// file.
 #[derive(Clone, Copy, Debug)]
 pub struct Rebase<'a> {
-    /// The folder that the given path is relative to.
+    /// The folder to which the given path is relative.
     pub from: &'a Path,
-    /// The folder that the new path is relative to.
+    /// The folder to which the new path is relative.
     pub to: &'a Path,
-    /// The store that contains the folders.
+    /// The store that contains both folders.
     pub store: &'a dyn Store,
 }
 
@@ -62,9 +63,10 @@ pub enum Param {
         /// The description of the parameter.
         doc: Option<String>,
     },
-    /// The path of an input file. The default is relative to the recipe's folder; a path set on the command line is
-    /// relative to the working directory. Output paths can contain `{p.stem}` and `{p.name}`, where `p` is the name of
-    /// the parameter. These placeholders stand for the file name without and with its extension.
+    /// The path of an input file. The default value is relative to the recipe's folder. A path that is set on the
+    /// command line is relative to the working directory. Output paths can contain `{p.stem}` and `{p.name}`, where `p`
+    /// is the name of the parameter. `{p.stem}` stands for the file name of the path without its extension, and
+    /// `{p.name}` for the file name with its extension.
     Path {
         /// The default value.
         default: String,
@@ -125,11 +127,11 @@ impl Param {
         }
     }
 
-    /// Returns the default as a value of a recipe.
+    /// Returns the default value as a value of a recipe.
     ///
     /// # Errors
     ///
-    /// If the parameter does not allow its default.
+    /// Returns an error if the parameter does not allow its own default value.
     pub fn default_value(&self) -> Result<Value, ParamError> {
         match self {
             Self::Int { default, .. } => self.allowed_int(*default),
@@ -144,12 +146,12 @@ impl Param {
         }
     }
 
-    /// Converts a value in a recipe to the canonical form of a value of this parameter. If `folders` is given, a
-    /// relative path is rewritten from one folder to the other.
+    /// Converts a value that is written in a recipe to the canonical form for this parameter. If `folders` is given, a
+    /// relative path is rewritten so that it is relative to the new folder.
     ///
     /// # Errors
     ///
-    /// If the value does not have the type of the parameter or is not allowed.
+    /// Returns an error if the value does not have the type of the parameter, or if the parameter does not allow it.
     pub fn value_from(
         &self,
         written: &Value,
@@ -200,12 +202,13 @@ impl Param {
         }
     }
 
-    /// Converts plain text, as given on the command line, to a value of this parameter. If `folders` is given, a
-    /// relative path is rewritten from one folder to the other.
+    /// Converts plain text, for example from the command line, to a value of this parameter. If `folders` is given, a
+    /// relative path is rewritten so that it is relative to the new folder.
     ///
     /// # Errors
     ///
-    /// If the text is not a value of the parameter's type or is not allowed.
+    /// Returns an error if the text is not a value of the parameter's type, or if the parameter does not allow the
+    /// value.
     pub fn value_of(&self, text: &str, folders: Option<Rebase>) -> Result<Value, ParamError> {
         let parsed = match self {
             Self::Text { .. } | Self::Path { .. } | Self::Choice { .. } => {
@@ -248,7 +251,7 @@ impl ParamError {
     }
 }
 
-/// Returns a value without a span in the text.
+/// Returns a value that has no position in a text.
 fn value(kind: ValueKind) -> Value {
     Value::new(Span::default(), kind)
 }
@@ -258,7 +261,8 @@ fn vector(parts: [f64; 3]) -> Result<Value, ParamError> {
     Ok(value(ValueKind::Tuple(parts)))
 }
 
-/// Returns a number with a decimal point or an exponent that is read back as the same number.
+/// Returns a number as a value. The number is written with a decimal point or an exponent, and reading the text returns
+/// the same number.
 fn float(x: f64) -> Result<Value, ParamError> {
     if !x.is_finite() {
         return Err(ParamError::new("a number", &format!("`{x:?}`")));

@@ -1,4 +1,5 @@
-//! A recipe after reading: a flat list of steps, in which calls and repetitions are replaced by their steps.
+//! A recipe after it was read. The recipe has a flat list of steps, in which calls and repetitions are replaced by the
+//! steps that they stand for.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -12,35 +13,38 @@ use crate::params::Param;
 use crate::source::Source;
 use ron_tree::{Diagnostic, Span, Value};
 
-/// The maximum number of steps, after calls and repetitions are replaced by their steps.
+/// The maximum number of steps. Calls and repetitions count as the steps that they stand for.
 pub const MAX_STEPS: usize = 100_000;
 
-/// A recipe that was read. If the recipe has errors, this value contains the parts that could be read.
+/// A recipe that was read. If the recipe has errors, this value contains only the parts that could be read.
 #[derive(Debug)]
 pub struct Recipe {
     /// The description of the recipe.
     pub about: Option<String>,
-    /// The sources that spans refer to: first the text of the recipe itself, then the text of each recipe that it
+    /// The sources to which spans refer: first the text of the recipe itself, then the text of each recipe that it
     /// calls.
     pub sources: Vec<Source>,
-    /// The scopes of parameters: first the scope of the recipe itself, then one scope for each call.
+    /// The scopes of parameters. The first scope is that of the recipe itself, and each call has one further scope.
     pub scopes: Vec<Scope>,
     /// The names of the presets of the recipe.
     pub presets: Vec<String>,
-    /// The steps in the order in which they run. Calls, repetitions and conditions are replaced by their steps.
+    /// The steps in the order in which they run. Calls, repetitions and conditions are replaced by the steps that they
+    /// stand for.
     pub steps: Vec<RecipeStep>,
     /// The expectations, in the order of the steps after which they are checked.
     pub expectations: Vec<RecipeExpectation>,
 }
 
-/// A text with values for its parameters: the recipe itself, or one call of another recipe.
+/// A scope: the text of a recipe, with values for its parameters. A scope is either the recipe itself or one call of
+/// another recipe.
 #[derive(Clone, Debug)]
 pub struct Scope {
     /// The index of the text in [`Recipe::sources`].
     pub source: usize,
-    /// The parameters with their values.
+    /// The parameters of this text, each with its value.
     pub parameters: Vec<Parameter>,
-    /// The scope that contains the call, and the span of the call in its text. `None` for the recipe itself.
+    /// The index of the scope that contains the call, and the span of the call in the text of that scope. `None` for
+    /// the recipe itself.
     pub called: Option<(usize, Span)>,
 }
 
@@ -57,34 +61,36 @@ pub struct Parameter {
     pub origin: Origin,
 }
 
-/// Where the value of a parameter comes from. Later variants of this enumeration take precedence over earlier variants.
+/// Where the value of a parameter comes from. If several origins set a value, the origin that comes last in this
+/// enumeration takes precedence.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Origin {
     /// The default in the recipe.
     Default,
     /// The preset with this name.
     Preset(String),
-    /// `with:` of the step that calls the recipe.
+    /// The field `with:` of the step that calls the recipe.
     Call,
     /// The command line, or another program.
     Set,
 }
 
 impl Parameter {
-    /// Whether the value was set from outside the recipe, directly or by a preset.
+    /// Whether the value was set on the command line, by another program, or by a preset. A value from `with:` does not
+    /// count.
     pub fn is_set(&self) -> bool {
         matches!(self.origin, Origin::Set | Origin::Preset(_))
     }
 
-    /// Returns the value as plain text, as on the command line: strings have no quotes.
+    /// Returns the value as plain text in the form of the command line, in which strings have no quotes.
     pub fn plain_text(&self) -> String {
         let text = self.value.as_str().map(str::to_owned);
         text.unwrap_or_else(|| self.value.to_string())
     }
 }
 
-/// What happens if a step loses data: an attribute that it cannot preserve, or data that a file format cannot
-/// store.
+/// What happens if a step loses data. Data are lost if a step cannot preserve an attribute, or if a file format cannot
+/// store some of the data.
 #[derive(Clone, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum OnLoss {
@@ -107,7 +113,7 @@ impl OnLoss {
         }
     }
 
-    /// Returns the first loss that is not allowed.
+    /// Returns the first of the losses that is not allowed.
     pub fn forbidden<'l>(&self, losses: &'l [Loss]) -> Option<&'l Loss> {
         losses.iter().find(|loss| !self.allows(&loss.name))
     }
@@ -137,31 +143,33 @@ impl Kind {
 /// A step.
 #[derive(Clone, Debug)]
 pub struct RecipeStep {
-    /// The id, by which other parts of the recipe refer to the step.
+    /// The id of the step, which other parts of the recipe use to refer to it.
     pub id: Option<String>,
-    /// The current name of its operation. If the operation is unknown, the name as written.
+    /// The current name of the operation, even if the recipe uses an earlier name. If the operation is unknown, this is
+    /// the name as written in the recipe.
     pub name: String,
-    /// The label, which is shown to users and seeds random choices. The label consists of the names of the calls
-    /// around the step, the id or (without an id) the name of the operation, and the numbers of the repetitions
-    /// around the step, as in `clean/Weld#2`.
+    /// The label, which is shown to users and which seeds random choices. The label consists of the names of the calls
+    /// around the step, its id, and the numbers of the repetitions around it, as in `clean/Weld#2`. A step without an
+    /// id has the name of its operation instead.
     pub label: String,
     /// The operation. `None` if the step could not be read.
     pub step: Option<Arc<dyn Step>>,
-    /// The names of the objects in `on`, with their spans.
+    /// The names of the objects in `on`, each with its span.
     pub on: Option<Vec<(String, Span)>>,
-    /// The reason for which the step must be refused, if the recipe expects a refusal.
+    /// If the recipe expects that the step is refused: the expected reason.
     pub refused: Option<Refusal>,
-    /// Which losses the step may cause.
+    /// The losses that the step may cause.
     pub on_loss: OnLoss,
-    /// The comment on the step. Programs show the comment to people. The comment has no effect on the run.
+    /// The comment on the step. Programs show the comment to users. The comment has no effect on the run.
     pub note: Option<String>,
-    /// The index of its scope in [`Recipe::scopes`].
+    /// The index of the scope in [`Recipe::scopes`].
     pub scope: usize,
     /// The span of the name of the operation.
     pub span: Span,
-    /// The operation as written, with parameters replaced by their values.
+    /// The operation as written in the recipe, but with parameters replaced by their values.
     pub value: Value,
-    /// For each repetition around the step, from the outside in, the number of the current repetition, counted from 1.
+    /// One number for each `Repeat` around the step, from the outermost to the innermost: which of its repetitions this
+    /// step belongs to. Repetitions are counted from 1.
     pub(crate) turns: Vec<u32>,
     /// The label without the numbers of the repetitions.
     pub(crate) stem: String,
@@ -180,7 +188,7 @@ impl RecipeStep {
             .map(|on| on.iter().map(|(name, _)| name.clone()).collect())
     }
 
-    /// Returns the step for repetition number `turn` of a `Repeat` around the step.
+    /// Returns the step as part of the repetition number `turn` of a `Repeat` around it.
     pub(crate) fn in_turn(mut self, turn: u32) -> Self {
         self.turns.insert(0, turn);
         let turns: Vec<String> = self.turns.iter().map(u32::to_string).collect();
@@ -189,16 +197,17 @@ impl RecipeStep {
     }
 }
 
-/// An expectation, with the point in the recipe at which it is checked.
+/// An expectation, and the point in the recipe at which it is checked.
 #[derive(Clone, Debug)]
 pub struct RecipeExpectation {
-    /// The index of the step after which the expectation is checked. If `None`, the expectation is checked at the end.
+    /// The index of the step after which the expectation is checked. If `None`, the expectation is checked at the end
+    /// of the recipe.
     pub after: Option<usize>,
-    /// The names of the objects that the expectation is checked for. If `None`, all objects.
+    /// The names of the objects for which the expectation is checked. If `None`, all objects.
     pub on: Option<Vec<String>>,
     /// The expectation.
     pub that: Expectation,
-    /// The index of its scope in [`Recipe::scopes`].
+    /// The index of the scope in [`Recipe::scopes`].
     pub scope: usize,
     /// The span of the expectation.
     pub span: Span,
@@ -214,13 +223,13 @@ impl Recipe {
         }
     }
 
-    /// Returns the parameters of the recipe itself.
+    /// Returns the parameters of the recipe itself, but not those of called recipes.
     pub fn parameters(&self) -> &[Parameter] {
         self.scopes.first().map_or(&[], |scope| &scope.parameters)
     }
 
-    /// Returns the placeholders for output paths of the recipe itself, with their values: `name.stem` and `name.name`
-    /// for each parameter that is a path.
+    /// Returns the placeholders that output paths of the recipe itself can contain, with their values. Each parameter
+    /// that is a path has two placeholders, `name.stem` and `name.name`.
     pub fn placeholders(&self) -> Vec<(String, String)> {
         self.scopes
             .first()
@@ -228,8 +237,8 @@ impl Recipe {
             .unwrap_or_default()
     }
 
-    /// Returns the file settings of each scope. The settings of the recipe itself are `files`. A called recipe reads
-    /// from its own folder and has its own placeholders.
+    /// Returns the file settings of each scope, such as the folder from which it reads. For the recipe itself, these
+    /// settings are `files`. A called recipe reads from its own folder and has its own placeholders.
     pub fn files(&self, files: &Files) -> Vec<Files> {
         let of = |(i, scope): (usize, &Scope)| {
             if i == 0 {
@@ -251,18 +260,19 @@ impl Recipe {
             .any(|placed| placed.that.output().is_some())
     }
 
-    /// Returns the index in [`Recipe::sources`] of the text of a scope.
+    /// Returns the index of the text of a scope in [`Recipe::sources`].
     pub fn source_of(&self, scope: usize) -> usize {
         self.scopes.get(scope).map_or(0, |scope| scope.source)
     }
 
-    /// Returns the diagnostic with the location of a scope: the index of its text, and the calls that led to the scope.
+    /// Returns the diagnostic with its location added: the index of the text of the scope, and the calls that led to
+    /// the scope.
     pub fn located(&self, diagnostic: Diagnostic, scope: usize) -> Diagnostic {
         located(diagnostic, scope, &self.scopes)
     }
 
-    /// Returns the digest of the operations of the recipe with all their parameters in canonical form. Layout, comments
-    /// and notes do not change the digest.
+    /// Returns a digest of all operations of the recipe. The digest depends on all parameters of the operations, in
+    /// canonical form. Layout, comments and notes do not change the digest.
     pub fn digest(&self) -> String {
         let mut hasher = blake3::Hasher::new();
         for step in &self.steps {
@@ -289,7 +299,8 @@ impl Recipe {
     }
 }
 
-/// Returns the diagnostic with the location of a scope: the index of its text, and the calls that led to the scope.
+/// Returns the diagnostic with its location added: the index of the text of the scope, and the calls that led to the
+/// scope.
 pub(crate) fn located(mut diagnostic: Diagnostic, scope: usize, scopes: &[Scope]) -> Diagnostic {
     let Some(mut at) = scopes.get(scope) else {
         return diagnostic;

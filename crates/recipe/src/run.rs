@@ -1,12 +1,12 @@
 //! Runs a recipe.
 //!
-//! Steps run one after another on a scene. If a step fails, the run ends and no outputs are written. Steps write to a
-//! temporary folder, and the files are moved to the output folder only after all steps have run and all expectations
-//! hold.
+//! The steps run on a scene, one after another. If a step fails, the run ends and no outputs are written. Steps write
+//! their files to a temporary folder. The files are moved to the output folder only after all steps have run and all
+//! expectations hold.
 //!
-//! With a [cache](StepCache), a step runs only if the cache does not have its result, or if a scene is needed that the
-//! cache does not have. A scene is needed if a step must run on it, an expectation must be checked against it, or the
-//! listener or the cache wants it.
+//! If a [cache](StepCache) is used, most steps need not run. A step runs only if the cache does not have its result, or
+//! if a scene is needed that the cache does not have. A scene is needed if a step must run on it, if an expectation
+//! must be checked against it, or if the listener or the cache requests it.
 
 mod cache;
 mod listener;
@@ -41,9 +41,9 @@ pub struct Settings<'a> {
     pub budget: u64,
     /// Reads the files that expectations refer to.
     pub reader: &'a dyn Reader,
-    /// Whether outputs are kept after the run.
+    /// Whether the output files are kept after the run.
     pub keep_outputs: bool,
-    /// Whether a step of the recipe writes files.
+    /// Whether the recipe has a step that writes files.
     pub writes: bool,
     /// The step cache, if one is used.
     pub cache: Option<&'a dyn StepCache>,
@@ -54,13 +54,13 @@ pub fn run(recipe: &Recipe, settings: Settings, listener: &dyn Listener) -> Outc
     run_from(recipe, 0, Scene::new(), settings, listener)
 }
 
-/// Runs a recipe starting at the step with index `first`. `scene` is the scene before that step, as passed to
-/// [`Listener::scene_after`] or returned in an [`Outcome`]. After a change to one step, the steps before it need not
-/// run again.
+/// Runs a recipe starting at the step with index `first`. `scene` is the scene before this step. An earlier run has
+/// passed this scene to [`Listener::scene_after`] or returned it in an [`Outcome`]. If one step has changed, a
+/// run from this step avoids running the steps before it again.
 ///
-/// Expectations after earlier steps are not checked again, and earlier steps do not write their files again. If `first`
-/// is not 0, the cache is not used. The cache identifies a scene by the steps that produced it, and it is not known
-/// which steps produced `scene`.
+/// The steps before `first` do not write their files again, and the expectations after these steps are not checked
+/// again. If `first` is not 0, the cache is not used. The cache identifies a scene by the steps that produced it, and
+/// these steps are not known for `scene`.
 pub fn run_from(
     recipe: &Recipe,
     first: usize,
@@ -119,20 +119,20 @@ pub fn run_from(
 struct Runner<'a> {
     recipe: &'a Recipe,
     settings: Settings<'a>,
-    /// For each scope, the folder that its steps read from, and the stage that they write to.
+    /// For each scope, the folder from which its steps read and the temporary folder to which they write.
     files: Vec<Files>,
-    /// The file accesses of the current step or expectation.
+    /// The file accesses of the current step, or of the current expectation.
     log: FileLog,
     stage: Option<PathBuf>,
     session: Option<Box<dyn CachedRun + 'a>>,
-    /// The scene before the step with index `scene_index`. If the results of the last steps came from the cache,
+    /// The scene before the step with index `scene_index`. If the results of the last steps were taken from the cache,
     /// `scene_index` is less than `n_done`.
     scene: Scene,
     scene_index: usize,
-    /// The index of the step that the run starts with.
+    /// The index of the first step of the run.
     first: usize,
-    /// The index of the first step that is not done. A step with a forbidden loss counts as done, but is not in
-    /// `steps`.
+    /// The index of the first step that is not yet done. A step with a loss that is not allowed counts as done, but it
+    /// is not in `steps`.
     n_done: usize,
     steps: Vec<StepDone>,
     failures: Vec<Diagnostic>,
@@ -144,13 +144,13 @@ struct Runner<'a> {
 /// Why a step failed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StepError {
-    /// The reason: one line that starts in lower case and has no final period.
+    /// The reason in one line. The line starts in lower case and has no period at the end.
     pub message: String,
-    /// The locations in the scene that the failure refers to, if any are known.
+    /// The locations in the scene to which the failure refers, if any are known.
     pub places: Vec<ErrorLocation>,
 }
 
-/// Signals that the run ends early, because it was canceled or because a failure was reported.
+/// The run ends early, because it was canceled or because a failure was reported.
 struct Stopped;
 
 impl Runner<'_> {
@@ -255,7 +255,7 @@ impl Runner<'_> {
         Ok(StepDone::new(step, result, time, Some(why)))
     }
 
-    /// Returns the digest of the scene after the steps that are done.
+    /// Returns the digest of the scene after all steps that are done so far.
     fn digest(&mut self, listener: &dyn Listener) -> Result<Digest, Stopped> {
         if let Some(known) = self.session.as_ref().and_then(|s| s.digest()) {
             return Ok(known);
@@ -268,8 +268,8 @@ impl Runner<'_> {
         Ok(digest)
     }
 
-    /// Advances `scene` to the scene before the step with index `to`. All earlier steps must be done. Loads the latest
-    /// stored scene from the cache, and runs the steps after that scene again.
+    /// Advances `scene` to its state before the step with the index `to`. All steps before that step must be done.
+    /// Loads the latest scene up to that step that the cache has stored, and runs the steps after it again.
     fn advance_scene(&mut self, to: usize, listener: &dyn Listener) -> Result<(), Stopped> {
         if self.scene_index < to
             && let Some(session) = &mut self.session
@@ -299,7 +299,8 @@ impl Runner<'_> {
         Ok(())
     }
 
-    /// Runs a step, and reports the failure if it fails. See `run_step` for the scene after a failure.
+    /// Runs a step. If the step fails, reports the failure. The documentation of `run_step` describes the scene after a
+    /// failure.
     fn apply(
         &mut self,
         step: &RecipeStep,
@@ -335,7 +336,8 @@ impl Runner<'_> {
         self.failures.push(diagnostic);
     }
 
-    /// Checks the expectations after the step with this index, or the expectations at the end if `None`.
+    /// Checks the expectations that belong after the step with the index `after`. If `after` is `None`, checks those at
+    /// the end of the recipe.
     fn check_expectations(
         &mut self,
         after: Option<usize>,
@@ -445,13 +447,14 @@ impl Runner<'_> {
     }
 }
 
-/// Runs a step that was read and checked without errors. Returns the report of the step and, if the recipe expects a
-/// refusal, the reason for the refusal.
+/// Runs a step that was read and checked without errors. Returns the report of the step. If the recipe expects a
+/// refusal, also returns the reason for the refusal.
 ///
 /// # Errors
 ///
-/// `None` if the step was canceled, or the reason if it failed. In both cases, the scene is unchanged, with one
-/// exception: if the operation panicked and the scene had not been cloned before, the scene is empty.
+/// Returns `None` if the step was canceled. Returns the reason if the step failed. After a cancellation or a failure,
+/// the scene is unchanged, with one exception. If the operation panicked and the scene had not been cloned before, the
+/// scene is empty.
 pub fn run_step(
     step: &RecipeStep,
     scene: &mut Scene,
@@ -519,12 +522,13 @@ pub fn run_step(
     }
 }
 
-/// Whether step `a` comes before step `b`, where `None` stands for the end of the recipe.
+/// Whether step `a` comes before step `b`. `None` stands for the end of the recipe.
 fn is_before(a: Option<usize>, b: Option<usize>) -> bool {
     a.is_some_and(|a| b.is_none_or(|b| a < b))
 }
 
-/// Returns the number of vertices, edges and faces of all meshes together. Points of polylines count as vertices.
+/// Returns the numbers of vertices, edges and faces of all meshes together. The points of polylines are counted as
+/// vertices.
 fn counts(scene: &Scene) -> [usize; 3] {
     let mut counts = [0; 3];
     for object in scene.objects() {

@@ -1,4 +1,4 @@
-//! JSON schemas. Text editors use the schema of whole recipes. The reader of recipes uses the schemas of their parts.
+//! JSON schemas. Text editors use the schema of whole recipes. The reader of recipes uses schemas of parts of a recipe.
 
 use std::collections::HashMap;
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
@@ -11,8 +11,8 @@ use crate::expect::Expectation;
 use crate::params::Param;
 use crate::recipe::{Kind, MAX_STEPS, OnLoss};
 
-/// The operations of a registry with their schemas. Each schema is created when it is first needed. Threads that read
-/// many recipes can share one `Schemas` value.
+/// The operations of a registry, with the JSON schemas of their parameters. Each schema is created when it is needed
+/// for the first time. Threads that read many recipes can share one `Schemas` value.
 #[derive(Debug)]
 pub struct Schemas<'r> {
     pub(crate) registry: &'r Registry,
@@ -34,8 +34,8 @@ impl<'r> Schemas<'r> {
         if let Some(schema) = created().get(entry.name) {
             return schema.clone();
         }
-        // The schema is created without holding the lock. If two threads create the same schema, only one of the two is
-        // kept.
+        // The schema is created without holding the lock. If two threads create the same schema at the same time, only
+        // one of the two results is kept.
         let schema = Arc::new(entry.schema());
         created().entry(entry.name).or_insert(schema).clone()
     }
@@ -46,7 +46,7 @@ pub(crate) fn of<T: JsonSchema>() -> Json {
     schemars::schema_for!(T).to_value()
 }
 
-/// Returns the schema of a parameter declaration.
+/// Returns the schema of the declaration of a parameter.
 pub(crate) fn param() -> &'static Json {
     static SCHEMA: LazyLock<Json> = LazyLock::new(of::<Param>);
     &SCHEMA
@@ -58,7 +58,7 @@ pub(crate) fn expectation() -> &'static Json {
     &SCHEMA
 }
 
-/// Returns the schema of the fields of a recipe, in which steps and expectations can be anything.
+/// Returns the schema of the fields of a recipe. In this schema, steps and expectations can have any value.
 pub(crate) fn envelope() -> &'static Json {
     static SCHEMA: LazyLock<Json> = LazyLock::new(|| {
         with_definitions(|defined| {
@@ -69,20 +69,21 @@ pub(crate) fn envelope() -> &'static Json {
     &SCHEMA
 }
 
-/// Returns the schema of the fields of a step, in which the operation can be anything.
+/// Returns the schema of the fields of a step. In this schema, the operation can have any value.
 pub(crate) fn step_envelope() -> &'static Json {
     static SCHEMA: LazyLock<Json> =
         LazyLock::new(|| with_definitions(|defined| step_fields(&json!({}), defined)));
     &SCHEMA
 }
 
-/// Returns the schema of the parameters of a step that contains steps, in which the inner steps can be anything.
+/// Returns the schema of the parameters of a step that contains other steps. In this schema, the inner steps can have
+/// any value.
 pub(crate) fn flow(kind: Kind) -> Json {
     flow_fields(kind, &json!({}))
 }
 
-/// Returns the names of the steps that contain steps, [`Call`, `Repeat` and `If`](crate::read()), and the schemas of
-/// their parameters.
+/// Returns the names of the kinds of steps that contain other steps, [`Call`, `Repeat` and `If`](crate::read()), and
+/// the schemas of their parameters.
 pub fn step_kinds() -> Vec<(&'static str, Json)> {
     let kinds = Kind::ALL.into_iter();
     kinds.map(|kind| (kind.name(), flow(kind))).collect()
@@ -139,13 +140,13 @@ fn flow_fields(kind: Kind, step: &Json) -> Json {
     })
 }
 
-/// Returns the schema of `(after: .., on: .., that: ..)`, in which `that` can be anything.
+/// Returns the schema of `(after: .., on: .., that: ..)`. In this schema, `that` can have any value.
 pub(crate) fn expectation_envelope() -> Json {
     expectation_fields(&json!({}))
 }
 
-/// Returns the schema of whole recipes with the operations of `registry`, for the JSON form of RON: `Name(a: 1)`
-/// is `{"Name": {"a": 1}}`, and a name without parameters is a string.
+/// Returns the schema of whole recipes with the operations of `registry`. The schema describes recipes in the JSON form
+/// of RON: `Name(a: 1)` is `{"Name": {"a": 1}}`, and a name without parameters is a string.
 pub fn schema(registry: &Registry) -> Json {
     // A step can contain steps, so the schema of a step refers to itself by a name.
     let step_reference = json!({ "$ref": "#/$defs/Step" });
@@ -261,7 +262,7 @@ fn expectation_fields(that: &Json) -> Json {
     })
 }
 
-/// Returns the schema that `build` creates, with the definitions that it refers to.
+/// Returns the schema that `build` creates, together with the definitions to which it refers.
 fn with_definitions(build: impl FnOnce(&mut SchemaGenerator) -> Json) -> Json {
     let mut defined = SchemaGenerator::default();
     let mut schema = build(&mut defined);
@@ -274,8 +275,8 @@ fn reference<T: JsonSchema>(defined: &mut SchemaGenerator) -> Json {
     defined.subschema_for::<T>().to_value()
 }
 
-/// Extends each enumeration marked with `x-shorthand` by the contents of its variants, because the name of the variant
-/// can be omitted.
+/// Extends each enumeration with the keyword `x-shorthand`. The name of a variant of such an enumeration can be
+/// omitted, so the contents of the variants are added as alternatives.
 fn allow_shorthand(schema: &mut Json) {
     match schema {
         Json::Object(object) => {

@@ -1,4 +1,4 @@
-//! Selections outside of a recipe: reads them from text, and resolves them on a mesh.
+//! Selections that are not part of a recipe. Such selections are read from text and resolved on a mesh.
 //!
 //! ```text
 //! "Sharp(above: 30)"   exists only for edges                  ---> edges
@@ -16,13 +16,14 @@ use crate::schema;
 use crate::schema_check;
 use ron_tree::{Diagnostic, Value, ValueKind};
 
-/// Reads a selection in the syntax of recipes. The selection selects elements of `kind`. If `kind` is `None`, the
-/// selection must be valid for only one kind of element, and selects elements of that kind.
+/// Reads a selection from text in the syntax of recipes. The selection selects elements of `kind`. If `kind` is `None`,
+/// the selection must be valid for exactly one kind of element, and it then selects elements of this kind.
 ///
 /// # Errors
 ///
-/// All errors, with spans in `source`. If `kind` is `None` and no kind fits, returns the errors for the kind that fits
-/// best. If several kinds fit, the error says that the kind must be specified.
+/// Returns all errors, with their spans in `source`. If `kind` is `None` and the selection is valid for no kind of
+/// element, returns the errors for the kind that fits best. If the selection is valid for several kinds of element, the
+/// error says that the kind must be specified.
 pub fn read_selection(
     source: &str,
     kind: Option<ElementKind>,
@@ -40,11 +41,11 @@ pub fn read_selection(
     }
 }
 
-/// Reads the parameters of a step `Name(parameters)`. The name is not checked.
+/// Reads the parameters of a step from text of the form `Name(parameters)`. The name is not checked.
 ///
 /// # Errors
 ///
-/// All errors, with spans in `source`.
+/// Returns all errors, with their spans in `source`.
 pub fn read_step<T: DeserializeOwned + JsonSchema>(source: &str) -> Result<T, Vec<Diagnostic>> {
     let parsed = ron_tree::parse(source);
     let step = &parsed.value;
@@ -62,8 +63,8 @@ pub fn read_step<T: DeserializeOwned + JsonSchema>(source: &str) -> Result<T, Ve
         .map_err(|error| vec![schema_check::deserialize_error(step.span, error)])
 }
 
-/// Returns `text` with the case of the name at its start corrected, if the name is a variant of `T`: `front` becomes
-/// `Front`.
+/// If `text` starts with the name of a variant of `T` in the wrong case, returns the text with the right case. For
+/// example, `front` becomes `Front`.
 pub fn with_case_of<T: JsonSchema>(text: &str) -> String {
     let end = text.find(|c: char| !(c.is_alphanumeric() || c == '_'));
     let (name, rest) = text.split_at(end.unwrap_or(text.len()));
@@ -79,12 +80,12 @@ fn typed<T: DeserializeOwned + JsonSchema>(value: &Value) -> Result<T, Vec<Diagn
     schema_check::typed(value, &schema::of::<T>())
 }
 
-/// Returns the elements of an object that a selection matches. `stream` seeds random choices. To get the same choices
-/// as a step, pass the label of the step.
+/// Returns the elements of an object that the selection `elements` matches. `stream` seeds random choices. To get the
+/// same random choices as a step, pass the label of the step.
 ///
 /// # Errors
 ///
-/// The errors of [`Elements::resolve`].
+/// Returns the errors of [`Elements::resolve`].
 pub fn resolve(
     elements: &Elements,
     scene: &Scene,

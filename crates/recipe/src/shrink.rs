@@ -1,8 +1,8 @@
-//! Reduces a scene on which a step fails: removes objects and faces as long as the step fails in the same way.
+//! Reduces a scene on which a step fails. Removes objects and faces as long as the step still fails in the same way.
 //!
-//! Faces are removed in blocks. The size of the blocks is halved until the blocks are single faces, as in the algorithm
-//! ddmin of Zeller and Hildebrandt, "Simplifying and Isolating Failure-Inducing Input", 2002. Vertices keep their ids
-//! until the end. At the end, isolated vertices are removed, if the step still fails without them.
+//! Faces are removed in blocks. The size of the blocks is halved until each block is a single face, as in the algorithm
+//! ddmin. Source: Zeller and Hildebrandt, "Simplifying and Isolating Failure-Inducing Input", 2002. Vertices keep their
+//! ids while faces are removed. At the end, isolated vertices are removed if the step still fails without them.
 
 use std::sync::Arc;
 
@@ -14,11 +14,12 @@ use crate::check::forbidden;
 use crate::recipe::RecipeStep;
 use crate::run::run_step;
 
-/// Runs a step on a copy of a scene and returns the message of its failure. `None` if the step does not fail.
+/// Runs a step on a copy of a scene, and returns the error message if the step fails. Returns `None` if the step does
+/// not fail.
 ///
 /// # Errors
 ///
-/// [`OpError::Cancelled`] if `progress` requests to stop.
+/// Returns [`OpError::Cancelled`] if `progress` requests cancellation.
 pub fn failure(
     step: &RecipeStep,
     scene: &Scene,
@@ -36,14 +37,14 @@ pub fn failure(
     }
 }
 
-/// Whether two failure messages are the same except for the numbers in them.
+/// Whether two failure messages differ only in the numbers that they contain.
 pub fn is_alike(a: &str, b: &str) -> bool {
     let words = |text: &str| text.replace(|c: char| c.is_ascii_digit() || "+-.".contains(c), "");
     words(a) == words(b)
 }
 
-/// Returns the smallest scene that was found for which `fails` returns true. `fails` must return true for `scene`.
-/// `fails` is called at most `tries` times.
+/// Returns the smallest scene found for which `fails` returns `true`. `fails` must return `true` for `scene`. `fails`
+/// is called at most `tries` times.
 ///
 /// # Errors
 ///
@@ -84,7 +85,7 @@ struct Search<F> {
 }
 
 impl<F: FnMut(&Scene) -> Result<bool, OpError>> Search<F> {
-    /// If the step also fails on `scene`, replaces the best scene by `scene`. Returns whether the step fails.
+    /// If the step also fails on `scene`, keeps `scene` as the smallest scene so far. Returns whether the step failed.
     fn attempt(&mut self, scene: Scene) -> Result<bool, OpError> {
         if self.left == 0 {
             return Ok(false);
@@ -116,8 +117,8 @@ impl<F: FnMut(&Scene) -> Result<bool, OpError>> Search<F> {
                     None => false,
                 };
                 is_smaller |= is_done;
-                // After a removal, the next faces have the ids of the removed faces, so the next block starts at the
-                // same id.
+                // After a removal, the faces that follow have the ids of the removed faces, so the next block starts at
+                // the same id.
                 first = if is_done { first } else { last };
             }
             // Single faces are tried again, because a face can become removable after other faces were removed.
@@ -139,7 +140,7 @@ impl<F: FnMut(&Scene) -> Result<bool, OpError>> Search<F> {
     }
 }
 
-/// Returns a copy of the scene with one mesh edited. `None` if the edit is not possible.
+/// Returns a copy of the scene in which one mesh was edited. Returns `None` if the edit is not possible.
 fn edited(scene: &Scene, name: &str, edit: impl FnOnce(&mut mesh::Mesh) -> bool) -> Option<Scene> {
     let mut scene = scene.clone();
     let (Geometry::Mesh(mesh), _) = scene.parts_mut(name)? else {

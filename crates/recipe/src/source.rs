@@ -6,7 +6,7 @@ use std::sync::Arc;
 use ron_tree::MAX_BYTES;
 use store::{Disk, Store, StoreError};
 
-/// Why a file is not the text of a recipe.
+/// The reason why a file is not the text of a recipe.
 #[derive(Debug, thiserror::Error)]
 pub enum SourceError {
     /// The file cannot be read.
@@ -20,15 +20,16 @@ pub enum SourceError {
     NotUtf8 {
         /// The file.
         path: PathBuf,
-        /// The first line that is not text, counted from 1.
+        /// The number of the first line that is not text. Lines are counted from 1.
         line: usize,
     },
 }
 
-/// A text with the path of its file.
+/// A text, together with the path of its file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Source {
-    /// The path of the file, as shown in messages. Paths in the text are relative to its folder.
+    /// The path of the file in the form in which messages show it. Paths in the text are relative to the folder of this
+    /// file.
     pub path: PathBuf,
     /// The text.
     pub text: Arc<str>,
@@ -47,16 +48,16 @@ impl Source {
     ///
     /// # Errors
     ///
-    /// The errors of [`open_in`](Self::open_in).
+    /// Returns the errors of [`open_in`](Self::open_in).
     pub fn open(path: &Path) -> Result<Self, SourceError> {
         Self::open_in(&Disk, path)
     }
 
-    /// Reads a file. Stops reading when the file exceeds the maximum length of a recipe.
+    /// Reads a file. Reading stops as soon as the file exceeds the maximum length of a recipe.
     ///
     /// # Errors
     ///
-    /// [`SourceError`] if the file cannot be read, is too long, or is not UTF-8 text.
+    /// Returns [`SourceError`] if the file cannot be read, is too long, or is not UTF-8 text.
     pub fn open_in(store: &dyn Store, path: &Path) -> Result<Self, SourceError> {
         let bytes = store.read_stream(path, MAX_BYTES as u64 + 1)?;
         Self::from_bytes(path, bytes)
@@ -66,7 +67,7 @@ impl Source {
     ///
     /// # Errors
     ///
-    /// [`SourceError`] if the text is too long or is not UTF-8 text.
+    /// Returns [`SourceError`] if the text is too long or is not UTF-8 text.
     pub fn from_bytes(path: &Path, bytes: Vec<u8>) -> Result<Self, SourceError> {
         if bytes.len() > MAX_BYTES {
             return Err(SourceError::TooLong(path.to_owned()));
@@ -82,14 +83,15 @@ impl Source {
         Ok(Self::new(path, text))
     }
 
-    /// Returns the folder of the file.
+    /// Returns the folder that contains the file.
     pub fn folder(&self) -> &Path {
         self.path.parent().unwrap_or(Path::new(""))
     }
 }
 
-/// Converts a path relative to the folder `from` into a path to the same file relative to the folder `to`. The result
-/// is absolute if `text` is absolute, or if a relative path would lead to a different file because of links.
+/// Converts a path relative to the folder `from` into a path relative to the folder `to` that leads to the same file.
+/// The result is absolute if `text` is absolute. The result is also absolute if, because of links, a relative path
+/// would lead to another file.
 pub(crate) fn rebase_path(store: &dyn Store, text: &str, from: &Path, to: &Path) -> PathBuf {
     let (Ok(target), Ok(to)) = (
         std::path::absolute(from.join(text)),
@@ -114,8 +116,8 @@ pub(crate) fn rebase_path(store: &dyn Store, text: &str, from: &Path, to: &Path)
     }
 }
 
-/// Converts an absolute path to a path relative to `folder`. `None` if the path does not begin with the path of the
-/// folder.
+/// Converts an absolute path to a path relative to `folder`. Returns `None` if the path does not begin with the path of
+/// the folder.
 pub(crate) fn below(path: &Path, folder: &Path) -> Option<PathBuf> {
     let absolute = if folder.has_root() {
         folder.to_owned()
@@ -126,7 +128,7 @@ pub(crate) fn below(path: &Path, folder: &Path) -> Option<PathBuf> {
     path.strip_prefix(absolute).ok().map(Path::to_owned)
 }
 
-/// Removes `..` from a path, assuming that no folder is a link: `a/../b` becomes `b`.
+/// Removes `..` from a path: `a/../b` becomes `b`. The result is correct only if no folder in the path is a link.
 fn normalized(path: &Path) -> PathBuf {
     let mut normalized = PathBuf::new();
     for part in path.components() {

@@ -1,12 +1,12 @@
-//! The stamp: one line that an output file contains about the run that wrote it (its provenance).
+//! The stamp: one line in an output file that describes the run that wrote the file (its provenance).
 //!
 //! ```text
 //! meshwright 0.1.0, recipe 1f0c..e2, {"file":"teapot.ron","set":{"levels":"2"},"inputs":{"a.bez":"9a.."}}
 //! ```
 //!
-//! The digest of the recipe comes before the details of the run, so that a format that stores only a short text still
-//! stores the digest. The stamp contains no absolute paths. A file is given by its path relative to the recipe's
-//! folder, or only by its name if its path is absolute and leads out of this folder.
+//! The digest of the recipe comes before the details of the run. If a format can store only a short text, it therefore
+//! still stores the digest. The stamp contains no absolute paths. A stamp records a file by its path relative to the
+//! recipe's folder. If the path is absolute and leads out of this folder, only the name of the file is recorded.
 
 use std::fmt;
 use std::path::Path;
@@ -23,13 +23,13 @@ use crate::source::below;
 pub struct Stamp {
     /// The program and its version.
     pub program: String,
-    /// The digest of the recipe with the values of its parameters.
+    /// The digest of the recipe, including the values of its parameters.
     pub recipe: String,
-    /// The remaining content, unless the stamp was truncated.
+    /// The rest of the stamp, unless the stamp was truncated.
     pub run: Option<Run>,
 }
 
-/// The information needed to run the recipe again.
+/// The information that is needed to run the recipe again.
 #[derive(Clone, Debug, Default, Deserialize, Eq, PartialEq, Serialize)]
 pub struct Run {
     /// The name of the recipe's file.
@@ -37,19 +37,21 @@ pub struct Run {
     /// The preset that was chosen.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub preset: Option<String>,
-    /// The parameters that were set, and their values as text. Paths are shown as in [`inputs`](Self::inputs).
+    /// The parameters that were set, with their values as text. Paths have the same form as in
+    /// [`inputs`](Self::inputs).
     #[serde(default, skip_serializing_if = "Pairs::is_empty")]
     pub set: Pairs,
-    /// The digest of each file that was read, by the path of the file relative to the recipe's folder. See [`shown`].
+    /// The digest of each file that the run read. The keys are the paths of the files relative to the recipe's folder.
+    /// See [`shown`].
     #[serde(default, skip_serializing_if = "Pairs::is_empty")]
     pub inputs: Pairs,
 }
 
-/// A map from names to strings, sorted by name.
+/// A map from names to strings that is sorted by name.
 pub type Pairs = std::collections::BTreeMap<String, String>;
 
 impl Stamp {
-    /// Returns the stamp for the files that a run of `recipe` writes. `inputs` are the files that the recipe reads.
+    /// Returns the stamp of the files that a run of `recipe` writes. `inputs` are the files that the recipe reads.
     pub fn new(recipe: &Recipe, inputs: &[impl AsRef<Path>], store: &dyn Store) -> Self {
         let mut run = Run::default();
         if let Some(source) = recipe.sources.first() {
@@ -85,7 +87,7 @@ impl Stamp {
         }
     }
 
-    /// Parses a stamp. `None` if the text is not a stamp.
+    /// Parses a stamp. Returns `None` if the text is not a stamp.
     pub fn parse(text: &str) -> Option<Self> {
         let (program, rest) = text.split_once(", recipe ")?;
         let (recipe, rest) = rest.split_once(", ").unwrap_or((rest, ""));
@@ -120,8 +122,9 @@ pub fn digest(store: &dyn Store, path: &Path) -> Result<String, StoreError> {
     Ok(digest.to_hex()[..32].to_owned())
 }
 
-/// Returns the path of a file as a stamp records it: relative to `folder`, the recipe's folder, or only the name of the
-/// file if the path is absolute and leads out of the folder. Relative paths are relative to the working directory.
+/// Returns the path of a file in the form in which a stamp records it. The recorded path is relative to `folder`, the
+/// recipe's folder. If the path is absolute and leads out of this folder, only the name of the file is recorded. If
+/// `path` is relative, it is relative to the working directory.
 pub fn shown(path: &Path, folder: &Path) -> String {
     let relative = if path.has_root() {
         let name = || path.file_name().unwrap_or_default().into();

@@ -1,12 +1,13 @@
-//! Substitutes the parameters of a recipe: `arg("name")` is replaced by the value of the parameter.
+//! Substitutes the parameters of a recipe: each `arg("name")` is replaced by the value of the parameter with this name.
 
 use ron_tree::{Call, Diagnostic, Span, Value, ValueKind};
 
-/// Replaces each `arg("name")` in `value` by the value of the parameter. `resolve` is called with the name of the
-/// parameter and the span of that name, and returns the value of the parameter. The new value has the span of its
-/// `arg(..)` and the name of the parameter.
+/// Replaces each `arg("name")` in `value` by the value of the parameter with this name. `resolve` is called with the
+/// name of a parameter and the span of this name. `resolve` returns the value of the parameter. The inserted value has
+/// the span of the `arg(..)` that it replaces, and it records the name of the parameter.
 ///
-/// Returns the errors of `resolve`, and an error for each `arg` without a name. An `arg` with an error stays unchanged.
+/// Returns the errors of `resolve`, and an error for each `arg` without a name. If there is an error in an `arg`, it is
+/// not replaced.
 pub fn substitute(
     value: &mut Value,
     mut resolve: impl FnMut(&str, Span) -> Result<Value, Box<Diagnostic>>,
@@ -33,7 +34,7 @@ fn no_name(span: Span) -> Box<Diagnostic> {
     Box::new(Diagnostic::error(span, message).with_help("write `arg(\"name\")`"))
 }
 
-/// Replaces the calls of `arg` in `value`, in the order of the text.
+/// Replaces each call of `arg` in `value`, in the order of the text.
 fn fill(
     value: &mut Value,
     replacement: &mut impl FnMut(&Call, Span) -> Result<Value, Box<Diagnostic>>,
@@ -48,7 +49,7 @@ fn fill(
     }
 }
 
-/// Sets the span and the parameter of a value and of all its parts.
+/// Sets the span and the parameter name of a value and of all values inside it.
 fn mark(value: &mut Value, span: Span, parameter: &str) {
     value.span = span;
     value.parameter = Some(parameter.into());

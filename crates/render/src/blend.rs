@@ -39,7 +39,8 @@ mod tests {
         assert_eq!(over([1, 2, 3, 255], below), [1, 2, 3, 255]);
         assert_eq!(over([200, 100, 50, 128], [0; 4]), [200, 100, 50, 128]);
         assert_eq!(over([9, 9, 9, 0], [9, 9, 9, 0]), [0; 4]);
-        // Half-transparent black over white gives gray. Over half-transparent black, alpha is 1 - 1/2 * 1/2.
+        // Half-transparent black over white gives gray. If half-transparent black is drawn over half-transparent black,
+        // the alpha of the result is 1 - 1/2 * 1/2.
         assert_eq!(over([0, 0, 0, 128], [255; 4]), [127, 127, 127, 255]);
         assert_eq!(over([0, 0, 0, 128], [0, 0, 0, 128])[3], 192);
     }

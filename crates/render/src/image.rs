@@ -210,13 +210,13 @@ pub(crate) fn png_samples(bytes: &[u8]) -> Result<(png::OutputInfo, Vec<u8>), Pi
     let n = checked_size(width, height)?;
     let size = reader.output_buffer_size().unwrap_or(usize::MAX);
     if size > 8 * n {
-        let message = "its pixels take more than 8 bytes each";
+        let message = "the pixels of the image take more than 8 bytes each";
         return Err(PictureError::Decode(message.to_owned()));
     }
     let mut samples = vec![0; size];
     let info = reader.next_frame(&mut samples).map_err(failed)?;
     if [info.width, info.height] != [width, height] || info.buffer_size() != size {
-        let message = "its first image does not have the size that the file declares";
+        let message = "the first image in the file does not have the size that the file declares";
         return Err(PictureError::Decode(message.to_owned()));
     }
     Ok((info, samples))

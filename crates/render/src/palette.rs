@@ -105,7 +105,8 @@ fn distinct_colors(frames: &[Image], limit: usize) -> Option<Vec<[u8; 3]>> {
 /// Quantizes the colors of the images. The most frequent color, usually the background, stays exact.
 fn quantized_colors(frames: &[Image], limit: usize) -> Vec<[u8; 3]> {
     let pixels: usize = frames.iter().map(|f| f.pixels.len()).sum();
-    // The step is odd. With an even step, the samples of an image with an even width could be in only a few columns.
+    // The step is odd. If both the step and the width of an image were even, the samples could be in only a few columns
+    // of the image.
     let step = (pixels / SAMPLES) | 1;
     let opaque = frames
         .iter()

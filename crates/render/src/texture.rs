@@ -418,7 +418,7 @@ mod tests {
             scale: [1.0, 1.0],
         };
         let turned = texture(Sampler::default(), transform);
-        // If v points downwards, (0.25, 0.25) becomes (0.25, -0.25 + 1).
+        // In coordinates whose v axis points downwards, the transform maps (0.25, 0.25) to (0.25, -0.25 + 1).
         assert_eq!(at(&turned, 0.25, 0.75), [0, 0, 255]);
     }
 

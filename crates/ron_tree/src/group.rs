@@ -336,7 +336,8 @@ impl Parser<'_> {
             let text = format!("and this `{}`", open.bracket.open());
             diagnostic = diagnostic.with_label(open.span, text);
         }
-        // The outer groups also end here, but `complain` reports only the first error about `current`.
+        // The groups around this one also end at this token, but `complain` reports only the first error about
+        // `current`.
         self.complain(diagnostic);
     }
 }

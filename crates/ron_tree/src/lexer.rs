@@ -193,7 +193,8 @@ impl<'s> Lexer<'s> {
                 Some(b'\n') if self.lines_end_strings => break,
                 Some(b'"') => {
                     let length = at + 1;
-                    // In `"a.bez, name: "b"`, the second quote opens the next string.
+                    // In `"a.bez, name: "b"`, the closing quote after `a.bez` is missing, so the second quote opens the
+                    // next string.
                     let opens_next =
                         self.lines_end_strings && text[length..].starts_with(char::is_alphanumeric);
                     if let (true, Some(end)) = (opens_next, next_field(&text[..at])) {

@@ -189,7 +189,7 @@ impl<'s> Parser<'s> {
     /// Reports an error about `current`, unless an error about `current` was already reported.
     pub(super) fn complain(&mut self, diagnostic: Diagnostic) {
         let start = self.current.span.start;
-        // A token of one of these kinds is always an error, which `value` reports.
+        // An unclosed string or a bad character is always an error, and `value` reports it.
         let is_bad = matches!(
             self.current.kind,
             Some(TokenKind::UnclosedString | TokenKind::BadChar)

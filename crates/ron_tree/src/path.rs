@@ -12,7 +12,7 @@ use crate::diagnostic::Span;
 /// existing value on the path.
 pub fn field_span(value: &Value, path: &[String]) -> Span {
     let (mut value, mut deepest) = (value, value);
-    // Whether the path has already used the name of the variant at `value`.
+    // Whether an item of the path has already matched the name of the variant at `value`.
     let mut is_variant_matched = false;
     let mut rest = path;
     while let Some((item, after)) = rest.split_first() {
@@ -21,7 +21,7 @@ pub fn field_span(value: &Value, path: &[String]) -> Span {
                 (value, deepest, rest, is_variant_matched) = (inner, inner, after, false);
             }
             Step::Variant => (deepest, rest, is_variant_matched) = (value, after, true),
-            // The item of the path is not used up: the next iteration looks it up in the inner value.
+            // The current item of the path is not consumed, because the next iteration looks it up in the inner value.
             Step::Through(inner) => (value, is_variant_matched) = (inner, false),
             Step::NotFound => break,
         }
@@ -57,8 +57,9 @@ fn step<'v>(value: &'v Value, item: &str, is_variant_matched: bool) -> Step<'v> 
             .iter()
             .find(|(key, _)| key.as_str() == Some(item))
             .map(|(_, value)| value),
-        // A tuple with one item is usually the content of a variant, so the path skips the tuple. However, if the path
-        // continues with an index and the item is neither a tuple nor a list, the index refers to the tuple itself.
+        // A tuple with one item is usually the content of a variant, so the path skips the tuple. However, the tuple is
+        // not skipped if the path continues with an index and the only item of the tuple is neither a tuple nor a list.
+        // In this case, the index refers to the tuple itself.
         ValueKind::Tuple(items)
             if items.len() == 1
                 && (index.is_err()

@@ -95,10 +95,10 @@ impl Parser<'_> {
             .last()
             .is_some_and(|open| open.bracket == Bracket::Round);
         match contents.bracket {
-            // A tuple has no named fields, so `current` starts a field of the enclosing struct.
+            // A tuple has no named fields, so a name at `current` starts a field of the enclosing struct.
             Bracket::Round if contents.is_tuple() && names_field => !innermost.has_name && in_round,
             _ if !starts_line => false,
-            // After named fields, a value without a name is an item of the enclosing list.
+            // If a value without a name comes after named fields, it is an item of the enclosing list.
             Bracket::Round => {
                 !contents.fields.is_empty()
                     && (kind == Some(TokenKind::Open(Bracket::Round)) || is_ident && next_opens)
@@ -110,7 +110,7 @@ impl Parser<'_> {
                             open.bracket == Bracket::Square && open.line < self.current.line
                         })
             }
-            // A list has no named fields, so `current` starts a field of the enclosing struct.
+            // A list has no named fields, so a name at `current` starts a field of the enclosing struct.
             Bracket::Square => names_field && in_round,
             Bracket::Curly => false,
         }

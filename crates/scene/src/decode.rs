@@ -167,7 +167,7 @@ impl<'a> Decoder<'a> {
         } else {
             if self.arrays.next_len() != Some(n_bytes as u64) {
                 return Err(DecodeError::Expected(
-                    "a separate array of a different length",
+                    "a separate array of the declared length",
                 ));
             }
             values = mesh::zeroed(n);
@@ -188,7 +188,7 @@ impl<'a> Decoder<'a> {
         let numbers = self.array::<f64>(8)?;
         numbers
             .try_into()
-            .map_err(|_| DecodeError::Expected("an array of a different length"))
+            .map_err(|_| DecodeError::Expected("an array of the required length"))
     }
 
     /// Reads the length of a list, then the list. `next` reads one element.

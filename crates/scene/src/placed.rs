@@ -92,7 +92,7 @@ impl Scene {
                 ));
                 continue;
             }
-            // The counter does not restart for each instance, so naming many instances takes linear time.
+            // `number` does not restart at 1 for each instance, so that naming many instances takes linear time.
             let mut number = 1;
             for &i in nodes {
                 let node = graph.nodes()[i]

@@ -86,7 +86,7 @@ impl Store for Disk {
     }
 
     fn remove_folder(&self, folder: &Path) -> Result<(), StoreError> {
-        // After an error, removal is tried a second time, with fewer file descriptors.
+        // If the removal fails, it is tried a second time in a way that needs fewer file descriptors.
         fs::remove_dir_all(folder)
             .or_else(|_| remove_all(folder))
             .map_err(|error| StoreError::new("write", folder, error))

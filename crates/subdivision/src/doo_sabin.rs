@@ -22,15 +22,15 @@
 //!
 //! (h itself runs from left to right, from a to b, in the middle of face F + e.)
 //!
-//! At a boundary vertex, whose outgoing boundary half-edge is h, the half-edge join(h) from p(h) to q(prev(h))
-//! closes the face of the vertex. The twin of join(h) is on the boundary, between along(prev(h)) and along(h).
-//! The edges of these half-edges come after all other edges, in order of h.
+//! At a boundary vertex, whose outgoing boundary half-edge is h, the half-edge join(h) from p(h) to q(prev(h)) closes
+//! the face of the vertex. The twin of join(h) is on the boundary, between along(prev(h)) and along(h). The edges of
+//! the half-edges join(h) come after all other edges, in order of h.
 //!
 //! Face f keeps its id, edge e becomes face F + e, and the faces of vertices follow in order of the vertices. Isolated
-//! vertices have no faces. They are kept; their ids follow those of all other vertices. An inner vertex of valence 2
-//! also has no face, because the face would have two corners. The two outgoing half-edges h and k of such a vertex
-//! share one new edge. If h is lower than k, the first half of this edge is across(h), and across(k) is the twin of
-//! across(h). So each of these vertices lowers the ids of all later edges by one.
+//! vertices have no faces. They are kept, and their ids come after the ids of all other vertices. An inner vertex of
+//! valence 2 also has no face, because the face would have two corners. The two outgoing half-edges h and k of an inner
+//! vertex of valence 2 share one new edge. If h has a lower id than k, the first half of the shared edge is across(h),
+//! and across(k) is the twin of across(h). So each inner vertex of valence 2 lowers the ids of all later edges by one.
 
 use mesh::{Connectivity, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 use progress::{Cancelled, Meter};
@@ -51,7 +51,7 @@ pub(crate) struct DooSabin<'a> {
     isolated: Subset,
     /// The vertices that do not become faces: isolated vertices and inner vertices of valence 2.
     faceless: Subset,
-    /// The higher of the two outgoing half-edges of each inner vertex of valence 2.
+    /// For each inner vertex of valence 2, the outgoing half-edge with the higher id.
     doubled: Subset,
 }
 
@@ -99,7 +99,7 @@ impl<'a> DooSabin<'a> {
                 Source::Near(h)
             }
         } else if i < corners + ends {
-            // The point near the target is the point near the origin of the twin.
+            // The point near the target of a half-edge is the same point as the one near the origin of its twin.
             Source::Near(HalfEdgeId::new(self.outer.nth(i - corners)).twin())
         } else {
             Source::Isolated(VertexId::new(self.isolated.nth(i - corners - ends)))

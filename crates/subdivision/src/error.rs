@@ -21,7 +21,7 @@ pub enum SubdivisionError {
     },
     /// A coordinate is so large that the weighted sums of the masks could overflow.
     #[error(
-        "{} accepts only coordinates of at most {:e} in magnitude, but {vertex} has a larger one",
+        "{} accepts only coordinates of at most {:e} in magnitude, but {vertex} has a larger coordinate",
         .scheme.name(), crate::MAX_COORDINATE
     )]
     TooFar {

@@ -13,11 +13,12 @@
 //! ```
 //!
 //! [`FaceVarying`] decides which vertices are corners of a piece. The rules are those of OpenSubdiv's face-varying
-//! interpolation. In this crate, the rules are applied to each level separately, so computing two levels at once gives
-//! the same result as computing one level twice. The results can differ from those of OpenSubdiv in one case: two
-//! pieces meet at a vertex, and a semi-sharp edge is inside one of them. While this edge is sharp, the value of the
-//! other piece can stay unchanged, too. OpenSubdiv decides on the first level whether this happens, and keeps the
-//! decision. If the pieces, their seam and their vertex have different semi-sharp values, later levels can differ.
+//! interpolation. In this crate, the rules are applied to each level separately. So one call that computes two levels
+//! gives the same result as two calls that compute one level each. The results can differ from those of OpenSubdiv in
+//! one case: two pieces meet at a vertex, and a semi-sharp edge is inside one of them. While this semi-sharp edge
+//! inside one piece is sharp, the value of the other piece can stay unchanged, too. OpenSubdiv decides on the first
+//! level whether the value stays unchanged, and keeps this decision. If the pieces, their seam and their vertex have
+//! different semi-sharp values, the results on later levels can differ from those of OpenSubdiv.
 
 use mesh::{DVec4, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 use progress::{Cancelled, Meter};
@@ -118,8 +119,8 @@ impl<'a> Field<'a> {
         self.values[h.index()]
     }
 
-    /// Returns the corner value at the target of a half-edge. Uses the face of the half-edge, or the face of its
-    /// twin if the half-edge has none.
+    /// Returns the corner value at the target of a half-edge. Uses the corner in the face of the half-edge or, if the
+    /// half-edge has no face, in the face of its twin.
     fn far(&self, h: HalfEdgeId) -> DVec4 {
         if self.mesh.face(h).is_some() {
             self.of(self.mesh.next(h))
@@ -147,8 +148,8 @@ impl<'a> Field<'a> {
         if sharp >= 1.0 {
             return (self.of(h) + self.of(self.mesh.next(h))) * 0.5;
         }
-        // The terms are added in the same order for both halves of the edge, so that the values on its two sides are
-        // identical bit for bit.
+        // The terms are added in the same order for both halves of the edge. So the values on the two sides of the edge
+        // are identical bit for bit.
         let halves = e.half_edges();
         let ends = self.of(halves[0]) + self.of(self.mesh.next(halves[0]));
         let [smooth_end, sides] = if self.scheme == Scheme::CatmullClark {
@@ -222,8 +223,8 @@ impl<'a> Field<'a> {
 
     /// Collects the pieces around a vertex.
     fn pieces(&self, v: VertexId, start: HalfEdgeId) -> VertexPieces {
-        // The corners are in counter-clockwise order. At a boundary vertex, the corners run from one boundary
-        // edge to the other.
+        // The corners around the vertex are collected in counter-clockwise order. At a boundary vertex, the corners run
+        // from one boundary edge to the other.
         let corners = self.mesh.vertex_half_edges(v);
         let mut ring: Vec<HalfEdgeId> = corners.filter(|&h| self.mesh.face(h).is_some()).collect();
         ring.reverse();

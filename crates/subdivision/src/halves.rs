@@ -1,8 +1,8 @@
 //! Splits every old edge in two, as most schemes do.
 //!
-//! New edges are ordered so that the id of each new half-edge follows from the old ids without a search. V is
-//! the number of old vertices. Old edge e consists of the half-edge h = 2e, from a to b, and its twin. The edge
-//! becomes the new edges 2e and 2e + 1, which meet at the new vertex V + e:
+//! New edges are ordered so that the id of each new half-edge follows from the old ids without a search. V is the
+//! number of old vertices. Old edge e consists of half-edge 2e, which is called h and runs from a to b, and its twin.
+//! The edge becomes the new edges 2e and 2e + 1, which meet at the new vertex V + e:
 //!
 //! ```text
 //!            first(h) = 4e            second(h) = 4e + 2
@@ -14,9 +14,9 @@
 //!      first(h) = 2h + (h & 1)       second(h) = first(h) ^ 2
 //! ```
 //!
-//! The new half-edge of an old vertex is the first part of its old half-edge. The new half-edge is on the boundary
-//! if the old half-edge is. The half-edge of a new vertex is the second part of one half-edge of the old edge: of
-//! the boundary half-edge, if there is one.
+//! The new half-edge of an old vertex is the first part of its old half-edge. The new half-edge is on the boundary if
+//! the old half-edge is. The half-edge of a new vertex is the second part of a half-edge of the old edge. If the old
+//! edge is on the boundary, it is the second part of the boundary half-edge.
 //!
 //! The four half-edges and the vertex of each old edge are computed from the old mesh only, so all old edges can
 //! be processed in parallel. The idea is from Vanhoey and Dupuy, "A Halfedge Refinement Rule for Parallel Loop
@@ -47,7 +47,7 @@ pub(crate) fn on_edge(mesh: &Mesh, h: HalfEdgeId) -> VertexId {
     VertexId::new(mesh.n_vertices() + h.edge().index())
 }
 
-/// Returns the location of the corner of new half-edge `i`, which must be a part of an old half-edge.
+/// Returns the location of the corner at the origin of new half-edge `i`, which must be a part of an old half-edge.
 pub(crate) fn place(mesh: &Mesh, i: usize) -> Place {
     // An old edge has four parts: parts 0 and 2 belong to its first half-edge, parts 1 and 3 to its second
     // half-edge. Parts 0 and 3 start at the origins of these half-edges.
@@ -61,7 +61,7 @@ pub(crate) fn place(mesh: &Mesh, i: usize) -> Place {
     }
 }
 
-/// The next half-edges and the faces of the first and the second part of a half-edge.
+/// For the first and the second part of a half-edge: the next half-edges, and the faces.
 pub(crate) type PartLinks = ([HalfEdgeId; 2], [FaceId; 2]);
 
 /// The slices of the arrays of the next level that come after the elements made from old edges.
@@ -72,9 +72,8 @@ pub(crate) struct AddedArrays<'n> {
     pub(crate) face_half_edge: &'n mut [HalfEdgeId],
 }
 
-/// Builds the connectivity of the next level. The parts of old edges come first; `parts` gives the links of
-/// each half-edge. After them, `fill_added` writes `edges` further edges, `vertices` further vertices and `faces`
-/// faces.
+/// Builds the connectivity of the next level. The parts of old edges come first; `parts` gives the links of each
+/// half-edge. After the parts of old edges, `fill_added` writes `edges` edges, `vertices` vertices and `faces` faces.
 pub(crate) fn split_edges(
     mesh: &Mesh,
     [vertices, edges, faces]: [usize; 3],

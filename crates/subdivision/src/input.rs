@@ -8,11 +8,11 @@ use crate::error::SubdivisionError;
 use crate::parallel::any;
 use crate::rules::Scheme;
 
-/// The largest absolute value of a coordinate that can be subdivided. Masks sum the coordinates of fewer than
-/// 2^32 vertices, each several times. With this limit, these sums stay finite.
+/// The largest absolute value of a coordinate that can be subdivided. A mask adds up the coordinates of fewer than 2^32
+/// vertices, each several times. With this limit, the sums of the masks stay finite.
 pub const MAX_COORDINATE: f64 = 1e290;
 
-/// Returns the mesh without dead elements. A mesh that has no dead elements is borrowed.
+/// Returns the mesh without dead elements. A mesh that has no dead elements is borrowed, not copied.
 pub(crate) fn dense(mesh: &Mesh) -> Cow<'_, Mesh> {
     if mesh.is_dense() {
         return Cow::Borrowed(mesh);

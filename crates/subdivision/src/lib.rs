@@ -48,10 +48,11 @@
 //!        0     1     2     3     4     5     6     7     8   level
 //! ```
 //!
-//! `+` is a torus of regular valence, and `o` is an icosahedron. `*` is a place in the diagram where both coincide. On
-//! the torus, the distance is quadratic in the edge length, so each level divides the distance by four. Around the
-//! vertices of valence 5 of the icosahedron, each level scales the surface by the subdominant eigenvalue
-//! 3/8 + cos(2π/5)/4 = 0.452. After the first levels, the distance is scaled by the same factor.
+//! `+` is a torus of regular valence, and `o` is an icosahedron. `*` is a place in the diagram where `+` and `o`
+//! coincide. On the torus, the distance is quadratic in the edge length, so each level divides the distance by four.
+//! Around the vertices of valence 5 of the icosahedron, each level scales the surface by the subdominant eigenvalue
+//! 3/8 + cos(2π/5)/4 = 0.452. After the first levels, each level also scales the distance to the limit position by this
+//! eigenvalue.
 //!
 //! # Examples
 //!

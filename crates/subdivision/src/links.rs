@@ -1,4 +1,4 @@
-//! Writes connectivity arrays in parallel. The entries of each element depend only on its id and on the old mesh.
+//! Writes connectivity arrays in parallel. The entries of each new element depend only on its id and on the old mesh.
 
 use mesh::{Connectivity, FaceId, HalfEdgeId, VertexId};
 use progress::{Cancelled, Meter};

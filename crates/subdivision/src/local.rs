@@ -3,10 +3,10 @@
 //! # Triangles
 //!
 //! Chosen triangles are cut into four ("red"). If a neighbor of a red triangle is not red, the new vertex on their
-//! common edge is a hanging vertex of the neighbor. Between levels, the neighbor keeps its hanging vertex as a fourth
-//! corner in the middle of a straight side. A triangle that would get a second hanging vertex, on the same side or on a
-//! different side, is also cut into four, and so on. So on a common edge, neighboring triangles differ by at most one
-//! cut. After the last level, triangles with a hanging vertex are cut in two ("green"):
+//! common edge is a hanging vertex of the neighbor. Between levels, a triangle that is not cut keeps its hanging vertex
+//! as a fourth corner in the middle of a straight side. A triangle that would get a second hanging vertex, on the same
+//! side or on a different side, is also cut into four, and so on. So there is at most one hanging vertex on the common
+//! edge of two triangles. After the last level, triangles with a hanging vertex are cut in two ("green"):
 //!
 //! ```text
 //!            c                              c
@@ -21,14 +21,14 @@
 //! ```
 //!
 //! Without smoothing, each piece is similar to its old triangle, or is half of a triangle that is similar to the old
-//! triangle. So the smallest angle has a bound that does not depend on the number of levels: over all levels together,
-//! the cotangent of this angle grows by at most a factor of three. Source: Bank, Sherman and Weiser, "Refinement
-//! Algorithms and Data Structures for Regular Local Mesh Refinement", 1983.
+//! triangle. So the smallest angle has a bound that does not depend on the number of levels. Over all levels together,
+//! the cotangent of the smallest angle grows by at most a factor of three. Source: Bank, Sherman and Weiser,
+//! "Refinement Algorithms and Data Structures for Regular Local Mesh Refinement", 1983.
 //!
 //! # Polygons
 //!
-//! Chosen faces are cut into one quad for each corner. Neighbors that are not chosen are not cut; they get the
-//! new vertices on common edges as additional corners.
+//! Chosen faces are cut into one quad for each corner. A neighboring face that is not chosen is not cut. The new
+//! vertices on its common edges with chosen faces become additional corners of this face.
 
 mod builder;
 mod closure;
@@ -65,8 +65,8 @@ use smoothed::{LocalMasks, SmoothedElements};
 ///
 /// Ids change as follows. Old vertices keep their ids. Each level appends the new vertices on edges, in order of the
 /// edges, then the new vertices in faces, in order of the faces. Edges and faces are renumbered. The parts of an edge
-/// are consecutive, from the origin of its first half to the target, and the parts of a face are consecutive too. New
-/// edges inside faces come after the parts of old edges, in order of the faces. A mesh with dead elements is
+/// are consecutive, in order from the origin of its first half to the target. The parts of a face are consecutive too.
+/// New edges inside faces come after the parts of old edges, in order of the faces. A mesh with dead elements is
 /// compacted first.
 ///
 /// Vertex attributes are blended with the weights of the positions. Where positions are smoothed, corner values

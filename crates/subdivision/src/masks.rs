@@ -20,8 +20,8 @@ use crate::sharpness::{Sharpness, VertexRule};
 
 /// The masks of a scheme on one mesh.
 pub(crate) trait Masks: Sync {
-    /// Calls `add` with each old vertex and its weight in vertex `i` of the next level, in a fixed order.
-    /// The weights sum to 1. A vertex can occur more than once.
+    /// Calls `add` with each old vertex and its weight in vertex `i` of the next level, in a fixed order. The weights
+    /// sum to 1. A vertex can be passed to `add` more than once.
     fn mask(&self, i: usize, add: &mut impl FnMut(usize, f64));
 
     /// Computes the values at the `n` vertices of the next level. The values equal the weighted sums of
@@ -56,8 +56,8 @@ impl<M: Masks> AnyMasks for M {
     }
 }
 
-/// Adds the mask of an old vertex. `smooth(weight, add)` adds the smooth mask of the scheme, scaled by
-/// `weight`; the masks of creases and corners are the same for all schemes. An isolated vertex stays in place.
+/// Adds the mask of an old vertex. `smooth(weight, add)` adds the smooth mask of the scheme, scaled by `weight`. The
+/// masks of creases and corners are the same for all schemes. An isolated vertex stays in place.
 #[inline]
 fn at_vertex<A: FnMut(usize, f64)>(
     mesh: &Mesh,

@@ -83,7 +83,7 @@ pub(crate) fn over_polygons(
     triangles: &[[u32; 3]],
 ) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     let at = |v: u32| positions[v as usize];
-    // For each edge, the corners opposite to it.
+    // For each edge: the corners opposite to this edge.
     let mut opposite: BTreeMap<[u32; 2], Vec<u32>> = BTreeMap::new();
     for &[a, b, c] in triangles {
         for (v, w, x) in [(a, b, c), (b, c, a), (c, a, b)] {
@@ -126,7 +126,7 @@ pub(crate) fn over_polygons(
     (new, triangles.collect())
 }
 
-/// Subdivides as [`over_polygons`], with the vertices in the order of [`crate::subdivide`].
+/// Subdivides like [`over_polygons`], with the vertices in the order of [`crate::subdivide`].
 pub(crate) fn over_polygons_of(mesh: &Mesh) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     let old: Vec<[u32; 3]> = mesh.faces().map(|f| corners(mesh, f)).collect();
     let (positions, mut triangles) = over_polygons(mesh.positions(), &old);

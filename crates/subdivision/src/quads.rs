@@ -18,14 +18,14 @@
 //!     first(h)  second(h)
 //! ```
 //!
-//! The vertex on edge e is V + e, and the center of face f is V + E + f. The half-edges of old vertices and of
-//! vertices on edges are those in `halves`. The half-edge of a center is the twin of out(h) for the first
-//! half-edge h of its face.
+//! The vertex on edge e is V + e, and the center of face f is V + E + f. Old vertices and vertices on edges have the
+//! same half-edges as in `halves`. The half-edge of a center is the twin of out(h) for the first half-edge h of its
+//! face.
 //!
-//! In a mesh of quads the corners of face f are 4f to 4f + 3, and the corner of a half-edge follows from its
-//! position in the face. In other meshes, the corner indices are computed in advance. Only the first level can
-//! need this, because afterwards all faces are quads. The idea is from Dupuy and Vanhoey, "A Halfedge
-//! Refinement Rule for Parallel Catmull-Clark Subdivision", 2021, adapted to half-edges stored in pairs.
+//! In a mesh of quads the corners of face f are 4f to 4f + 3, and the corner of a half-edge follows from its position
+//! in the face. In other meshes, the corner indices are computed in advance. Only the first level can need computed
+//! corner indices, because afterwards all faces are quads. The idea is from Dupuy and Vanhoey, "A Halfedge Refinement
+//! Rule for Parallel Catmull-Clark Subdivision", 2021, adapted to half-edges stored in pairs.
 
 use mesh::{Connectivity, FaceId, HalfEdgeId, Mesh, VertexId};
 use progress::{Cancelled, Meter};
@@ -48,7 +48,7 @@ pub(crate) struct Quads<'a> {
 
 /// The correspondence between corners and half-edges.
 struct CornerTable {
-    /// The corner of each half-edge; 0 for those without a face.
+    /// The corner of each half-edge; 0 for half-edges without a face.
     corner: Vec<u32>,
     /// The half-edge of each corner.
     half_edge: Vec<HalfEdgeId>,

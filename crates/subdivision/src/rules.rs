@@ -90,10 +90,10 @@ pub enum Creasing {
     /// Animation", 1998.
     #[default]
     Uniform,
-    /// The sharpness is averaged with the sharpness of the neighboring edges of the crease, then decreases
-    /// by 1. So sharpness varies smoothly along a crease. This is OpenSubdiv's Chaikin rule, with one difference:
-    /// if one half of an edge with sharpness above 1 becomes smooth, the new vertex on the edge lies in the middle
-    /// of the edge, while OpenSubdiv moves this vertex beyond the middle.
+    /// The sharpness is averaged with the sharpness of the neighboring edges of the crease, then decreases by 1. So
+    /// sharpness varies smoothly along a crease. This is OpenSubdiv's Chaikin rule, with one difference. If one half of
+    /// an edge with sharpness above 1 becomes smooth, the new vertex on the edge lies in the middle of the edge, while
+    /// OpenSubdiv moves this vertex beyond the middle.
     Chaikin,
 }
 
@@ -106,8 +106,8 @@ pub enum FaceVarying {
     None,
     /// Like `None`, but the value of a piece with a single face does not change.
     CornersOnly,
-    /// Like `CornersOnly`, but values also do not change where three or more pieces meet, or where two pieces meet and
-    /// one of them has a sharp edge inside or is not contiguous.
+    /// Like `CornersOnly`, but values also do not change where three or more pieces meet. They also do not change where
+    /// two pieces meet and one of them has a sharp edge inside or is not contiguous.
     CornersPlus1,
     /// Like `CornersPlus1`, but values also do not change at the ends of seams. If the value of one piece at a
     /// vertex does not change, the values of all pieces at this vertex do not change.

@@ -46,13 +46,13 @@ pub(crate) enum VertexRule<K> {
     Corner,
 }
 
-/// The rule of a vertex, and the rule that replaces it within the level.
+/// The rule of a vertex on this level, and its rule on the next level if the two rules are blended.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Blend<K> {
     /// The rule for the sharpness on this level.
     pub(crate) now: VertexRule<K>,
-    /// The rule for the sharpness on the next level, and the weight of the rule `now`. `None` if only the rule `now` is
-    /// used.
+    /// The rule for the sharpness on the next level, and the weight of the rule `now` in the blend. `None` if only the
+    /// rule `now` is used.
     pub(crate) next: Option<(VertexRule<K>, f64)>,
 }
 
@@ -262,8 +262,7 @@ impl<'a> Sharpness<'a> {
         semi_sharp.half_of(self.edge(h.edge()))
     }
 
-    /// Returns the sharpness to store, on the next level, for the part of the edge of `h` that is at the origin of
-    /// `h`.
+    /// Returns the sharpness that the next level stores for the part of the edge of `h` that is at the origin of `h`.
     pub(crate) fn next_of_half(&self, h: HalfEdgeId) -> f64 {
         if self.edges.is_none() {
             0.0

@@ -102,9 +102,9 @@ impl Size {
         }
     }
 
-    /// Estimates how much the given levels, starting from this size, add to the [`Meter`](progress::Meter): one for
-    /// each new vertex, one for each old edge, and one for each new face. Levels of Sqrt3 and Doo-Sabin add one for
-    /// each new vertex and each new edge.
+    /// Estimates how much the given levels, starting from this size, add to the [`Meter`](progress::Meter). Most
+    /// schemes add one for each new vertex, one for each old edge, and one for each new face. Levels of Sqrt3 and
+    /// Doo-Sabin add one for each new vertex and each new edge.
     pub(crate) fn work(self, scheme: Scheme, levels: Range<u32>) -> u64 {
         let (mut size, mut sum) = (self, 0);
         for level in levels {
@@ -149,8 +149,8 @@ impl<N: Count> Size<N> {
                 corners.times(4),
             ],
             Scheme::Sqrt3 => {
-                // On odd levels, faces at the boundary get two vertices on the boundary edge instead of a
-                // vertex in the center.
+                // On odd levels, a face at the boundary gets two vertices on its boundary edge instead of one vertex in
+                // its center.
                 let cut = boundary.times(u64::from(level % 2));
                 [
                     vertices.plus(faces).plus(cut),
@@ -196,8 +196,8 @@ impl<N: Count> Size<N> {
             .plus(self.faces.least().times(4 + face))
     }
 
-    /// Checks that after the given levels, starting from this size, there are enough ids for all elements and the
-    /// mesh takes at most `budget` bytes.
+    /// Checks the size after the given levels, starting from this size. There must be enough ids for all elements, and
+    /// the mesh must take at most `budget` bytes.
     ///
     /// # Errors
     ///
@@ -305,7 +305,7 @@ mod tests {
 
     #[test]
     fn ids_end_before_fourteen_levels_of_an_icosahedron() {
-        // There are enough ids for 60 * 4^13 = 4.03e9 half-edges, but not for 60 * 4^14.
+        // The ids suffice for 60 * 4^13 = 4.03e9 half-edges, but not for 60 * 4^14.
         assert_eq!(icosahedron().check(LOOP, 0..13, u64::MAX), Ok(()));
         let too_large = icosahedron().check(LOOP, 0..14, u64::MAX).unwrap_err();
         assert_eq!(too_large.fits, Some(13));

@@ -17,10 +17,10 @@
 //!            \   /                       \ | /
 //! ```
 //!
-//! At a boundary, even and odd levels differ; levels are counted from 0. On even levels, boundary edges do not
-//! change. On odd levels, the mesh is the result of an even level, so each triangle at the boundary has
-//! exactly one boundary edge. The triangle gets two vertices on that edge instead of a center: x is V + f, and
-//! y is V + F + r, where r is the rank of the boundary half-edge of that edge among all boundary half-edges:
+//! At a boundary, even and odd levels differ; levels are counted from 0. On even levels, boundary edges do not change.
+//! On odd levels, the mesh is the result of an even level, so each triangle at the boundary has exactly one boundary
+//! edge. The triangle gets two vertices on its boundary edge instead of a center: x is V + f, and y is V + F + r. Here
+//! r is the rank of the boundary half-edge of that edge among all boundary half-edges:
 //!
 //! ```text
 //!          c                  c                 T(h) is (a, b, m), next(h) = spoke(next(h)),
@@ -32,9 +32,9 @@
 //!      even level          odd level
 //! ```
 //!
-//! The other two edges of the triangle are flipped. The flipped edge that is nearer to x than to y ends at x
-//! instead of the center, and the other flipped edge ends at y. After two levels, every old edge, including
-//! every boundary edge, has become three edges. Source: Kobbelt, "√3-Subdivision", 2000.
+//! The two edges of the triangle that are not on the boundary are flipped. Of the two flipped edges, the edge that is
+//! nearer to x ends at x instead of the center, and the edge that is nearer to y ends at y. After two levels, every old
+//! edge, including every boundary edge, has become three edges. Source: Kobbelt, "√3-Subdivision", 2000.
 
 use mesh::{Connectivity, FaceId, HalfEdgeId, Mesh, VertexId};
 use progress::{Cancelled, Meter};
@@ -164,14 +164,14 @@ impl<'a> Sqrt3<'a> {
         HalfEdgeId::new(2 * (self.n_edges + self.corner_number(h)))
     }
 
-    /// Returns the rank of the edge of `h`, which must have a face, among the edges that are cut.
+    /// Returns the rank of the edge of `h` among the edges that are cut. `h` must have a face.
     #[inline]
     fn rank(&self, h: HalfEdgeId) -> usize {
         let cut = self.cut.as_ref();
         cut.map_or(0, |cut| cut.below(h.twin().index()))
     }
 
-    /// Returns the half-edge from c to y. The edge of `h` must be one that is cut.
+    /// Returns the half-edge from c to y. The level must cut the edge of `h`.
     #[inline]
     fn second_spoke(&self, h: HalfEdgeId) -> HalfEdgeId {
         HalfEdgeId::new(2 * (self.n_edges + 3 * self.n_faces + self.rank(h)))
@@ -189,7 +189,7 @@ impl<'a> Sqrt3<'a> {
         VertexId::new(self.n_vertices + i)
     }
 
-    /// Returns the half-edge from the target of `h` to `end(h)`. The edge of `h` must be one that is flipped.
+    /// Returns the half-edge from the target of `h` to `end(h)`. The level must flip the edge of `h`.
     #[inline]
     fn spoke_at_target(&self, h: HalfEdgeId) -> HalfEdgeId {
         let before = self.prev(h);
@@ -246,7 +246,7 @@ impl<'a> Sqrt3<'a> {
         [half, Link(self.end(h), next, face)]
     }
 
-    /// Returns the links of both halves of the edge from c to y. The edge of `h` must be one that is cut.
+    /// Returns the links of both halves of the edge from c to y. The level must cut the edge of `h`.
     #[inline]
     fn edge_second_spoke(&self, h: HalfEdgeId) -> [Link; 2] {
         let after = self.mesh.next(h);
@@ -321,9 +321,9 @@ impl Topology for Sqrt3<'_> {
         links::connectivity(self, meter)
     }
 
-    /// Returns the location of a corner. A triangle next to a flipped edge covers parts of two old faces. At its
-    /// old vertex, triangle 3f + k has the value of the corner of face f. At each center, the triangle has the
-    /// value of the face of that center.
+    /// Returns the location of a corner. A triangle next to a flipped edge covers parts of two old faces. At its old
+    /// vertex, triangle 3f + k has the value of the corner of face f. At a face center, a new triangle has the value of
+    /// that face.
     fn corner(&self, finer: &Connectivity, i: usize) -> Place {
         let mesh = self.mesh;
         let Some(face) = finer.face[i].some() else {

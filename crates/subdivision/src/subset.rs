@@ -48,7 +48,7 @@ impl Subset {
     /// Returns the number of rank `r` among the numbers that are not members.
     #[inline]
     pub(crate) fn nth_outside(&self, r: usize) -> usize {
-        // Below the k-th member c, there are c - k numbers that are not members.
+        // If c is the k-th member, then c - k of the numbers below c are not members.
         let mut ranks = (0, self.0.len());
         while ranks.0 < ranks.1 {
             let k = ranks.0.midpoint(ranks.1);

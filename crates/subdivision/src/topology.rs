@@ -95,7 +95,7 @@ pub(crate) fn add_linear(mesh: &Mesh, place: Place, add: &mut dyn FnMut(usize, f
     }
 }
 
-/// Returns the weighted mean of [`add_linear`].
+/// Returns the mean of the old corner values, with the weights of [`add_linear`].
 pub(crate) fn linear_value(mesh: &Mesh, place: Place, old: &[DVec4]) -> DVec4 {
     let mut sum = DVec4::ZERO;
     add_linear(mesh, place, &mut |source, w| sum += old[source] * w);

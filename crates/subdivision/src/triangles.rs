@@ -1,9 +1,9 @@
 //! The connectivity of the next level when every triangle is split into four.
 //!
-//! Edges are split in two as in [`halves`](crate::halves). V and E are the numbers of old vertices and edges.
-//! Face f has the half-edges h0, h1, h2, counted from its first one. Face 4f + k is the triangle at the origin
-//! of hk, and face 4f + 3 is the middle triangle. The edge between these two is 2E + 3f + k. The first half of
-//! this edge, cut k, belongs to the corner triangle, and the second half to the middle triangle:
+//! Edges are split in two as in [`halves`](crate::halves). V and E are the numbers of old vertices and edges. Face f
+//! has the half-edges h0, h1, h2, counted from its first one. Face 4f + k is the triangle at the origin of hk, and face
+//! 4f + 3 is the middle triangle. The edge between the corner triangle at hk and the middle triangle is 2E + 3f + k.
+//! The first half of this edge, cut k, belongs to the corner triangle, and the second half to the middle triangle:
 //!
 //! ```text
 //!                  v2

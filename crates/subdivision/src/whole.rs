@@ -35,10 +35,10 @@ use crate::size::Size;
 ///
 /// # Errors
 ///
-/// Returns [`SubdivisionError::NotTriangle`] if the scheme needs triangles and a face is not a triangle,
-/// [`SubdivisionError::TooLarge`] if the result would have more elements than there are ids,
-/// [`SubdivisionError::TooFar`] if a coordinate is too large, [`SubdivisionError::Cancelled`] if the progress
-/// listener asks to stop.
+/// Returns [`SubdivisionError::NotTriangle`] if the scheme needs triangles and a face is not a triangle, and
+/// [`SubdivisionError::TooFar`] if a coordinate is too large. Returns [`SubdivisionError::TooLarge`] if the result
+/// would have more elements than there are ids, and [`SubdivisionError::Cancelled`] if the progress listener asks to
+/// stop.
 pub fn subdivide(
     mesh: &Mesh,
     rules: Rules,

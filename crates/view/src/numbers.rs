@@ -21,8 +21,8 @@ pub struct ColorBy {
     #[serde(default)]
     pub map: Option<ColorMap>,
     /// The values that the first and the last color represent, as in `(0, 60)`. If omitted, the range depends on the
-    /// values of the quantity. For curvatures, the range is symmetric about 0 and leaves out the lowest and the highest
-    /// eighth of the values, or fewer values if the others are all 0.
+    /// values of the quantity. For curvatures, the range is symmetric about 0. It leaves out the lowest and the highest
+    /// eighth of the values, or fewer values if all remaining values are 0.
     #[serde(default)]
     pub range: Option<[f64; 2]>,
     /// Whether a legend in a corner explains the colors.
@@ -53,12 +53,12 @@ pub enum Quantity {
     MeanCurvature,
     /// The Gaussian curvature at each vertex, in 1 / scene unit²: negative at saddles.
     GaussianCurvature,
-    /// An attribute. If several domains have an attribute of this name, the first of these domains that has it is used:
-    /// vertices, faces, corners, edges.
+    /// An attribute. If several domains have an attribute of this name, the attribute of the first of them is used, in
+    /// the order vertices, faces, corners, edges.
     Attribute {
         /// The name of the attribute.
         name: String,
-        /// The index of the component of a vector, from 0. If omitted, the length of the vector.
+        /// The index of the component of a vector, from 0. If omitted, the length of the vector is used.
         #[serde(default)]
         #[schemars(range(max = 3))]
         component: Option<u32>,
@@ -265,10 +265,10 @@ impl Quantity {
             Self::MinAngle => [0.0, if high > 60.0 { 90.0 } else { 60.0 }],
             Self::DihedralAngle => [0.0, if high > 90.0 { 180.0 } else { 90.0 }],
             Self::DistanceTo(_) => [0.0, high],
-            // The range is symmetric about 0. It excludes the lowest and the highest eighth of the values, because
-            // curvatures are very large at a few sharp corners and rims, where meshes often have many vertices. If all
-            // remaining values are 0, as on a flat surface with sharp edges, only 2 % at each end are excluded. If the
-            // values that then remain are all 0 too, no values are excluded.
+            // The range is symmetric about 0. The range excludes the lowest and the highest eighth of the values.
+            // Curvatures are very large at a few sharp corners and rims, and meshes often have many vertices there. If
+            // all remaining values are 0, as on a flat surface with sharp edges, the range excludes only 2 % of the
+            // values at each end. If the values that remain after this are all 0 too, the range excludes no values.
             Self::MeanCurvature | Self::GaussianCurvature => {
                 let max = [8, 50, usize::MAX].map(|part| {
                     let n_outliers = values.len() / part;

@@ -63,7 +63,7 @@ impl Default for SheetStyle {
 
 impl SheetStyle {
     /// Returns the style for images of this size. If the shorter side of the images is longer than 560 pixels, the
-    /// captions and gaps are larger, so that the captions stay as readable as the images when the sheet is scaled down.
+    /// captions and gaps are larger. So the captions stay as readable as the images when the sheet is scaled down.
     #[must_use]
     pub fn scaled_to(self, [width, height]: [u32; 2]) -> Self {
         let side = width.min(height);
@@ -190,7 +190,7 @@ pub fn sheet_with_headings(
     let gap = u64::from(style.gap);
     let font_size = f64::from(style.font_size);
     let mut labels = Vec::new();
-    // The horizontal middle of column `i`.
+    // The x coordinate of the middle of column `i`.
     let middle = |i: usize| {
         let left = layout.heading_width + gap + i as u64 * (layout.width + gap);
         left as f64 + layout.width as f64 / 2.0
@@ -386,7 +386,7 @@ mod tests {
             for y in 0..image.height {
                 assert!((0..105).all(|x| !is_text(x, y)), "{text:?}");
             }
-            // Stacked accents can reach the image above.
+            // A text with stacked accents can reach into the image above it.
             let is_plain = text.is_ascii();
             assert!(!is_plain || (0..image.width).all(|x| (0..33).all(|y| !is_text(x, y))));
         }
@@ -447,7 +447,7 @@ mod tests {
         let (dx, dy) = (with.width - without.width, with.height - without.height);
         assert_eq!(dy, 2 * style.font_size);
         assert!((20..70).contains(&dx), "{dx}");
-        // The headings only move the images, and their text is above and to the left of the images.
+        // The headings only move the images. The text of the headings is above and to the left of the images.
         let is_text = |x, y| ![RED, WHITE].contains(&at(&with, x, y));
         for y in style.gap..without.height {
             for x in style.gap..without.width {

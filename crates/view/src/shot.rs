@@ -27,7 +27,7 @@ const STEPS: u64 = 1000;
 pub struct Shot<'a> {
     /// The width and the height of each view in pixels.
     pub size: [u32; 2],
-    /// The cameras. Their views are placed side by side.
+    /// The cameras. The views of the cameras are placed side by side.
     pub cameras: &'a [Camera],
     /// The number of views in a row. If `None`, a row has one view of each scene. For a single scene, a row has all
     /// views, but at most 4.

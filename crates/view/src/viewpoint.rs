@@ -9,8 +9,8 @@ use scene::Scene;
 
 use crate::error_locations::bits;
 
-/// The number of directions on the whole sphere. Only those with an allowed elevation, on the outer side of the
-/// surface, are tried.
+/// The number of directions on the whole sphere. Only the directions with an allowed elevation on the outer side of the
+/// surface are tried.
 const DIRECTIONS: u32 = 200;
 
 /// The sine of 75 degrees, which is the maximum elevation of the camera. If the camera looks straight down, the upward
@@ -30,8 +30,9 @@ pub(crate) struct Target<'a> {
 /// Returns the direction from a target to the camera, as a unit vector.
 ///
 /// The candidates are directions on the outer side of the surface. A candidate is clear if no face hides the middle of
-/// the target in this direction. Returns the clear candidate nearest to `preferred`, a unit vector. If no candidate is
-/// clear, faces at a distance of `near` or more are ignored. If still no candidate is clear, returns `preferred`.
+/// the target from a camera in this direction. Returns the clear candidate that is nearest to the unit vector
+/// `preferred`. If no candidate is clear, faces at a distance of `near` or more are ignored. If still no candidate is
+/// clear, returns `preferred`.
 pub(crate) fn clear_direction(
     scene: &Scene,
     target: &Target,
@@ -42,7 +43,7 @@ pub(crate) fn clear_direction(
     let directions = std::iter::once(preferred).chain(directions());
     let directions: Vec<DVec3> = directions.filter(is_outside).collect();
     let points: HashSet<[u64; 3]> = target.points.iter().map(|&p| bits(p)).collect();
-    // The distance to the nearest face in each direction.
+    // For each direction: the distance to the nearest face.
     let mut distances = vec![f64::INFINITY; directions.len()];
     for mesh in scene.objects().iter().filter_map(|o| o.as_mesh()) {
         let n = mesh.domain_len(mesh::Domain::Face);

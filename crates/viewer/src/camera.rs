@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
 
-/// The vertical field of view with perspective, in degrees. The operation `Picture` has the same default.
+/// The vertical field of view with perspective, in degrees. The operation `Picture` has the same default field of view.
 const FIELD_OF_VIEW: f64 = 25.0;
 /// The largest angle above or below the horizontal plane, in degrees.
 const MAX_PITCH: f64 = 90.0;
@@ -37,7 +37,7 @@ pub enum Side {
 }
 
 impl Side {
-    /// All sides. The first side has the number key 1, the second side the key 2, and so on.
+    /// All sides. The number key 1 shows the first side, the number key 2 shows the second side, and so on.
     pub const ALL: [Self; 7] = [
         Self::ThreeQuarter,
         Self::Front,
@@ -88,7 +88,7 @@ pub struct Camera {
     pub pitch: f64,
     /// The upward axis.
     pub up: UpAxis,
-    /// Whether distant objects are smaller.
+    /// Whether the camera has perspective, so that distant objects look smaller.
     pub is_perspective: bool,
 }
 

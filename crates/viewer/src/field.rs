@@ -225,7 +225,7 @@ fn widget(ui: &mut Ui, field: &Field) -> Option<Change> {
             chosen.map(|i| Change::Set(names[i].0.clone()))
         }
         (FieldKind::Variants(variants), FieldValue::Ron(text)) => {
-            // Without a value, no variant is chosen yet.
+            // If the parameter has no value, no variant is chosen yet.
             let current = field.live.or(of.current()).map_or("", |_| text.as_str());
             let current = of.kind.parts(current).0.unwrap_or_default();
             let choices = variants
@@ -236,7 +236,7 @@ fn widget(ui: &mut Ui, field: &Field) -> Option<Change> {
         }
         (FieldKind::Vector(_), FieldValue::Vector(mut parts)) => {
             let mut change = None;
-            // The layout is from right to left.
+            // The layout is from right to left, so the last part is added first.
             for i in (0..parts.len()).rev() {
                 let speed = (parts[i].abs() * 0.01).max(0.01);
                 let axis = ["x", "y", "z"][i.min(2)];
@@ -358,8 +358,8 @@ fn by_wheel(ui: &Ui, slider: &Response, x: f64, [min, max]: [f64; 2]) -> Option<
     Some(Change::Drag(FieldValue::Number(x).to_ron()))
 }
 
-/// Returns the range of a slider, a little smaller than the limits if the limits themselves are not allowed. `None` if
-/// the number has no minimum or no maximum; it then gets a number field.
+/// Returns the range of a slider. The range is a little smaller than the limits if the limits themselves are not
+/// allowed. `None` if the number has no minimum or no maximum; its widget is then a number field.
 fn range(limits: &Limits) -> Option<(f64, f64)> {
     let (mut min, mut max) = (limits.min?, limits.max?);
     let margin = (max - min) * 1e-3;
@@ -408,7 +408,7 @@ fn text(ui: &mut Ui, field: &Field) -> Option<Change> {
 
 /// A line of text. Returns the new text when Enter is pressed or the line loses the focus.
 pub(crate) fn line(ui: &mut Ui, name: &str, current: &str, hint: &str, id: Id) -> Option<String> {
-    // In the frame in which Tab moves the focus away, the text is not yet lost.
+    // If Tab moves the focus away, the typed text is still needed in the next frame.
     let has_focus = ui.memory(|memory| memory.has_focus(id) || memory.had_focus_last_frame(id));
     let mut buffer = ui
         .data_mut(|data| data.get_temp::<String>(id))

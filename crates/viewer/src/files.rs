@@ -97,7 +97,7 @@ pub(crate) fn save(parts: &mut Parts, ctx: &Context) {
     finish(parts, result, &path);
 }
 
-/// Saves the recipe to a file, which becomes its file.
+/// Saves the recipe to a file, which becomes the file of the recipe.
 pub(crate) fn save_to(parts: &mut Parts, path: &Path) {
     let result = parts.editor.save_as(path);
     finish(parts, result, path);

@@ -14,11 +14,14 @@ const MOUSE: [(&str, &str); 10] = [
     ("Click", "pick a vertex, an edge or a face"),
     (
         "Shift+Click",
-        "add to the picked elements, or remove from them",
+        "add an element to the picked elements, or remove it",
     ),
     ("Shift+Drag", "add all elements in a box"),
     ("Ctrl+Drag", "add all elements in a lasso"),
-    ("with Alt", "remove the elements in a box or a lasso"),
+    (
+        "with Alt",
+        "remove all elements in a box or a lasso from the picked elements",
+    ),
     ("Double click", "pick an edge loop"),
     ("Drag a control point", "move it (curves and patches)"),
 ];
@@ -36,7 +39,8 @@ pub(crate) fn ui(ctx: &Context, parts: &mut Parts) {
         return;
     }
     let modal = egui::Modal::new(Id::unique("help")).frame(modal_frame(ctx)).show(ctx, |ui| {
-        // All keys fit on a window of 1280 x 800; on a smaller one, the list is scrolled below its title.
+        // All keys fit in a window of 1280 x 800 points. In a smaller window, the list of keys is scrolled below its
+        // title.
         let window = ctx.content_rect().size();
         ui.set_width((window.x - 120.0).clamp(300.0, 1000.0));
         ui.horizontal(|ui| {
@@ -50,7 +54,7 @@ pub(crate) fn ui(ctx: &Context, parts: &mut Parts) {
         ui.label(RichText::new("Everything you do becomes a step of the recipe at the left. Undo goes back in the history of the recipe.").weak());
         ui.separator();
         ScrollArea::vertical().min_scrolled_height(window.y - 180.0).max_height(window.y - 180.0).show(ui, |ui| {
-            // Rows are as high as their text, not as buttons.
+            // A row is as high as its text. By default, it would be at least as high as a button.
             ui.spacing_mut().interact_size.y = 0.0;
             ui.columns(3, |columns| {
                 let mut lengths = [0; 3];
@@ -60,7 +64,7 @@ pub(crate) fn ui(ctx: &Context, parts: &mut Parts) {
                     if task == LOOK {
                         rows.extend(SIDES.map(|(keys, doc)| (keys.to_owned(), doc)));
                     }
-                    // Each task goes to the shortest column.
+                    // The keys of each task are added to the column that is shortest so far.
                     let shortest = (0..3).min_by_key(|&i| lengths[i]).unwrap_or_default();
                     lengths[shortest] += rows.len() + 2;
                     group(&mut columns[shortest], task, &rows);

@@ -1,4 +1,4 @@
-//! The window of the editor. It draws what the crate `editor` computes, and forwards input to it.
+//! The window of the editor. The window draws what the crate `editor` computes, and forwards input to this crate.
 //!
 //! - [`App`]: the window's contents, for eframe and for tests.
 //! - [`camera`]: the camera of the view.

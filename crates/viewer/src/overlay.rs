@@ -155,7 +155,7 @@ impl Draw<'_> {
         let [p, q] = [self.mesh.origin(h), self.mesh.target(h)].map(|v| self.mesh.position(v));
         let along = q - p;
         let length = along.length();
-        // The normal of the face, or of the face on the other side of a boundary edge.
+        // The normal of the face of h. If h has no face, this is the normal of the face on the other side of the edge.
         let normal = match (self.mesh.face(h), self.mesh.face(h.twin())) {
             (Some(f), _) | (None, Some(f)) => self.mesh.face_normal(f),
             (None, None) => DVec3::ZERO,

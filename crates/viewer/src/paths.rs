@@ -10,7 +10,7 @@ use mesh_io::Format;
 use crate::app::{Parts, Pending};
 use crate::{files, help};
 
-/// A dialog that ends in less than this time was not shown. This happens on Linux without a desktop portal.
+/// If a dialog ends in less than this time, the system did not show it. This happens on Linux without a desktop portal.
 const SHORTEST_DIALOG: Duration = Duration::from_millis(200);
 
 /// The entry for the folder that contains the listed folder.

@@ -38,14 +38,14 @@ impl Player {
         &self.scene
     }
 
-    /// Returns the object and the edge of the edit that was done last or, before the first edit, of the next edit.
-    /// `None` if the edit has removed the edge.
+    /// Returns the object and the edge of the edit that was done last. Before the first edit, returns those of the next
+    /// edit. `None` if the edit has removed the edge.
     pub(crate) fn edge(&self) -> Option<(&str, EdgeId)> {
         let edge = self.shown()?.edge?;
         (self.play.mesh().has_edge(edge)).then_some((self.object.as_str(), edge))
     }
 
-    /// Returns the edit that was done last or, before the first edit, the next edit.
+    /// Returns the edit that was done last. Before the first edit, returns the next edit.
     fn shown(&self) -> Option<&PlayedEdit> {
         self.play
             .edits()
@@ -87,7 +87,7 @@ impl Parts {
     pub(crate) fn play(&mut self, step: usize) {
         let Some((object, play)) = self.editor.play(step) else {
             self.inform(
-                "These edits cannot be played: the step must flip, split or collapse edges of a mesh, without `until`.",
+                "These edits cannot be played: the step must flip, split or collapse edges of a mesh, and must not use `until`.",
             );
             return;
         };
@@ -143,7 +143,7 @@ pub(crate) fn ui(ui: &mut Ui, parts: &mut Parts) {
             let button = ui.add_enabled(parts.export.is_none(), Button::new(name).small());
             let button = button.accessible_name(format!("Export as {name}"));
             if button
-                .on_hover_text("Save the edits as an animation, as the view shows them")
+                .on_hover_text("Save an animation of the edits as the view shows them")
                 .clicked()
             {
                 exports = Some(purpose);

@@ -117,7 +117,7 @@ fn edit(ui: &mut Ui, parts: &mut Parts) {
                 );
             }
             show_completions(ui, pane, &words, &output, &colors);
-            // An explanation of the error under the mouse.
+            // If there is an error under the mouse pointer, its explanation is shown.
             let hovered = output
                 .response
                 .response
@@ -196,9 +196,9 @@ struct Words {
     texts: Vec<String>,
 }
 
-/// Returns the completions of the word before the cursor. For a word with a capital letter, these are the names of the
-/// variants of the parameter or, if it has none, of operations. For other words, these are the names of the parameters
-/// of the step.
+/// Returns the completions of the word before the cursor. For a word with a capital letter, the completions are the
+/// names of the variants of the parameter. If the parameter has no variants, they are the names of operations. For
+/// other words, the completions are the names of the parameters of the step.
 fn completions(parts: &Parts, ui: &Ui, id: Id) -> Words {
     let none = Words {
         range: 0..0,

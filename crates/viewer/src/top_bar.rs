@@ -99,7 +99,7 @@ fn file_menu(ui: &mut Ui, parts: &mut Parts) {
         ui.separator();
         if ui
             .button("Run and write the outputs")
-            .on_hover_text("Runs all steps, and writes the files of Save and Picture")
+            .on_hover_text("Runs all steps, and writes the files of the Save and Picture steps")
             .clicked()
         {
             parts.editor.write_outputs();

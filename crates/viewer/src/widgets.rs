@@ -20,7 +20,8 @@ pub(crate) fn counts(scene: &scene::Scene) -> [usize; 3] {
     })
 }
 
-/// Returns the number of faces of a scene, or if it has no meshes, of its patches, curves or polylines.
+/// Returns the number of faces of a scene. If the scene has no meshes, returns the number of its patches, curves or
+/// polylines.
 pub(crate) fn size(scene: &scene::Scene) -> String {
     let of = |kind: &scene::Geometry| match kind {
         scene::Geometry::Mesh(mesh) => [mesh.n_faces(), 0, 0, 0],

@@ -20,7 +20,7 @@ extern "C" {
 }
 
 thread_local! {
-    /// The listener of the run. It is a JavaScript object of one thread, so other threads cannot call it.
+    /// The listener of the run. The listener is a JavaScript object of one thread, so other threads cannot call it.
     static LISTENER: RefCell<Option<Listener>> = const { RefCell::new(None) };
 }
 
@@ -103,7 +103,7 @@ impl Session {
             LISTENER.with_borrow(|listener| {
                 // Other threads have no listener, and do not report progress.
                 listener.as_ref().is_none_or(|listener| {
-                    // An exception ends the run, too.
+                    // If the listener throws an exception, the run ends too.
                     listener.event(&event.to_string()).unwrap_or(false)
                 })
             })

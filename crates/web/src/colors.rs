@@ -26,7 +26,7 @@ pub struct MeshColors {
     pub object: String,
     /// The elements that have colors.
     pub per: Per,
-    /// Red, green and blue in sRGB of each element, one element after another.
+    /// The red, green and blue values of each element in sRGB, one element after another.
     pub colors: Vec<u8>,
 }
 

@@ -30,11 +30,11 @@ struct Scenes {
 
 impl Kept {
     /// Returns the index of the step that the next run must start with, and the scene before this step. Keeps only the
-    /// results of earlier steps.
+    /// results of the steps before this step.
     pub(crate) fn start(&mut self, loaded: &Loaded, keys: &StepKeys) -> (usize, Scene) {
         let known = self.steps.iter().zip(&keys.steps);
         let known = known.take_while(|((before, _), now)| before == *now);
-        // Steps that write files always run again, because the provenance in the files has the values of all
+        // A step that writes files always runs again, because the provenance in these files has the values of all
         // parameters.
         let forecast = &loaded.forecast.steps;
         let writes = forecast.iter().position(|step| step.n_outputs > 0);
@@ -130,7 +130,7 @@ mod tests {
             kept.add_scene(scene);
         }
         let is_kept = || -> Vec<bool> { kept.scenes().after.iter().map(Option::is_some).collect() };
-        // An unchanged mesh needs no memory.
+        // If a scene has the same mesh as the scene before it, it needs no memory for the mesh.
         kept.scenes().keep_last(3 * one - 1);
         assert_eq!(is_kept(), [true; 3]);
         kept.scenes().keep_last(2 * one - 1);

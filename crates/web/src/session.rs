@@ -67,7 +67,7 @@ impl Session {
     ///
     /// [`StoreError`] if the path is the path of a folder, or a part of the path is a file.
     pub fn write(&mut self, path: &str, bytes: &[u8]) -> Result<(), StoreError> {
-        // Steps can read files that their keys do not contain, such as the materials of a model. So no result is kept.
+        // A step can read a file that is not a part of its key, such as the materials of a model. So no result is kept.
         self.kept = Kept::default();
         self.store.write(path.as_ref(), bytes)
     }
@@ -249,8 +249,8 @@ impl Session {
         Some(Arrays::new(mesh))
     }
 
-    /// Returns the placements of a mesh of the last run: for each of its instances, the map from the space of the mesh
-    /// to the scene, as 16 numbers column by column. A skinned mesh has the placement of its first joint.
+    /// Returns the placements of a mesh of the last run. The placement of an instance maps the space of the mesh to the
+    /// scene, and consists of 16 numbers, column by column. A skinned mesh has the placement of its first joint.
     pub fn placements(&self, object: &str) -> Vec<f64> {
         let instances = self.scene.instances().into_iter();
         let own = instances.filter(|instance| instance.object.name == object);
@@ -258,8 +258,8 @@ impl Session {
             .collect()
     }
 
-    /// Returns the quantities of the meshes of the last run that [`colors`](Self::colors) can show. Each has a `title`,
-    /// and the `quantity` as recipes write it.
+    /// Returns the quantities of the meshes of the last run that [`colors`](Self::colors) can show. Each quantity has a
+    /// `title`, and the `quantity` as recipes write it.
     pub fn quantities(&self) -> Json {
         let quantities = Quantity::of_scene(&self.scene).into_iter();
         quantities

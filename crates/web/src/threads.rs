@@ -6,8 +6,8 @@
 //!   start_threads(n)  <-------------  after all are ready               run_thread(), which never returns
 //! ```
 //!
-//! This module is only in a build with atomic operations. Browsers run such a build only if the page is isolated from
-//! other origins.
+//! This module is only in a build with atomic operations. Browsers run a build with atomic operations only if the page
+//! is isolated from other origins.
 
 #![expect(unreachable_pub, reason = "wasm-bindgen exports only public functions")]
 
@@ -20,7 +20,7 @@ use wasm_bindgen::prelude::*;
 static WAITING: Mutex<Vec<ThreadBuilder>> = Mutex::new(Vec::new());
 static ADDED: Condvar = Condvar::new();
 
-/// Makes the calling worker and `n` other workers the threads of the engine. Blocks until the others have called
+/// Makes the calling worker and `n` other workers the threads of the engine. Blocks until the other workers have called
 /// [`run_thread`].
 #[wasm_bindgen]
 pub fn start_threads(n: usize) -> Result<(), JsError> {

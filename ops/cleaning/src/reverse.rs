@@ -20,7 +20,7 @@ use op::prelude::*;
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Reverse {
-    /// The faces to reverse. They must form whole connected components.
+    /// The faces to reverse. The faces must form whole connected components.
     #[serde(default)]
     pub faces: FaceSelection,
 }

@@ -23,18 +23,20 @@ use op::prelude::*;
 
 /// Cuts polygons into triangles.
 ///
-/// A quadrilateral is cut along its shorter diagonal. If both diagonals have the same length (the relative difference
-/// of their squared lengths is at most 1e-12), the quadrilateral is cut along the diagonal at its vertex with the
-/// lowest id. A diagonal is avoided if it gives a zero-area triangle or a triangle that is turned over relative to the
-/// normal of the face, unless the other diagonal has the same problem. A quadrilateral with a reflex corner is
-/// therefore cut at that corner. If a diagonal would join two vertices that are already joined by an edge or another
-/// diagonal, the other diagonal is chosen where possible. The report counts the duplicate diagonals that remain.
+/// A quadrilateral is cut along its shorter diagonal. If both diagonals have the same length, the quadrilateral is cut
+/// along the diagonal at its vertex with the lowest id. Two lengths count as the same if the relative difference of
+/// their squares is at most 1e-12. A diagonal is avoided if it gives a zero-area triangle or a triangle that is turned
+/// over relative to the normal of the face. It is not avoided if the other diagonal has the same problem. A
+/// quadrilateral with a reflex corner is therefore cut at that corner. If a diagonal would join two vertices that are
+/// already joined by an edge or another diagonal, the other diagonal is chosen where possible. The report counts the
+/// duplicate diagonals that remain.
 ///
-/// A face with more than four corners is projected along its normal. It is then cut by ear clipping, or into monotone
-/// pieces if it has more than 4096 corners. Then diagonals are flipped until the triangulation is a constrained
-/// Delaunay triangulation. Some faces cannot be triangulated in this way, because they have zero area, their sides
-/// cross (or overlap, if they have more than 4096 corners), or they have more than ten million corners. Each of these
-/// faces becomes a triangle fan around its vertex with the lowest id. The report counts them.
+/// A face with more than four corners is projected along its normal. The projected face is cut by ear clipping, or into
+/// monotone pieces if it has more than 4096 corners. Then diagonals are flipped until the triangulation is a
+/// constrained Delaunay triangulation. Some faces cannot be triangulated in this way: faces with zero area, faces whose
+/// sides cross, and faces with more than ten million corners. If a face has more than 4096 corners, its sides must not
+/// overlap either. A face that cannot be triangulated in this way becomes a triangle fan around its vertex with the
+/// lowest id. The report counts these faces.
 ///
 /// The triangles of a face take its place in the order of the faces and have its values. Vertices and edges keep their
 /// ids. The corners of the triangles have the values of the corners of the face at the same vertices.
@@ -50,8 +52,8 @@ impl MeshOperation for Triangulate {
     const NAME: &'static str = "Triangulate";
     const SUMMARY: &'static str = "Cut polygons into triangles";
     const EXAMPLE: &'static str = "Triangulate()";
-    // Since version 2, faces with more than 4096 corners are first cut into pieces. Version 3 cuts them into monotone
-    // pieces. Both changes can change the choice between equally good diagonals.
+    // Since version 2, faces with more than 4096 corners are first cut into pieces. Since version 3, these pieces are
+    // monotone. In both versions, the choice between equally good diagonals can differ from the version before.
     const VERSION: u32 = 3;
     const WORDS: &'static [&'static str] = &["triangles", "ears"];
 
@@ -95,7 +97,7 @@ impl MeshOperation for Triangulate {
         cx.advance("triangulate", 1, 3)?;
         let duplicates = duplicates::avoid(mesh, &mut cuts);
         cx.advance("triangulate", 2, 3)?;
-        // For each half-edge, the mesh stores three ids, and a list stores the half-edge from which its values are
+        // For each half-edge, the mesh stores three ids. A separate list stores the half-edge from which its values are
         // copied. Each of these arrays is extended once.
         let n_half_edges = mesh.n_half_edges() + 2 * diagonals;
         mesh::require_memory(24 * n_half_edges + 24 * mesh.n_vertices());

@@ -18,18 +18,18 @@ use op::prelude::*;
 
 /// Merges vertices that are close together, and joins the faces at them.
 ///
-/// Vertices at most `distance` apart are linked, and vertices that are connected by a chain of links merge into one,
-/// even if the ends of the chain are farther apart than `distance`. The merged vertex has the position and the values
-/// of the vertex with the lowest id. The other vertices are removed, so the ids of the vertices after them change.
-/// Edges between the same two vertices become one edge with the values of the first edge. Corner values stay with their
+/// Vertices at most `distance` apart are linked. Vertices that are connected by a chain of links merge into one, even
+/// if the ends of the chain are farther apart than `distance`. The merged vertex has the position and the values of the
+/// vertex with the lowest id. The other vertices are removed, so the ids of the vertices after them change. Edges
+/// between the same two vertices become one edge with the values of the first edge. Corner values stay with their
 /// corners, so UV seams are kept.
 ///
 /// If neighboring corners of a face merge, the face loses a corner. A face is removed if it has fewer than three
 /// corners left or would contain a vertex twice. Joined faces may have opposite orientations. If the orientations in a
-/// connected part can be made to agree, its faces form two groups of equal orientation, and all faces of the smaller
-/// group are reversed. If faces are reversed, the report counts them, and the normals of vertices and corners are
-/// dropped. Where the result would still not be manifold, vertices and edges are copied. For example, a third face at
-/// an edge gets a copy of the edge. The report counts the copies. If no vertices merge, the mesh does not change.
+/// connected part can be made to agree, its faces form two groups of equal orientation. All faces of the smaller group
+/// are reversed. If faces are reversed, the report counts them, and the normals of vertices and corners are dropped.
+/// Where the result would still not be manifold, vertices and edges are copied. For example, a third face at an edge
+/// gets a copy of the edge. The report counts the copies. If no vertices merge, the mesh does not change.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Weld {

@@ -1,4 +1,4 @@
-//! Operations: Bezier curves and patches.
+//! Operations on Bezier curves and patches.
 
 mod curve_levels;
 mod move_control_point;

@@ -18,9 +18,9 @@ use crate::moved::{Stretch, moved, next};
 ///
 /// Vertices at or below `from` do not move. Between `from` and `to`, the axis becomes an arc of the same length, which
 /// turns by `angle` in total. Vertices above `to` move rigidly. Vertices between the axis and the center of the circle
-/// move closer together, and vertices on the other side of the axis move apart. The distance between the center and the
-/// axis is (to - from) / angle, with the angle in radians. Parts of the mesh beyond the center turn inside out. Source:
-/// Barr, "Global and Local Deformations of Solid Primitives", 1984.
+/// move closer together, and vertices on the other side of the axis move apart. The distance between the center of the
+/// circle and the axis is (to - from) / angle, with the angle in radians. Parts of the mesh beyond the center of the
+/// circle turn inside out. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
 ///
 /// Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch with
 /// the surface. Only vertices move, so refine the mesh first if its faces are large.

@@ -341,7 +341,8 @@ mod tests {
         let step = parse(r#"(by: Image(path: "a.png"), distance: 2)"#);
         let mut cx = Context::new(&op::NoProgress, &files);
         let report = step.apply(&mut mesh, &mut cx).unwrap();
-        // Three of five columns are not black: 1/2, 1 and 1.
+        // The image is not black at three of the five columns of vertices. Its values at these columns are 1/2, 1
+        // and 1.
         assert_eq!(report.changed, 15);
         let [min, max] = geometry::bounds(&grid).unwrap();
         for (p, q) in grid.positions().iter().zip(mesh.positions()) {

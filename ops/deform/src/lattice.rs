@@ -16,11 +16,11 @@ use crate::moved::moved;
 
 /// Deforms vertices with a box of control points.
 ///
-/// The box has a grid of `size` control points along x, y and z. `moves` moves some of them, and the space in the box
-/// follows smoothly. Each point becomes a sum of the control points with Bernstein polynomials as weights (Sederberg,
-/// Parry, "Free-Form Deformation of Solid Geometric Models", 1986). If all control points move by the same offset, the
-/// whole box moves by this offset. A control point attracts the surface, but the surface usually does not reach it,
-/// except at the corners of the box.
+/// The box has a grid of `size` control points along x, y and z. `moves` moves some of the control points, and the
+/// space in the box follows smoothly. Each point in the box moves to a sum of the control points with Bernstein
+/// polynomials as weights (Sederberg, Parry, "Free-Form Deformation of Solid Geometric Models", 1986). If all control
+/// points move by the same offset, the whole box moves by this offset. A control point attracts the surface, but the
+/// surface usually does not reach it, except at the corners of the box.
 ///
 /// Vertices outside the box do not move. Normals and tangents are dropped. Faces, element ids and other attributes do
 /// not change, so textures stretch with the surface. Only vertices move, so refine the mesh first if its faces are
@@ -146,7 +146,7 @@ mod tests {
 
     #[test]
     fn the_middle_follows_the_bernstein_polynomials() {
-        // The middle of a lattice of 3 control points has the weights 1/4, 1/2, 1/4.
+        // In a direction with 3 control points, the weights at the middle of the lattice are 1/4, 1/2 and 1/4.
         let mut mesh = shapes::cube();
         mesh.set_position(mesh::VertexId::new(0), DVec3::ZERO);
         let step = step("(size: (3, 3, 3), moves: [((1, 1, 1), (8, 0, 0))])");

@@ -42,21 +42,22 @@ pub struct MoveVertices {
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum MoveBy {
-    /// By this offset along x, y and z, in scene units.
+    /// Moves by this offset along x, y and z, in scene units.
     Offset(Vector),
-    /// By this distance along the normal of each vertex, in scene units. A negative distance moves vertices inwards.
+    /// Moves by this distance along the normal of each vertex, in scene units. A negative distance moves vertices
+    /// inwards.
     Distance(Distance),
-    /// By one common offset, so that the mean of the selected vertices arrives at this point.
+    /// Moves by one common offset, so that the mean of the selected vertices arrives at this point.
     To(Vector),
-    /// By a rotation around an axis through the mean of the selected vertices.
+    /// Rotates around an axis through the mean of the selected vertices.
     Rotate {
         /// The direction of the axis.
         axis: Axis,
         /// The angle in degrees, counter-clockwise when the axis points towards the viewer.
         angle: Angle,
     },
-    /// By scaling along x, y and z about the mean of the selected vertices. A factor of 0 along an axis gives all
-    /// selected vertices the same coordinate along this axis.
+    /// Scales along x, y and z about the mean of the selected vertices. A factor of 0 along an axis gives all selected
+    /// vertices the same coordinate along this axis.
     Scale(Vector),
 }
 
@@ -200,8 +201,8 @@ mod tests {
             let text = format!("(vertices: Nearest(to: (0, 0, 0)), by: {by}, falloff: 0.5)");
             applied_as_planned(&parse(&text), &half)
         };
-        // The selected vertex is the center of the scaling and does not move. With the factor 3, a vertex at a distance
-        // d of less than 0.5 from the selected vertex moves by at most 2 d.
+        // The selected vertex is the center of the scaling and does not move. The factor of the scaling is at most 3.
+        // So a vertex at a distance d of less than 0.5 from the selected vertex moves by at most 2 d.
         let after = with("Scale((3, 3, 3))");
         let moved = half.positions().iter().zip(after.positions());
         assert!(

@@ -35,7 +35,7 @@ pub(crate) fn moved(
     Ok(Report::changed(moved))
 }
 
-/// The part of an axis on which a deformation changes from its start to its full amount.
+/// The part of an axis along which a deformation grows from zero to its full amount.
 #[derive(Clone, Copy)]
 pub(crate) struct Stretch {
     axis: Axis,
@@ -45,8 +45,8 @@ pub(crate) struct Stretch {
 }
 
 impl Stretch {
-    /// Creates the part between the coordinates `from` and `to` of the axis through `about`. A missing coordinate
-    /// becomes the coordinate of the end of the mesh.
+    /// Creates the part between the coordinates `from` and `to` of the axis through `about`. If a coordinate is
+    /// missing, the coordinate of the end of the mesh is used.
     pub(crate) const fn new(
         axis: Axis,
         about: Vector,
@@ -76,8 +76,8 @@ impl Stretch {
         }
     }
 
-    /// Returns the coordinate frame with the unit vectors `towards`, axis × `towards`, and axis. A missing end of the
-    /// range becomes the end of the bounding box.
+    /// Returns the coordinate frame with the unit vectors `towards`, axis × `towards`, and axis. If an end of the range
+    /// is missing, the end of the bounding box is used.
     pub(crate) fn frame(&self, mesh: &Mesh, towards: Axis) -> Result<Frame, OpError> {
         let axis = unit(self.axis);
         let [min, max] = geometry::bounds(mesh).unwrap_or_default();
@@ -92,8 +92,8 @@ impl Stretch {
         let about: DVec3 = self.about.into();
         let towards = unit(towards);
         Ok(Frame {
-            // `from` and `to` are coordinates of points along the axis, so the coordinate of `about` along the axis
-            // must not shift them.
+            // `from` and `to` are coordinates of points along the axis. So the origin must not include the coordinate
+            // of `about` along the axis.
             origin: about - axis * axis.dot(about),
             axes: [towards, axis.cross(towards), axis],
             from,

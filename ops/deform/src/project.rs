@@ -16,12 +16,13 @@ use crate::moved::moved;
 
 /// Moves vertices onto the surface of another object (shrinkwrap).
 ///
-/// Only vertices in `vertices` that are not in `pin` move. All others keep their exact positions. Without `on`, the
-/// step acts on all meshes except the object `onto`, which does not change. Normals and tangents are dropped. Faces,
-/// element ids and other attributes do not change, so textures stretch with the surface.
+/// Only vertices in `vertices` that are not in `pin` move. All other vertices keep their exact positions. Without `on`,
+/// the step acts on all meshes except the object `onto`, which does not change. Normals and tangents are dropped.
+/// Faces, element ids and other attributes do not change, so textures stretch with the surface.
 ///
 /// Vertices that would move farther than `distance` do not move. With `Normal` and `Direction`, vertices whose line
-/// misses the surface do not move either. The report counts both kinds of vertices.
+/// misses the surface do not move either. The report counts the vertices that would move too far, and the vertices
+/// whose line misses the surface.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Project {
@@ -45,13 +46,13 @@ pub struct Project {
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum ProjectAlong {
-    /// To the nearest point of the surface.
+    /// Moves to the nearest point of the surface.
     #[default]
     Nearest,
-    /// To the nearest point of the surface on the line through the vertex along its normal, on either side. The normal
-    /// is the sum of the area vectors of the faces of the vertex.
+    /// Moves to the nearest point of the surface on the line through the vertex along its normal, on either side. The
+    /// normal is the sum of the area vectors of the faces of the vertex.
     Normal,
-    /// To the first point of the surface in this direction.
+    /// Moves to the first point of the surface in this direction.
     Direction(Direction),
 }
 
@@ -123,7 +124,10 @@ impl MeshOperation for Project {
             }
         }
         let report = moved(mesh, &mask, Self::NAME, "onto", |v, _| new[v.index()])?;
-        let report = report.count("vertices whose line misses the surface, not moved", missed);
+        let report = report.count(
+            "vertices whose projection line misses the surface, not moved",
+            missed,
+        );
         Ok(report.count(
             "vertices that would move farther than `distance`, not moved",
             far,
@@ -220,7 +224,7 @@ mod tests {
         let report = op::test::run(&down, &mut scene).unwrap();
         assert_eq!(
             report.notes,
-            ["vertices whose line misses the surface, not moved: 13"]
+            ["vertices whose projection line misses the surface, not moved: 13"]
         );
         let top = before
             .iter()

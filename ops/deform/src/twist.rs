@@ -17,8 +17,9 @@ use crate::moved::{Stretch, moved, next};
 /// Rotates vertices around an axis, by an angle that grows along the axis.
 ///
 /// The angle grows linearly from 0 at `from` to `angle` at `to`. Below `from` and above `to`, vertices rotate by the
-/// angle of the nearer end. The volume changes only because edges stay straight, so on a fine mesh it hardly changes. A
-/// twist by the opposite angle undoes a twist. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
+/// angle of the nearer end. The volume changes only because edges stay straight, so the volume of a fine mesh hardly
+/// changes. A twist by the opposite angle undoes a twist. Source: Barr, "Global and Local Deformations of Solid
+/// Primitives", 1984.
 ///
 /// Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch with
 /// the surface. Only vertices move, so refine the mesh first if its faces are large.

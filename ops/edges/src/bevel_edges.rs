@@ -18,22 +18,22 @@ use op::{Refusal, readable};
 /// A selected edge and both of its ends are removed, and a new face replaces the edge. The new face extends into both
 /// faces beside the old edge, up to the distance `width` from this edge. An edge that is not selected, but shares an
 /// end with a selected edge, is cut near this end. If the two edges are neighboring sides of a face, the cut is where
-/// the distance from the selected edge is `width`, but at most four times `width` from the end. Otherwise, the cut is
-/// at the distance `width` from the end. Where two selected edges are neighboring sides of a face, the new vertex lies
-/// inside this face. If three or more new vertices surround an old vertex, another new face joins them. All edges are
-/// beveled together, so a cube that is beveled at all edges keeps all of its symmetries.
+/// the distance from the selected edge is `width`, but at most four times `width` from the shared end. Otherwise, the
+/// cut is at the distance `width` from the shared end. Where two selected edges are neighboring sides of a face, the
+/// new vertex lies inside this face. If three or more new vertices surround an old vertex, another new face joins them.
+/// All edges are beveled together, so a cube that is beveled at all edges keeps all of its symmetries.
 ///
 /// The ends of the edges are removed, so the ids of the vertices after them change. New vertices get the highest ids.
 /// Faces keep their ids. New faces get the highest ids: first the faces of edges, in order of the edges, then the faces
 /// of vertices. Edges get new ids.
 ///
 /// A new vertex has the values of the old face at its position, so textures do not change. A new face has the values
-/// (material, tags) of one of the old faces beside it. Which face is not specified, but the choice is the same in every
-/// run. New edges have zero values (no crease, no tags). Normals are dropped.
+/// (material, tags) of one of the old faces beside it. It is not specified which of these faces is used, but the choice
+/// is the same in every run. New edges have zero values (no crease, no tags). Normals are dropped.
 ///
-/// An edge cannot be beveled if it is on the boundary (`Boundary`), if one of its ends has only one other edge and this
-/// edge is not selected (`FewEdges`), or if the bevels at both ends of an edge would overlap (`OutsideEdge`). If the
-/// result would not be manifold, no edge is beveled (`NonManifold`).
+/// An edge cannot be beveled if it is on the boundary (`Boundary`), or if one of its ends has only one other edge and
+/// this other edge is not selected (`FewEdges`). An edge also cannot be beveled if the bevels at both ends of an edge
+/// would overlap (`OutsideEdge`). If the result would not be manifold, no edge is beveled (`NonManifold`).
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct BevelEdges {
@@ -43,8 +43,8 @@ pub struct BevelEdges {
     /// `width` or `fraction` must be given.
     #[serde(default)]
     pub width: Option<PositiveLength>,
-    /// The width as a fraction of the length of the shortest edge at the ends of the selected edges. From 0 to 1,
-    /// exclusive.
+    /// The width as a fraction of the length of the shortest edge that is selected or shares a vertex with a selected
+    /// edge. From 0 to 1, exclusive.
     #[serde(default)]
     pub fraction: Option<Fraction>,
     /// What to do when an edge cannot be beveled.
@@ -71,7 +71,8 @@ impl MeshOperation for BevelEdges {
         if done.max > 0 {
             let degrees = plan.degrees.max.max(plan.edges.max);
             plan.degrees = Range::between(plan.degrees.min.min(3), degrees.saturating_mul(2));
-            // At most one new vertex near the start of each half-edge, and new faces for edges and both of their ends.
+            // There is at most one new vertex near the start of each half-edge. Each edge and each of its two ends gets
+            // at most one new face.
             let faces = Range::between(done.min, done.max.saturating_mul(3));
             let vertices = Range::between(0, plan.edges.by(2).max);
             let edges = Range::between(done.min, vertices.plus(faces).max);
@@ -209,7 +210,7 @@ mod tests {
     #[test]
     fn results_that_are_not_manifold_are_refused_as_such() {
         // Two hexagons back to back. `bisect` cuts both along a new edge from vertex 0 to vertex 3, so two edges join
-        // the same vertices. Such a mesh cannot be built from polygons.
+        // the same vertices. A mesh with two edges between the same vertices cannot be built from polygons.
         let points = [(2, 0), (1, 2), (-1, 2), (-2, 0), (-1, -2), (1, -2)];
         let points = points.map(|(x, y)| DVec3::new(f64::from(x), f64::from(y), 0.0));
         let faces = [[0_u32, 1, 2, 3, 4, 5], [5, 4, 3, 2, 1, 0]];

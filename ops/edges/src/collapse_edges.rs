@@ -29,9 +29,9 @@ use op::prelude::*;
 /// - `SameFace`: the same face is on both sides of the edge, or would be on both sides of another edge.
 /// - `SameOpposite`: the two triangles beside the edge share another edge.
 ///
-/// Values at the remaining vertex and its corners are interpolated between the ends of the edge, on each side of a seam
-/// separately. When two edges become one, the remaining edge has the larger of the two creases, and the tags of both.
-/// Normals are dropped.
+/// Attribute values at the remaining vertex and at its corners are interpolated between the ends of the edge. At a
+/// seam, the two sides are interpolated separately. When two edges become one, the remaining edge gets the larger of
+/// the two crease values and the tags of both edges. Normals are dropped.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct CollapseEdges {
@@ -39,7 +39,8 @@ pub struct CollapseEdges {
     pub edges: EdgeSelection,
     /// The position of the remaining vertex on the edge, from 0 to 1.
     ///
-    /// If `edges` is `Between(v, w)`, 0 is at v and 1 is at w. Otherwise 0 is at the end with the lower id.
+    /// If `edges` is `Between(v, w)`, position 0 is at v and position 1 is at w. For all other selections, position 0
+    /// is at the end of the edge with the lower id.
     #[serde(default = "half")]
     pub at: ClosedFraction,
     /// What to do when a collapse is refused.

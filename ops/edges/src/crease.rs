@@ -16,10 +16,10 @@ use op::prelude::*;
 /// Makes edges and vertices sharp for subdivision.
 ///
 /// Sets the edge attribute `crease` of the selected edges and the vertex attribute `corner` of the selected vertices to
-/// `sharpness`. Other elements keep their values, or get 0 if the attribute did not exist. Loop and Catmull-Clark
-/// subdivision keep an edge or a vertex sharp for as many levels as its sharpness, and smooth it in later levels. For
-/// example, an edge with sharpness 2.5 is sharp for two levels and half sharp in the third level. With sharpness 10, an
-/// edge is sharp at every level. Boundary edges are always sharp.
+/// `sharpness`. Elements that are not selected keep their values, or get 0 if the attribute did not exist before the
+/// step. Loop and Catmull-Clark subdivision keep an edge or a vertex sharp for as many levels as its sharpness, and
+/// smooth it in later levels. For example, an edge with sharpness 2.5 is sharp for two levels and half sharp in the
+/// third level. With sharpness 10, an edge is sharp at every level. Boundary edges are always sharp.
 ///
 /// At least one of `edges` and `vertices` must be given. The geometry does not change. The report counts the elements
 /// whose value changed.
@@ -32,8 +32,8 @@ pub struct Crease {
     /// The vertices to change. If omitted, no vertices.
     #[serde(default)]
     pub vertices: Option<VertexSelection>,
-    /// The number of levels for which the elements stay sharp, from 0 to 10. With 0, creases are removed. With 10, the
-    /// elements are sharp at every level.
+    /// The number of subdivision levels for which the elements stay sharp, from 0 to 10. With 0, creases are removed.
+    /// With 10, the elements are sharp at every level.
     pub sharpness: Sharpness,
 }
 

@@ -16,9 +16,9 @@ use op::prelude::*;
 /// `DissolveVertices(vertices: Valence(2))` in a later step. The remaining elements keep their order and their values
 /// but get new ids.
 ///
-/// An edge cannot be removed if it is on the boundary, if the same face is on both of its sides, if one of its ends has
-/// only two edges, or if its two faces have common corners other than its ends. A seam edge is removed only if `seams`
-/// is `Drop`.
+/// An edge cannot be removed if it is on the boundary, if the same face is on both of its sides, or if one of its ends
+/// has only two edges. An edge also cannot be removed if its two faces have a common corner that is not an end of the
+/// edge. A seam edge is removed only if `seams` is `Drop`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct DissolveEdges {
@@ -42,8 +42,8 @@ impl MeshOperation for DissolveEdges {
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let chosen = self.edges.count(plan);
         let n = self.on_refusal.done(chosen);
-        // Removing n edges merges at most n + 1 faces into one, and each removed edge reduces the total number of
-        // sides by two.
+        // Removing n edges merges at most n + 1 faces into one. Each removed edge reduces the total number of sides by
+        // two.
         let sides = plan.degrees.max.saturating_sub(2);
         let merged = n.max.saturating_mul(sides).saturating_add(plan.degrees.max);
         plan.degrees.max = merged

@@ -9,7 +9,7 @@
 //! ```
 //!
 //! Either each edge is flipped once, or edges are flipped as long as flips improve the mesh (module `until`). The
-//! module `goal` defines an improvement.
+//! module `goal` defines which flips improve the mesh.
 
 mod goal;
 mod until;
@@ -21,18 +21,18 @@ use goal::Goal;
 
 /// Replaces the edge between two triangles with the other diagonal of the quadrilateral that they form.
 ///
-/// Edges are flipped in order of their ids. Each flip is checked against the mesh as edited so far. A flip is
-/// refused if the edge is on the boundary, if a face beside it is not a triangle, or if the opposite corners of the two
-/// triangles are already joined by an edge or are the same vertex. At a seam, a flip is refused unless `seams` is
-/// `Drop`. All elements keep their ids, and no vertex moves. Vertices, edges and faces keep their values. Each
-/// triangle gets one new corner. The new corner takes the values that the other triangle has at the same vertex; all
-/// other corners keep their values.
+/// Edges are flipped in order of their ids. Each flip is checked against the mesh as edited so far. A flip is refused
+/// if the edge is on the boundary, or if a face beside it is not a triangle. A flip is also refused if the two corners
+/// opposite to the edge are the same vertex or are already joined by an edge. At a seam, a flip is refused unless
+/// `seams` is `Drop`. All elements keep their ids, and no vertex moves. Vertices, edges and faces keep their values.
+/// Each triangle gets one new corner. The new corner of a triangle gets its values from the corner of the other
+/// triangle at the same vertex. All other corners keep their values.
 ///
 /// With `until: Delaunay` or `until: Valence`, an edge is flipped only if the flip improves the mesh. Edges are checked
-/// again, pass after pass, until a pass flips no edge or `passes` is reached. Flips with `until: Delaunay` or `until:
-/// Valence` neither fold the surface nor create zero-area triangles. If a flip that would improve the mesh is refused,
-/// the step does not fail. The edge is left unchanged, and the report counts the refusals by reason. The report also
-/// contains the number of passes, and whether the step stopped because `passes` was reached.
+/// again, pass after pass, until a pass flips no edge or `passes` is reached. Flips with `until: Delaunay` or
+/// `until: Valence` neither fold the surface nor create zero-area triangles. If a flip that would improve the mesh is
+/// refused, the step does not fail. An edge whose flip is refused is left unchanged, and the report counts the refusals
+/// by reason. The report also states the number of passes, and whether the step stopped because `passes` was reached.
 ///
 /// On a surface that is not flat, a flip changes the shape. To keep creases and other edges, exclude them from `edges`,
 /// for example with `Flat(below: 30)` or `Not(Tagged("keep"))`.
@@ -64,11 +64,11 @@ pub enum Until {
     #[default]
     Once,
     /// Flip edges until no flip reduces the sum of the cotangents of all angles of all triangles. The result has fewer
-    /// very small and very large angles. If all edges of a flat mesh are selected and no seam prevents a flip, the
-    /// result is the Delaunay triangulation within the boundary.
+    /// very small and very large angles than the original mesh. If all edges of a flat mesh are selected and no seam
+    /// prevents a flip, the result is the Delaunay triangulation within the boundary.
     Delaunay,
     /// Flip edges until no flip brings the valences of the vertices closer to 6, or to 4 on the boundary. Each flip
-    /// reduces the sum of the squared differences.
+    /// reduces the sum of the squared differences between the valences and these target values.
     Valence,
 }
 
@@ -85,7 +85,8 @@ impl MeshOperation for FlipEdges {
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let mut problems = Vec::new();
-        // Counts, degrees and attributes do not change. In a mesh without triangles, every flip is refused.
+        // A flip does not change the counts of elements, the degrees of faces or the attributes. In a mesh without
+        // triangles, every flip is refused.
         if plan.degrees.min > 3 && self.edges.count(plan).min > 0 {
             let message = format!(
                 "FlipEdges flips edges between triangles, but every face has at least {} corners",

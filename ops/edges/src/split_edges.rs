@@ -15,8 +15,8 @@ use op::prelude::*;
 /// In a mesh of triangles, a split adds 1 vertex, 3 edges and 2 faces. A split of a boundary edge adds 1 vertex, 2
 /// edges and 1 face. If a face beside the edge has more than three corners, the face is not cut and only gains the new
 /// vertex as a corner. Edges are split in order of their ids; new edges are not split again. New vertices get the
-/// highest ids, in the order of the splits. Values at the new vertex and its corners are interpolated between the ends
-/// of the edge, on each side of a seam separately.
+/// highest ids, in the order of the splits. Attribute values at the new vertex and at its corners are interpolated
+/// between the ends of the edge. At a seam, the two sides are interpolated separately.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct SplitEdges {
@@ -24,7 +24,8 @@ pub struct SplitEdges {
     pub edges: EdgeSelection,
     /// The position of the new vertex on the edge. From 0 to 1, exclusive.
     ///
-    /// If `edges` is `Between(v, w)`, 0 is at v and 1 is at w. Otherwise 0 is at the end with the lower id.
+    /// If `edges` is `Between(v, w)`, position 0 is at v and position 1 is at w. For all other selections, position 0
+    /// is at the end of the edge with the lower id.
     #[serde(default = "half")]
     pub at: Fraction,
     /// What to do when a split is refused.
@@ -45,8 +46,8 @@ impl MeshOperation for SplitEdges {
     const DONE: &'static str = "split";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        // A split cuts at most two faces. A split cuts fewer faces at boundary edges and beside faces with more than
-        // three corners.
+        // A split cuts at most two faces. At a boundary edge, or beside a face with more than three corners, a split
+        // cuts fewer faces.
         let n = self.edges.count(plan);
         let cuts = n.times(Range::between(u64::from(plan.is_triangles()), 2));
         plan.grow(n, n.plus(cuts), cuts);

@@ -16,9 +16,9 @@ use op::prelude::*;
 /// in order of the selected faces, and counter-clockwise around each face from its first corner. A zero-area face
 /// has no normal, so its inner face is not raised.
 ///
-/// Values at the new corners and vertices are interpolated between the values of the outer corner and the mean of all
-/// corners of the face. The ring has the values of the face (material, tags), and the inner edges have the values of
-/// the outer edges. Normals are dropped.
+/// Values at a new corner or vertex are interpolated between the value at the outer corner and the mean of the values
+/// at all corners of the face. The faces of the ring have the values of the old face (material, tags). The edges of the
+/// inner face have the values of the outer edges. Normals are dropped.
 ///
 /// A face cannot be beveled if it is on both sides of one of its edges.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]

@@ -137,7 +137,7 @@ mod tests {
         assert_eq!(counts(&applied(&all, mesh.clone())), [0, 0, 0]);
         let kept = applied(&parse("(faces: All, keep_vertices: true)"), mesh.clone());
         assert_eq!(counts(&kept), [6, 0, 0]);
-        // A vertex that was isolated before is kept.
+        // A vertex that was isolated before the step is kept.
         mesh = applied(&parse("(faces: Faces([1]), keep_vertices: true)"), mesh);
         assert_eq!(counts(&mesh), [6, 4, 1]);
         assert_eq!(counts(&applied(&all, mesh)), [2, 0, 0]);

@@ -9,8 +9,8 @@
 //! ```
 //!
 //! Faces that share an edge move together, as a region. A point p of a region with the center c moves to
-//! R s (p - c) + c + o, where s is the scale, R the rotation and o the offset. For `Distance(d)`, o is d times the
-//! normal.
+//! `R s (p - c) + c + o`, where s is the scale, R the rotation and o the offset. For `Distance(d)`, the offset o is d
+//! times the normal of the region.
 
 mod region;
 
@@ -24,23 +24,24 @@ use region::Region;
 /// Moves faces out of the surface and connects them to their old rim with side faces.
 ///
 /// Selected faces that share an edge form a region and move together, with one normal and one center. A region is first
-/// scaled, then rotated, both about the mean of its vertices, and then moved. Side faces with four corners are added
-/// along the rim of the region. The rim consists of the edges with a face of the region on one side only. If all faces
-/// of an open sheet are extruded, the result is a box that is open where the sheet was. A closed region has no rim, so
-/// its faces only move. If the area vectors of the faces cancel each other out, as in a closed region, the region has
-/// no normal, and `by` must be an `Offset`.
+/// scaled, then rotated, and then moved. The fixed point of scaling and rotation is the mean of the vertices of the
+/// region. Side faces with four corners are added along the rim of the region. The rim of a region consists of the
+/// edges with a face of the region on exactly one side. If all faces of an open sheet are extruded, the result is a box
+/// that is open where the sheet was. A closed region has no rim, so its faces only move. If the area vectors of the
+/// faces cancel each other out, as in a closed region, the region has no normal, and `by` must be an `Offset`.
 ///
 /// The faces keep their ids, so the same selection can be extruded again in later steps, for example to grow an arm out
 /// of a body. Vertices and edges inside a region also keep their ids. The vertices and edges of the old rim do not
-/// move, and the moved faces get a new rim. New side faces get the highest ids: region by region, in order of the
-/// lowest face id of each region, then in order of the faces, then counter-clockwise around each face from its first
-/// corner. New vertices are in the same order. Each new vertex is a copy of the first vertex of its side face.
+/// move, and the moved faces get a new rim. New side faces get the highest ids. They are ordered by region (by the
+/// lowest face id of each region), then by face, and then counter-clockwise around each face from its first corner. The
+/// new vertices are in the same order as the side faces. Each new vertex is a copy of the first vertex of the
+/// corresponding side face.
 ///
 /// A side face has the values of the adjacent moved face (material, tags). The corners of a side face have the values
 /// of the corners of the moved face, so textures have no seam between the two faces. However, a side face shows only
-/// the line of the texture along the edge of the moved face, stretched over the side face. The new edges of the rim
-/// have the values of the old ones (creases, tags), and the edges between the old and the new rim have zero values (no
-/// crease, no tags). Normals are dropped.
+/// one line of the texture: the line along the edge of the moved face, stretched over the whole side face. The edges of
+/// the new rim have the values of the edges of the old rim (creases, tags). The edges between the old and the new rim
+/// have zero values (no crease, no tags). Normals are dropped.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExtrudeFaces {
@@ -149,7 +150,7 @@ impl MeshOperation for ExtrudeFaces {
     }
 }
 
-/// Applies the linear map to a region, about its center.
+/// Applies a linear map to a region, with the center of the region as the fixed point.
 fn transform(mesh: &mut Mesh, region: &Region, linear: DMat3) -> Result<(), OpError> {
     if linear == DMat3::IDENTITY {
         return Ok(());

@@ -19,9 +19,9 @@ use op::prelude::*;
 /// vertices and faces get the highest ids: in order of the selected faces, and counter-clockwise around each face from
 /// its first corner.
 ///
-/// Values at the new corners and vertices are interpolated between the values of the outer corner and the mean of all
-/// corners of the face, so textures do not change. The ring has the values of the face (material, tags), and the inner
-/// edges have the values of the outer edges. Normals are dropped.
+/// Values at a new corner or vertex are interpolated between the value at the outer corner and the mean of the values
+/// at all corners of the face. Textures therefore do not change. The faces of the ring have the values of the old face
+/// (material, tags). The edges of the inner face have the values of the outer edges. Normals are dropped.
 ///
 /// A face cannot be inset if it is on both sides of one of its edges.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]

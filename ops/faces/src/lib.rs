@@ -28,7 +28,7 @@ pub fn register(registry: Registry) -> Registry {
         .with::<BevelFaces>()
 }
 
-/// Plans a ring of quadrilaterals inside each of `faces` faces.
+/// Plans a ring of quadrilaterals inside each face, where `faces` is the number of faces.
 fn plan_rings(plan: &mut MeshPlan, faces: Range) {
     let corners = plan.corners_of(faces);
     plan.grow(corners, corners.by(2), corners);

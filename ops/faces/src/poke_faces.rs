@@ -13,11 +13,11 @@ use op::prelude::*;
 /// Inserts a vertex at the center of each face and connects it to the corners of the face.
 ///
 /// A face with n corners becomes n triangles. Each poked face adds 1 vertex, n edges and n - 1 faces. The first
-/// triangle keeps the id of the face; the other triangles and the new vertices and edges get the highest ids, in order
-/// of the faces. The new vertex is at the mean of the corners, moved along the normal of the face by `distance`. For
-/// vertex and corner attributes that edits interpolate, the value at the new vertex is also the mean of the values at
-/// the corners. The triangles have the values of their face, and the new edges have zero values (no crease, no tags).
-/// If `distance` is not 0, normals are dropped.
+/// triangle keeps the id of the face. The other triangles and the new vertices and edges get the highest ids, in order
+/// of the faces. The new vertex is at the mean of the corners, moved along the normal of the face by `distance`. If
+/// edits interpolate a vertex or corner attribute, its value at the new vertex is the mean of its values at the
+/// corners. The triangles have the values of their face, and the new edges have zero values (no crease, no tags). If
+/// `distance` is not 0, normals are dropped.
 ///
 /// A face cannot be poked if it contains a vertex twice, if the position of the new vertex would not be finite, or if
 /// the mesh already has the largest supported number of elements.
@@ -27,10 +27,10 @@ pub struct PokeFaces {
     /// The faces to poke.
     #[serde(default)]
     pub faces: FaceSelection,
-    /// The distance of the vertex from the center along the normal of the face, in scene units. A negative distance
-    /// moves the vertex inwards.
+    /// The distance of the new vertex from the center of the face, along the normal of the face, in scene units. A
+    /// negative distance moves the vertex inwards.
     ///
-    /// A zero-area face has no normal, so its vertex is at the center.
+    /// A zero-area face has no normal, so its new vertex is at the center.
     #[serde(default, alias = "offset")]
     #[schemars(extend("aliases" = ["offset"]))]
     pub distance: Distance,
@@ -101,7 +101,7 @@ mod tests {
     fn the_distance_follows_the_normal() {
         let mesh = applied(&parse("(distance: 2)"), shapes::square());
         assert_eq!(mesh.position(VertexId::new(4)), DVec3::new(0.5, 0.5, 2.0));
-        // A cube whose sides are 2 x 2 squares, each with a roof of height 1.
+        // The result is a cube whose sides are 2 x 2 squares, each with a pyramid of height 1.
         let mesh = applied(&parse("(distance: 1)"), shapes::cube());
         assert!((geometry::volume(&mesh) - (8.0 + 6.0 * 4.0 / 3.0)).abs() < 1e-12);
     }

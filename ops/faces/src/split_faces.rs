@@ -14,13 +14,13 @@ use op::prelude::*;
 /// Cuts each face in two with an edge between two of its corners.
 ///
 /// Each pair (v, w) of vertices cuts the face that has both vertices as corners. The new edge joins the two vertices.
-/// Each cut adds 1 edge and 1 face. Cuts are made in the order of the list, so a face can be cut several times. The
-/// part of the face to the right of the line from v to w is the new face, and the other part keeps the id. New
-/// edges and faces get the highest ids. Corners keep their values, the new face has the values of the old face, and the
-/// new edge has zero values (no crease, no tags).
+/// Each cut adds 1 edge and 1 face. Cuts are made in the order of the list, so a face can be cut several times. A cut
+/// from v to w divides the face into two parts. The part to the right of the line from v to w is the new face, and the
+/// other part keeps the id of the old face. New edges and faces get the highest ids. Corners keep their values. The new
+/// face has the values of the old face, and the new edge has zero values (no crease, no tags).
 ///
-/// A cut is refused if the two vertices are the same, if they are already joined by an edge, if no face has both as
-/// corners, or if several faces have both as corners, because the cut would be ambiguous.
+/// A cut is refused if the two vertices are the same or are already joined by an edge. A cut is also refused if no face
+/// has both vertices as corners, or if several faces do, because the cut would then be ambiguous.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct SplitFaces {

@@ -15,21 +15,21 @@ use op::{Loss, Operation, ReadingChange, ReadingElements};
 ///
 /// Formats: `.obj`, `.gltf`, `.glb`, `.ply`, `.stl`, `.off`, `.dae`, `.bez` (Bezier patches), `.bzc` (a Bezier curve)
 /// and `.mws` (a complete scene). A file compressed with gzip has `.gz` after its extension, as in `.obj.gz`; `.glb`
-/// and `.mws` files cannot be compressed this way. An OBJ file becomes one object, and its objects (`o a`) and groups
-/// (`g a`) become the face tags `o:a` and `a`. A glTF file gives an object for each mesh that a node references. The
-/// object is named after the node if only one node references the mesh. Unless `placements` is `Bake`, the nodes,
-/// cameras, lights, skins, morph targets and animations of the file are kept. A COLLADA file gives an object for each
-/// node with a mesh. The report counts and lists the content that the scene cannot hold. Images of materials are read
-/// from files next to the model. A corner that repeats the previous corner is removed, and a face that still contains a
-/// vertex twice is left out.
+/// and `.mws` files cannot be compressed this way. An OBJ file becomes one object of the scene. The objects (`o a`) and
+/// groups (`g a`) in the file become the face tags `o:a` and `a`. A glTF file gives an object for each mesh that a node
+/// references. The object is named after the node if only one node references the mesh. Unless `placements` is `Bake`,
+/// the nodes, cameras, lights, skins, morph targets and animations of the file are kept. A COLLADA file gives an object
+/// for each node with a mesh. The report counts and lists the content that the scene cannot hold. Images of materials
+/// are read from files next to the model. A corner that repeats the previous corner is removed, and a face that still
+/// contains a vertex twice is left out.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Load {
     /// The file. A relative path is relative to the folder of the recipe.
     pub path: String,
-    /// The name for objects that have no name in the file, and for the only object of an `.mws` file. If omitted,
-    /// objects without a name get the name of the file without its extension, and the object of an `.mws` file keeps
-    /// its name.
+    /// The name for objects that have no name in the file, and for the object of an `.mws` file with only one object.
+    /// If omitted, objects without a name get the name of the file without its extension, and the object of an `.mws`
+    /// file keeps its name.
     #[serde(default)]
     pub name: Option<String>,
     /// What to do if more than two faces share an edge, or if the faces at a vertex form several groups that have no
@@ -131,7 +131,7 @@ impl Operation for Load {
         let appended = scene.append(loaded.objects, loaded.graph);
         let left_out = appended.map_err(|error| OpError::Object(error.to_string()))?;
         if left_out > 0 {
-            let what = "properties of the whole file left out, because an earlier file has other values for them";
+            let what = "properties of the whole file left out, because an earlier file has different values for them";
             report = report.count(what, left_out);
         }
         for note in &loaded.notes {
@@ -166,7 +166,7 @@ impl Load {
             let help = if self.name.is_none() || is_named_here {
                 "give the object a different name with `name`, or rename the existing object"
             } else {
-                "the name is in the file, and `name` does not replace it: rename the existing object with `Rename`"
+                "the name comes from the file, and the parameter `name` does not replace it: rename the existing object with `Rename`"
             };
             problems.extend(taken.map(|p| p.at([field]).help(help)));
         }
@@ -232,7 +232,7 @@ fn change(note: &Note) -> ReadingChange {
 /// The plan of a mesh lists at most this number of joints, and at most this number of morph targets.
 const MAX_PLANNED: u64 = 1 << 12;
 
-/// Returns the plan of the mesh that is read from a file with these counts.
+/// Returns the plan of a mesh that is read from a file, given the numbers of its elements in the file.
 fn planned(object: &PeekObject, peek: &PeekMesh, policies: Policies) -> MeshPlan {
     let range = |range: RangeInclusive<u64>| Range::between(*range.start(), *range.end());
     let ranges = peek.ranges(policies);

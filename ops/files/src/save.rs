@@ -12,10 +12,10 @@ use crate::save_plan;
 ///
 /// The extension determines the format: `.obj`, `.gltf`, `.glb`, `.ply`, `.stl` or `.off` for meshes, `.bez` for Bezier
 /// patches, `.bzc` for a curve, and `.mws` for a complete scene without any loss. `.csv` is a table of the positions
-/// and attributes of vertices, faces or corners, and `.npz` has the arrays of a mesh for `NumPy`. These two formats
-/// cannot be read. If the name ends with `.gz`, as in `a.obj.gz`, the file is compressed with gzip, which is not
-/// possible for `.glb`, `.mws` and `.npz`. The report lists the content that the format cannot store. A recipe
-/// creates the file only if all of its steps and expectations succeed.
+/// and attributes of vertices, faces or corners, and `.npz` has the arrays of a mesh for `NumPy`. `Load` cannot read
+/// `.csv` and `.npz` files. If the name ends with `.gz`, as in `a.obj.gz`, the file is compressed with gzip. Files in
+/// the formats `.glb`, `.mws` and `.npz` cannot be compressed with gzip. The report lists the content that the format
+/// cannot store. A recipe creates the file only if all of its steps and expectations succeed.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Save {
@@ -32,8 +32,8 @@ pub struct Save {
     #[serde(default)]
     pub compress: Option<Compression>,
     /// The number of bits for each attribute of the geometry in `.glb` and `.gltf` files. If omitted, numbers are
-    /// stored as 32-bit floats. `quantize: ()` uses the default of each attribute. The report states the largest errors
-    /// of positions, of normals and tangents, and of texture coordinates.
+    /// stored as 32-bit floats. `quantize: ()` uses the default number of bits for each attribute. The report states
+    /// the largest errors of positions, of normals and tangents, and of texture coordinates.
     #[serde(default)]
     pub quantize: Option<Quantization>,
     /// For `.gltf` and `.glb`, the number of sets of four joints that are written for each vertex of a skinned mesh. If

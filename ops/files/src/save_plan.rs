@@ -71,7 +71,7 @@ impl Losses {
 }
 
 /// Adds the losses for a format without nodes. If `all` is true, all objects are written, and the losses are certain.
-/// Otherwise only some objects with their nodes are written, and the losses are possible.
+/// If `all` is false, only some objects with their nodes are written, so the losses are only possible.
 fn graph_losses(plan: &Plan, objects: &[&PlannedObject], all: bool, losses: &mut Losses) {
     let graph = plan.graph();
     let unplaced: u64 = objects.iter().map(|o| o.unplaced_nodes).sum();

@@ -16,23 +16,24 @@ use op::prelude::*;
 
 /// Joins two holes with a band of faces.
 ///
-/// Each hole is identified by one of its vertices. An edge joins the two vertices, and the band goes around both holes
-/// from this edge. Holes with n and m edges, where n is at least m, are joined by m quadrilaterals and n - m evenly
-/// spread triangles. The step adds n edges and no vertices. Both holes may be in one connected part of the mesh, which
-/// then gets a tunnel or a handle, or in two separate parts of the same mesh. (`Join` joins two objects into one.)
+/// Each hole is identified by one of its vertices. The band starts at a new edge that joins the two given vertices, and
+/// goes around both holes. Holes with n and m edges, where n is at least m, are joined by m quadrilaterals and n - m
+/// evenly spread triangles. The step adds n edges and no vertices. Both holes may be in one connected part of the mesh,
+/// which then gets a tunnel or a handle, or in two separate parts of the same mesh. (`Join` joins two objects into
+/// one.)
 ///
-/// New faces have the values of the adjacent faces at the longer hole. New corners have the values of the corners at
-/// the same vertices in the adjacent faces. Normals are dropped.
+/// New faces have the values of the adjacent faces at the hole with more edges. New corners have the values of the
+/// corners at the same vertices in the adjacent faces. Normals are dropped.
 ///
-/// The step is refused if a vertex is not on the boundary (`NotBoundary`), if both vertices are on the same hole
-/// (`WrongPlace`), or if the band would join two vertices that are already joined by an edge (`DuplicateEdge`). If the
-/// reason is `DuplicateEdge`, the step may succeed with other vertices.
+/// The step is refused if a vertex is not on the boundary (`NotBoundary`), or if both vertices are on the same hole
+/// (`WrongPlace`). The step is also refused if the band would join two vertices that are already joined by an edge
+/// (`DuplicateEdge`). If a step is refused as `DuplicateEdge`, it may succeed with other vertices of the same holes.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct BridgeLoops {
     /// The id of a vertex on the first hole.
     pub first: u32,
-    /// The id of the vertex on the second hole that is joined to `first`.
+    /// The id of a vertex on the second hole. A new edge joins this vertex to the vertex `first`.
     pub second: u32,
 }
 

@@ -14,13 +14,14 @@ use op::prelude::*;
 /// Opens the mesh along edges.
 ///
 /// The edges may form paths, loops and trees. A loop can cut out a piece. Each edge becomes two edges, one for each
-/// side. If the cuts separate the faces around a vertex into several parts, each part gets a separate copy of the
-/// vertex. The part that contains the face with the lowest id keeps the id of the vertex, and new vertices get the
-/// highest ids. Faces keep their ids, and no vertex moves. Copies have the values of the originals, and corners keep
-/// their values. `Stitch` is the inverse.
+/// side of the cut. If the cuts separate the faces around a vertex into several parts, each part gets a separate copy
+/// of the vertex. The part that contains the face with the lowest id keeps the id of the vertex, and new vertices get
+/// the highest ids. Faces keep their ids, and no vertex moves. Copies of vertices and edges have the values of the
+/// originals. Corners keep their values. `Stitch` is the inverse.
 ///
-/// All edges are cut at once. An edge cannot be cut if it is on the boundary (`Boundary`), or if the cut would not open
-/// the mesh because both ends are inside the mesh and no other cut continues at either end (`DuplicateEdge`).
+/// All edges are cut at once. An edge on the boundary cannot be cut (`Boundary`). An edge also cannot be cut if both of
+/// its ends are inside the mesh and no other cut continues at either end, because such a cut would not open the mesh
+/// (`DuplicateEdge`).
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cut {
@@ -61,7 +62,8 @@ impl MeshOperation for Cut {
 }
 
 impl Cut {
-    /// Returns the edges that can be cut together. Other edges are an error or, with `Skip`, counted in the report.
+    /// Returns the edges that can be cut together. Edges that cannot be cut are an error or, with `Skip`, are counted
+    /// in the report.
     fn allowed(
         &self,
         mesh: &Mesh,

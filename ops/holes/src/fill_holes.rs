@@ -17,12 +17,12 @@ use op::prelude::*;
 /// boundary loop; use `around` or `max_edges` to exclude it. No vertices are added, and existing elements keep their
 /// ids. A hole with n edges gets 1 face with n corners, or n - 2 triangles and n - 3 edges.
 ///
-/// For holes with up to 500 edges, the triangles have the smallest possible total area. In larger holes, a triangle is
-/// added at one corner after the other, each time at the corner whose two neighbors are closest to each other. Straight
-/// and reflex corners come last. If the hole is far from convex, the triangles may overlap. Two vertices that are
-/// already joined by an edge are not joined by a second edge. If no triangulation without second edges is found, the
-/// hole cannot be filled (`DuplicateEdge`). A hole with two edges cannot be filled either (`WrongPlace`); `Stitch`
-/// closes it.
+/// For holes with up to 500 edges, the triangles have the smallest possible total area. A hole with more than 500 edges
+/// is filled one triangle at a time. Each triangle is added at the corner whose two neighbors are closest to each
+/// other. Triangles at straight and reflex corners are added last. If the hole is far from convex, the triangles may
+/// overlap. Two vertices that are already joined by an edge are not joined by a second edge. If no triangulation
+/// without duplicate edges is found, the hole cannot be filled (`DuplicateEdge`). A hole with two edges cannot be
+/// filled (`WrongPlace`). Use `Stitch` to close it.
 ///
 /// New faces have the values of a face beside the hole. New corners have the values of the corner at the same vertex in
 /// the adjacent face. Normals are dropped if a hole was filled.
@@ -47,7 +47,7 @@ pub struct FillHoles {
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Cover {
-    /// Triangles. In holes with up to 500 edges, they have the smallest total area.
+    /// Triangles. In holes with up to 500 edges, the triangles have the smallest possible total area.
     #[default]
     Triangles,
     /// One face with all vertices of the hole as corners.

@@ -19,17 +19,18 @@ use pairs::Pairs;
 /// Joins boundary edges that coincide.
 ///
 /// Two boundary edges coincide if both pairs of corresponding ends are at most `distance` apart. Two edges that
-/// coincide only with each other form a pair. Choose a distance below the lengths of the edges. If an edge coincides
-/// with several edges, neither this edge nor the others are joined (`NonManifold`). Unlike `Weld`, this operation never
-/// merges vertices inside the surface or vertices whose edges do not coincide.
+/// coincide only with each other form a pair. Choose a `distance` that is less than the lengths of the edges. If an
+/// edge coincides with several edges, none of these edges is joined (`NonManifold`). Unlike `Weld`, this operation
+/// never merges vertices inside the surface or vertices whose edges do not coincide.
 ///
-/// Of each pair of vertices or edges, the one with the lower id keeps its position and its values. The other vertex or
-/// edge is removed, so the ids of the vertices or edges after it change. Faces and corners do not change, so an edge
-/// whose sides have different UVs becomes a seam. Remaining holes with two edges are also closed.
+/// When two vertices or two edges become one, the one with the lower id is kept, with its position and values. The
+/// vertex or edge with the higher id is removed, so the ids of the vertices or edges after it change. Faces and corners
+/// do not change, so an edge whose sides have different UVs becomes a seam. Remaining holes with two edges are also
+/// closed.
 ///
-/// A pair cannot be joined if both edges belong to the same face (`SameFace`), if the ends of an edge would become one
-/// vertex or a face would contain a vertex twice (`WrongPlace`), or if two edges would join the same vertices
-/// (`DuplicateEdge`).
+/// A pair of edges cannot be joined if both edges belong to the same face (`SameFace`), or if two edges would then join
+/// the same vertices (`DuplicateEdge`). A pair also cannot be joined if the ends of an edge would become one vertex, or
+/// if a face would contain a vertex twice (`WrongPlace`).
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Stitch {
@@ -59,7 +60,8 @@ impl MeshOperation for Stitch {
         let mut report = Report::default();
         for h in ambiguous {
             let [v, w] = [mesh.origin(h), mesh.target(h)].map(mesh::VertexId::index);
-            let message = format!("several boundary edges coincide with Between({v}, {w})");
+            let message =
+                format!("several boundary edges coincide with the edge Between({v}, {w})");
             let refused = OpError::refused(Refusal::NonManifold, message).about([h.edge()]);
             self.on_refusal.refuse(refused, &mut report)?;
         }

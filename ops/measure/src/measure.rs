@@ -29,8 +29,8 @@ use crate::MeasureOf;
 pub struct Measure {
     /// The quantity.
     pub of: MeasureOf,
-    /// The name of the attribute. If omitted, the name of the quantity in lower case, such as `mean_curvature`, or
-    /// `largest_curvature` or `smallest_curvature` for a principal curvature.
+    /// The name of the attribute. If omitted, the attribute has the name of the quantity in lower case, such as
+    /// `mean_curvature`. For principal curvatures, the default names are `largest_curvature` and `smallest_curvature`.
     #[serde(default)]
     pub name: Option<AttributeName>,
     /// The value for elements at which the quantity is not defined, such as the curvature of a vertex without faces.
@@ -176,7 +176,7 @@ fn wrong_kind(object: &str, kind: &str) -> String {
     format!("Measure measures meshes, but the type of \"{object}\" is {kind}")
 }
 
-/// Checks that the mesh has no attribute of this name that the step cannot replace.
+/// Checks that the step can replace the attribute of this name, if the mesh has one.
 fn check_free(mesh: &Mesh, object: &str, domain: Domain, name: &str) -> Result<(), OpError> {
     let mut columns = mesh.attributes().iter();
     let is_other = |(of, column): &(Domain, &Column)| {

@@ -11,7 +11,7 @@ use op::{Operation, named_object};
 
 use crate::Measure;
 
-/// A quantity that each vertex or each face has.
+/// A quantity that is computed for each vertex or for each face.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum MeasureOf {
@@ -21,26 +21,27 @@ pub enum MeasureOf {
     /// The Gaussian curvature at each vertex, in 1 / scene unit²: the angle defect divided by the area of the vertex
     /// (Meyer, Desbrun, Schröder, Barr, 2003). The angle defect is 360° minus the sum of the corner angles at the
     /// vertex. The curvature is 1 / r² on a sphere of radius r, 0 on a cylinder, and negative at saddles. At a boundary
-    /// vertex, the angle defect is 180° minus the sum, which measures how the boundary turns. Values on the boundary
-    /// therefore depend on the size of the faces.
+    /// vertex, the angle defect is 180° minus the sum of the corner angles. It measures how the boundary turns at the
+    /// vertex. The Gaussian curvature of boundary vertices therefore depends on the size of the faces.
     GaussianCurvature,
     /// A principal curvature at each vertex, in 1 / scene unit: an eigenvalue of the curvature tensor of Cohen-Steiner
     /// and Morvan, 2003. On a cylinder of radius r, the two principal curvatures are 0 and 1 / r.
     PrincipalCurvature(Principal),
     /// The area of each face, in scene units².
     Area,
-    /// The area of each vertex, in scene units². Each face of the vertex contributes its area divided by its number of
-    /// corners.
+    /// The area of each vertex, in scene units². Each face at the vertex contributes its own area divided by its number
+    /// of corners.
     VertexArea,
     /// The smallest angle of each face, in degrees.
     MinAngle,
     /// The aspect ratio of each face: 1 for regular polygons, and more than 1 for all other polygons (Stimpson, Ernst,
-    /// Knupp, Pébay, Thompson, "The Verdict Geometric Quality Library", 2007). It is not defined for zero-area faces.
+    /// Knupp, Pébay, Thompson, "The Verdict Geometric Quality Library", 2007). The aspect ratio is not defined for
+    /// zero-area faces.
     AspectRatio,
     /// The distance from each vertex to the nearest point of another mesh of the scene, in scene units. Without `on`,
-    /// all meshes except the other mesh are measured.
+    /// the step measures all meshes except the mesh to which distances are measured.
     Distance {
-        /// The name of the object with the other mesh.
+        /// The name of the object to which distances are measured.
         to: String,
         /// Whether distances are negative inside the other mesh, that is, where its winding number is more than 1/2 or
         /// less than -1/2.
@@ -49,8 +50,8 @@ pub enum MeasureOf {
     },
     /// The distance along the surface from each vertex to the nearest selected vertex, in scene units, by the heat
     /// method (Crane, Weischedel, Wardetzky, "Geodesics in Heat", 2013; Sharp, Crane, 2020). On fine meshes of smooth
-    /// surfaces, the mean error is below 1 %. A vertex that no path of edges joins to a selected vertex has no
-    /// distance.
+    /// surfaces, the mean error is below 1 %. A vertex has no distance if no path of edges joins it to a selected
+    /// vertex.
     Geodesic {
         /// The vertices from which distances are measured.
         from: VertexSelection,
@@ -71,9 +72,10 @@ pub enum MeasureOf {
     },
     /// The winding number of another mesh of the scene around each vertex: 1 inside, 0 outside, and numbers between 0
     /// and 1 near gaps of the other mesh (Jacobson, Kavan, Sorkine-Hornung, 2013; Barill, Dickson, Schmidt, Levin,
-    /// Jacobson, 2018). The error is usually below 0.001. Without `on`, all meshes except the other mesh are measured.
+    /// Jacobson, 2018). The error is usually below 0.001. Without `on`, the step measures all meshes except the mesh
+    /// whose winding number is computed.
     Winding {
-        /// The name of the object with the other mesh.
+        /// The name of the object whose winding number is computed.
         of: String,
     },
 }
@@ -82,9 +84,9 @@ pub enum MeasureOf {
 #[derive(Clone, Copy, Debug, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Principal {
-    /// The larger principal curvature.
+    /// The larger of the two principal curvatures.
     Largest,
-    /// The smaller principal curvature.
+    /// The smaller of the two principal curvatures.
     Smallest,
 }
 
@@ -133,7 +135,8 @@ impl MeasureOf {
         }
     }
 
-    /// Returns the name of the other object, with the path of the parameter that names it.
+    /// Returns the name of the other object that the quantity needs, with the path of the parameter that contains this
+    /// name.
     pub(crate) fn other(&self) -> Option<(&str, [&'static str; 3])> {
         match self {
             Self::Distance { to, .. } => Some((to, ["of", "Distance", "to"])),
@@ -142,14 +145,14 @@ impl MeasureOf {
         }
     }
 
-    /// Returns the values of a mesh, by index. Missing values are represented by values that are not finite. The mesh
-    /// must be dense.
+    /// Returns the value for each vertex or face of a mesh, in order of the indices. Missing values are represented by
+    /// values that are not finite. The mesh must be dense.
     ///
     /// # Errors
     ///
-    /// [`OpError::Object`] if the other mesh is missing or has no faces; [`OpError::Refused`] if a selection is
-    /// refused, or if the mesh is so small or large that the values are outside of the range of numbers;
-    /// [`OpError::Budget`]; [`OpError::Cancelled`].
+    /// Returns [`OpError::Object`] if the other mesh is missing or has no faces. Returns [`OpError::Refused`] if a
+    /// selection is refused, or if the mesh is so small or large that values are outside the range of floating-point
+    /// numbers. Also returns [`OpError::Budget`] and [`OpError::Cancelled`].
     pub(crate) fn values(
         &self,
         mesh: &Mesh,

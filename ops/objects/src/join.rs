@@ -22,18 +22,19 @@ use crate::join::skin::{KeptSkin, LostSkin};
 
 /// Joins meshes into one object.
 ///
-/// Each mesh becomes a part of the result. The ids of vertices, edges and faces follow the parts, in the order of the
-/// list. The parts are not connected, even where they touch. The result replaces the first mesh of the list in the
-/// scene; the other meshes are removed. If nodes place a part, the result contains a copy of the part for each node,
-/// with the transform of the node applied to its points. If there are skinned parts, and they all have the same skin
-/// and one node each, the result keeps this skin and one of these nodes. The parts without a skin then follow the first
-/// joint of the skin. In all other cases, no node places the result. The names and default weights of morph targets are
-/// kept if they are the same for all parts with morph targets.
+/// Each mesh becomes a part of the result. Vertices, edges and faces are numbered part by part, in the order of the
+/// list. The parts are not connected, even where they touch. In the scene, the result replaces the first mesh of the
+/// list. The other meshes of the list are removed. If nodes place a part, the result contains a copy of the part for
+/// each node, with the transform of the node applied to its points. If there are skinned parts, and they all have the
+/// same skin and one node each, the result keeps this skin and one of these nodes. If the result keeps a skin, the
+/// parts without a skin follow the first joint of this skin. If the result does not keep a skin, no node places the
+/// result. The names and default weights of morph targets are kept if they are the same for all parts with morph
+/// targets.
 ///
-/// If a part lacks an attribute that another part has, the elements of this part get the value zero, or -1 (no
-/// material) for material indices. Normals are dropped and reported as lost unless all parts have them. If an attribute
-/// of a part has a different type than in earlier parts, the attribute of this part is dropped and reported as lost.
-/// Equal materials become one material.
+/// If a part lacks an attribute that another part has, the elements of this part get the value zero. Missing material
+/// indices become -1 (no material). Normals are dropped and reported as lost unless all parts have them. If an
+/// attribute of a part has a different type than in earlier parts, the attribute of this part is dropped and reported
+/// as lost. Equal materials become one material.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Join {
@@ -182,8 +183,9 @@ impl Join {
         problems
     }
 
-    /// Replaces the nodes of the parts by the node of the part whose skin is kept. Without a skin, the result has no
-    /// node. `label` has the names and default weights of the morph targets, if the parts share them.
+    /// Replaces the nodes of all parts with one node, which is the node of the part whose skin is kept. If no skin is
+    /// kept, the result has no node. `label` has the names and default weights of the morph targets, if the parts share
+    /// them.
     fn join_nodes(&self, graph: &mut Graph, kept: Option<&str>, label: Option<MeshLabel>) {
         let first = &self.objects[0];
         if kept != Some(first) {

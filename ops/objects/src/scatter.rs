@@ -16,12 +16,12 @@ use scene::{Geometry, Node, Object, Placement, transformed};
 ///
 /// Exactly `count` points are chosen so that no two of them are close together (Yuksel, "Sample Elimination for
 /// Generating Poisson Disk Sample Sets", 2015). Each copy is a node that references the object (an instance), so copies
-/// need almost no memory, and almost no space in `.gltf`, `.glb` and `.mws` files. The node moves the origin of the
-/// object to the point. To make one mesh of all copies, use `Join` afterwards. If no node placed the object before the
-/// step, the object then appears only at the points.
+/// need almost no memory, and almost no space in `.gltf`, `.glb` and `.mws` files. The node of each copy moves the
+/// origin of the object to one of the points. To make one mesh of all copies, use `Join` afterwards. If no node placed
+/// the object before the step, the object then appears only at the points.
 ///
-/// Without `object`, the result is a mesh that consists of the points and has no faces. The normals of its vertices are
-/// those of the surface.
+/// Without `object`, the result is a mesh that consists of the points and has no faces. The vertex normals of this mesh
+/// are the normals of the surface at the points.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scatter {
@@ -167,8 +167,8 @@ impl Scatter {
     }
 }
 
-/// Returns the shortest rotation from one unit vector to another. Uses no trigonometric functions, whose results differ
-/// between platforms.
+/// Returns the shortest rotation from one unit vector to another. Uses no trigonometric functions, because their
+/// results differ between platforms.
 fn half_way(from: DVec3, to: DVec3) -> DQuat {
     let w = 1.0 + from.dot(to);
     if w < 1e-12 {

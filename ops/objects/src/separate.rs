@@ -20,11 +20,11 @@ use scene::{Geometry, Graph, Object};
 /// parts are added after all other objects. Elements keep their order and their values, and every part has all
 /// materials. Vertices without a face are dropped. The report counts them. The step fails if the mesh has no faces.
 ///
-/// Nodes that placed the object place the first part instead. Each of these nodes gets children that place the other
+/// Nodes that placed the object place the first part instead. Each of these nodes gets child nodes that place the other
 /// parts.
 ///
-/// If parts of one component are separated, the edges and vertices between two parts are copied, so that each part has
-/// its own. If the faces of a part around a vertex form several fans, each fan gets a separate copy of the vertex.
+/// If parts of one component are separated, each part gets its own copies of the edges and vertices between two parts.
+/// If the faces of a part around a vertex form several fans, each fan gets a separate copy of the vertex.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Separate {
@@ -33,8 +33,8 @@ pub struct Separate {
     /// How the faces are grouped into parts.
     #[serde(default)]
     pub by: SeparateBy,
-    /// The expected number of parts. The step fails if the number differs. If omitted, the names of the parts are
-    /// not known before the recipe runs, so the object names in later steps cannot be checked before the run.
+    /// The expected number of parts. The step fails if the number of parts is not `count`. If omitted, the names of the
+    /// parts are not known before the recipe runs, so the object names in later steps cannot be checked before the run.
     #[serde(default)]
     pub count: Option<Count<1>>,
 }
@@ -46,7 +46,7 @@ pub enum SeparateBy {
     /// One part for each connected component, in order of the lowest face id in each component.
     #[default]
     Components,
-    /// One part for each material that a face has, in order of the materials. Faces without a material are the last
+    /// One part for each material that a face has, in order of the materials. Faces without a material form the last
     /// part.
     Material,
     /// The first part has the faces with the tag of this name, and the second part all other faces. A part without
@@ -142,7 +142,7 @@ impl SeparateBy {
             Self::Material => {
                 let of_face = mesh.get(MATERIAL).unwrap_or_default();
                 let material = |f: usize| of_face.get(f).copied().unwrap_or(-1);
-                // Faces without a material are the last part.
+                // Faces without a material form the last part.
                 (0..mesh.n_faces())
                     .map(|f| usize::try_from(material(f)).unwrap_or(usize::MAX - 1))
                     .collect()

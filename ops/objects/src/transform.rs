@@ -28,21 +28,22 @@ use crate::transform::map::Map;
 /// Scales, rotates and moves objects.
 ///
 /// Points are first scaled, then rotated, then moved. The step changes the points of meshes, patches, curves and
-/// polylines. If nodes place an object and `space` is `Scene`, the step changes the placements of these nodes instead,
-/// and everything below the nodes also moves. A skinned mesh then moves with its joints. A node whose placement is
-/// animated gets a parent, which is moved instead. With `space: Scene` and without `on:`, all other root nodes also
-/// move, for example those of cameras and lights, unless `about` is `Center`. A curve must stay in the plane z = 0.
+/// polylines. If nodes place an object and `space` is `Scene`, the step changes the placements of these nodes instead
+/// of the points. Everything below these nodes also moves. With `space: Scene`, a skinned mesh moves with its joints.
+/// If the placement of a node is animated, the node gets a new parent, and the step moves this parent instead. If
+/// `space` is `Scene`, `on:` is omitted and `about` is not `Center`, all other root nodes also move, for example the
+/// nodes of cameras and lights. A curve must stay in the plane z = 0.
 ///
 /// Ids do not change. If the points of a mesh change, its normals, tangents and deltas of morph targets are also
 /// transformed; other attributes do not change. If the points are mirrored (one or three negative factors in `scale`),
-/// the faces are also reversed, so that they stay counter-clockwise seen from outside. The first corner of a face stays
-/// first, and the other corners follow in reverse order. In mirrored patches, u and v are exchanged, so that the
-/// outside stays the outside. Like any step that changes the connectivity, mirroring the points drops attributes whose
-/// edit rule is `Drop`, such as tangents of corners.
+/// the faces are also reversed, so that they stay counter-clockwise seen from outside. In a reversed face, the first
+/// corner stays first, and the other corners follow in reverse order. In mirrored patches, u and v are exchanged, so
+/// that the same side of the surface remains the outside. Like any step that changes the connectivity, mirroring the
+/// points drops attributes whose edit rule is `Drop`, such as tangents of corners.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Transform {
-    /// The scale factors along x, y and z. No factor may be 0; a negative factor mirrors.
+    /// The scale factors along x, y and z. Factors must not be 0. A negative factor mirrors.
     #[serde(default = "ones")]
     pub scale: Factors,
     /// The rotations, applied in order.
@@ -63,8 +64,8 @@ pub struct Transform {
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Space {
-    /// The space of the scene. If nodes place an object, the placements of the nodes change. Otherwise the points of
-    /// the object change.
+    /// The space of the scene. If nodes place an object, the placements of the nodes change. If no node places an
+    /// object, the points of the object change.
     #[default]
     Scene,
     /// The space of each object. The points of the object change, so all instances of the object change.
@@ -82,9 +83,9 @@ pub enum About {
     /// The origin.
     #[default]
     Origin,
-    /// The center of the bounding box of each object. The box contains the vertices of a mesh, the control points of
-    /// patches or curves, or the points of polylines. With `space: Scene`, it contains these points of all instances of
-    /// the object.
+    /// The center of the bounding box of each object. The bounding box contains the vertices of a mesh, the control
+    /// points of patches or curves, or the points of polylines. With `space: Scene`, the box contains the points of all
+    /// instances of the object.
     Center,
     /// A point with the coordinates x, y, z.
     Point(f64, f64, f64),
@@ -183,7 +184,7 @@ impl Transform {
     fn curve_problem(&self, name: &str) -> Option<Problem> {
         let center = match self.about {
             About::Point(x, y, z) => DVec3::new(x, y, z),
-            // The center of a curve is in the plane, like the origin.
+            // The center of a curve is in the plane z = 0, like the origin.
             About::Origin | About::Center => DVec3::ZERO,
         };
         match Map::new(self).height_of_plane(center) {

@@ -23,12 +23,12 @@ use crate::figure_file;
 
 /// Draws Bezier curves, and de Casteljau's construction of their points, into an image file.
 ///
-/// The figure has one panel for each combination of a curve and a value of `t`. With `by_level`, it has one panel for
-/// each combination of a curve, a value of `t` and a level. A panel shows the control polygon, every level of de
-/// Casteljau's algorithm in a different color, the constructed point, and the curve, with the same scale in both axes.
-/// With `by_level`, each panel for a value of `t` shows one level more than the previous panel, and only the last of
-/// these panels shows the constructed point. The extension of the file determines the format: `.svg` or `.png`. The
-/// file is written only if the whole recipe succeeds. The scene does not change.
+/// The figure has one panel for each combination of a curve and a value of `t`. With `by_level`, the figure has one
+/// panel for each combination of a curve, a value of `t` and a level. A panel shows the curve, its control polygon,
+/// every level of de Casteljau's algorithm in a different color, and the constructed point. Both axes have the same
+/// scale. With `by_level`, each panel shows one level more than the previous panel for the same value of `t`. Only the
+/// last panel for a value of `t` shows the constructed point. The extension of the file determines the format: `.svg`
+/// or `.png`. The file is written only if the whole recipe succeeds. The scene does not change.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct CurveFigure {
@@ -42,8 +42,8 @@ pub struct CurveFigure {
     /// Whether each level of the algorithm has its own panel. If false, one panel shows all levels.
     #[serde(default)]
     pub by_level: bool,
-    /// The name of a curve that shows an earlier state of the other curves. This curve is drawn faintly behind the
-    /// other curves, with arrows to the control points that moved.
+    /// The name of a curve that shows an earlier state of the other curves. The earlier curve is drawn faintly behind
+    /// the other curves, with arrows to the control points that moved.
     #[serde(default)]
     pub before: Option<String>,
     /// The width of the figure in SVG pixels. The font size is 12 to 19 pixels.

@@ -15,8 +15,8 @@ use crate::figure_file;
 /// counts them. The extension of the file determines the format: `.svg` or `.png`. The file is written only if the
 /// whole recipe succeeds. The scene does not change.
 ///
-/// A name is a letter and the id of the element: `v` for vertices, `h` for half-edges, `f` for faces. Half-edges
-/// `2e` and `2e + 1` belong to edge `e`.
+/// The name of an element is a letter followed by the id of the element: `v` for vertices, `h` for half-edges, `f` for
+/// faces. Half-edges `2e` and `2e + 1` belong to edge `e`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct HalfEdgeFigure {

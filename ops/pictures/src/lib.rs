@@ -1,4 +1,4 @@
-//! Operations: pictures of scenes and figures of curves, half-edges and texture coordinates.
+//! Operations that draw pictures of scenes, and figures of curves, half-edges and texture coordinates.
 
 mod curve_figure;
 mod figure_file;

@@ -25,9 +25,9 @@ use view::{ColorBy, Extent, HIGHLIGHT_COLOR, Shot, Subject, highlight};
 
 /// Draws the scene into an image file.
 ///
-/// The extension of the file determines the format: `.png` for an image or, with `turntable`, `.gif` for an animated
-/// GIF and `.apng` or `.png` for an animated PNG. The file is written only if the whole recipe succeeds. The scene does
-/// not change. Drawing needs no GPU and gives the same bytes on every machine.
+/// The extension of the file determines the format. A single image has the extension `.png`. With `turntable`, `.gif`
+/// gives an animated GIF, and `.apng` or `.png` gives an animated PNG. The file is written only if the whole recipe
+/// succeeds. The scene does not change. Drawing needs no GPU and gives the same bytes on every machine.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Picture {
@@ -52,10 +52,10 @@ pub struct Picture {
     /// Elements to highlight in orange, as in `Edges(Sharp(above: 30))` or `Faces(Tagged("top"))`.
     #[serde(default)]
     pub highlight: Option<Elements>,
-    /// The width of highlighted edges and the diameter of highlighted vertices, in pixels. The defaults depend on the
-    /// shorter side of a view: 2.8 and 7.5 for 240 pixels, 3.4 and 10 for 480, 4 and 13 for 960, 8 and 26 for 1920. If
-    /// there are many highlighted vertices, they are drawn smaller. Hidden edges are drawn faintly, and hidden vertices
-    /// as rings.
+    /// The width of highlighted edges and the diameter of highlighted vertices, in pixels. The default width and the
+    /// default diameter depend on the shorter side of a view: 2.8 and 7.5 for 240 pixels, 3.4 and 10 for 480, 4 and 13
+    /// for 960, 8 and 26 for 1920. If there are many highlighted vertices, they are drawn smaller. Hidden edges are
+    /// drawn faintly, and hidden vertices as rings.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub highlight_width: Option<f64>,
@@ -191,15 +191,16 @@ impl Picture {
     }
 
     /// Draws scenes side by side at the same scale. Each scene has a caption, which can be empty. Returns one image, or
-    /// the images of a turntable, and notes on parts that are not drawn.
+    /// the images of a turntable, and notes about parts of the scene that are not drawn.
     ///
     /// If `within` is given, [`Camera::Fit`] shows all of this extent, and the colors of quantities use the color range
     /// of the extent. The images then have no legend, because the scenes have a [common legend](Extent::legend).
     ///
     /// # Errors
     ///
-    /// Returns [`OpError::Parameter`] or [`OpError::File`] if a parameter is invalid, [`OpError::Budget`] if the images
-    /// need more memory than the budget of `cx`, the errors of the selections, and [`OpError::Cancelled`].
+    /// Returns [`OpError::Parameter`] or [`OpError::File`] if a parameter is invalid, and [`OpError::Budget`] if the
+    /// images need more memory than the budget of `cx`. Also returns the errors of the selections, and
+    /// [`OpError::Cancelled`].
     pub fn draw(
         &self,
         scenes: &[(&Scene, &str)],
@@ -258,8 +259,9 @@ impl Picture {
         }
     }
 
-    /// Prepares a scene with its highlights and quantities. Also returns notes on parts that are not drawn. `placed` is
-    /// the scene with every instance as an object. Elements are selected in the space of each object.
+    /// Prepares a scene with its highlights and quantities. Also returns notes about parts of the scene that are not
+    /// drawn. `placed` is the scene in which every instance is a separate object. Elements are selected in the space of
+    /// each object.
     fn subject<'s>(
         &self,
         scene: &Scene,
@@ -352,7 +354,7 @@ impl Picture {
     /// # Errors
     ///
     /// Returns [`PictureError::Encode`] if the number of images is wrong, or if the images are too large for the
-    /// format; [`PictureError::Cancelled`].
+    /// format. Also returns [`PictureError::Cancelled`].
     pub fn encode(
         &self,
         images: &[Image],
@@ -426,7 +428,7 @@ impl Operation for Picture {
     }
 }
 
-/// Returns the scene with every instance as an object in scene space.
+/// Returns the scene with a separate object in scene space for every instance.
 fn placed<'s>(scene: &'s Scene, cx: &Context) -> Result<Cow<'s, Scene>, OpError> {
     let bytes = scene.placed_bytes();
     if !scene.graph().is_empty() && bytes > cx.budget {

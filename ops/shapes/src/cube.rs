@@ -9,9 +9,10 @@
 //!    0 ------ 1                       a ------ b
 //! ```
 //!
-//! The id of a vertex is (x > center) + 2 (y > center) + 4 (z > center). The squares are listed with their vertices,
-//! counter-clockwise seen from outside: -z (0, 2, 3, 1), +z (4, 5, 7, 6), -y (0, 1, 5, 4), +x (1, 3, 7, 5), +y (3, 2,
-//! 6, 7) and -x (2, 0, 4, 6). With `triangles: true`, the diagonals are therefore 0-3, 4-7, 0-5, 1-7, 3-6 and 2-4.
+//! The id of a vertex is (x > center) + 2 (y > center) + 4 (z > center), where a true comparison counts as 1. The
+//! squares are listed with their vertices, counter-clockwise seen from outside: -z (0, 2, 3, 1), +z (4, 5, 7, 6), -y
+//! (0, 1, 5, 4), +x (1, 3, 7, 5), +y (3, 2, 6, 7) and -x (2, 0, 4, 6). With `triangles: true`, the diagonals of the
+//! squares are therefore 0-3, 4-7, 0-5, 1-7, 3-6 and 2-4.
 
 use geometry::shapes;
 use op::Operation;
@@ -20,9 +21,9 @@ use op::prelude::*;
 /// Creates a cube.
 ///
 /// The cube has 8 vertices and 6 squares. In the order of their ids, the squares are on the sides -z, +z, -y, +x, +y
-/// and -x. Their vertices are (0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (1, 3, 7, 5), (3, 2, 6, 7) and (2, 0, 4, 6).
-/// The id of a vertex is (x > center) + 2 (y > center) + 4 (z > center), where a true comparison counts as 1 and a
-/// false comparison as 0.
+/// and -x. In the same order, the vertices of the squares are (0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (1, 3, 7, 5),
+/// (3, 2, 6, 7) and (2, 0, 4, 6). The id of a vertex is (x > center) + 2 (y > center) + 4 (z > center), where a true
+/// comparison counts as 1 and a false comparison as 0.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cube {
@@ -37,7 +38,8 @@ pub struct Cube {
     #[serde(default)]
     pub center: Vector,
     /// Whether to cut each square (a, b, c, d) along its diagonal from a to c into the triangles (a, b, c) and (a, c,
-    /// d). Square f becomes the faces 2 f and 2 f + 1. The diagonals are 0-3, 4-7, 0-5, 1-7, 3-6 and 2-4.
+    /// d). Square f becomes the faces 2 f and 2 f + 1. The diagonals of the squares are 0-3, 4-7, 0-5, 1-7, 3-6 and
+    /// 2-4.
     #[serde(default)]
     pub triangles: bool,
 }

@@ -15,8 +15,8 @@ use op::prelude::*;
 /// Creates a cylinder around the z axis.
 ///
 /// The vertices of the rim at -z come first, and then the vertices of the rim at +z. Each rim is counter-clockwise seen
-/// from +z and starts in the direction +x. The first `around` faces are rectangles. With `caps`, two polygons with
-/// `around` corners follow, first at -z and then at +z.
+/// from +z and starts in the direction +x. The first `around` faces are rectangles. With `caps`, the last two faces are
+/// polygons with `around` corners, first at -z and then at +z.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cylinder {

@@ -65,7 +65,7 @@ mod tests {
     use op::Operation;
     use op::prelude::*;
 
-    /// Creates an object without any parameter, twice in one scene.
+    /// Runs an operation with default parameters twice in the same scene.
     fn twice<O: Operation + serde::de::DeserializeOwned>() -> Vec<String> {
         let mut scene = Scene::new();
         let mut plan = Plan::default();

@@ -15,10 +15,10 @@ use op::prelude::*;
 /// Creates a mesh from points and faces.
 ///
 /// Point i becomes vertex i, and polygon i becomes face i. If the orientations of connected faces do not agree, the
-/// faces with the less frequent orientation are reversed. They are reversed only if all orientations then agree. If the
-/// faces do not form a manifold, edges and vertices are split: an edge keeps two faces with consistent orientations,
-/// and a vertex keeps one fan of faces. The other faces get copies of the vertices. The copies get the highest ids. The
-/// report and the command `check` list the reversed and split elements.
+/// faces with the less frequent orientation are reversed. Faces are reversed only if all orientations then agree. If
+/// the faces do not form a manifold, edges and vertices are split: an edge keeps two faces with consistent
+/// orientations, and a vertex keeps one fan of faces. All other faces at the edge or vertex get copies of its vertices.
+/// The copies of vertices get the highest ids. The report and the command `check` list the reversed and split elements.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Polygons {

@@ -15,8 +15,8 @@ use op::prelude::*;
 
 /// Creates a regular tetrahedron with 4 vertices and 4 triangles.
 ///
-/// The vertices are four of the eight corners of a cube with the same center. The signs of their coordinates relative
-/// to the center are (+, +, +), (-, -, +), (-, +, -) and (+, -, -), in this order.
+/// The vertices are four of the eight corners of a cube with the same center. The signs of the coordinates of the
+/// vertices, relative to the center, are (+, +, +), (-, -, +), (-, +, -) and (+, -, -), in this order.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tetrahedron {

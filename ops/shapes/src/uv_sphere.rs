@@ -15,8 +15,8 @@ use op::prelude::*;
 
 /// Creates a sphere of meridians and rings, with poles at -z and +z.
 ///
-/// Vertex 0 is the pole at -z. The circles of vertices follow, in order from -z to +z. Each circle starts in the
-/// direction +x and is counter-clockwise seen from +z. The last vertex is the pole at +z.
+/// Vertex 0 is the pole at -z. The vertices between the poles follow, circle by circle from -z to +z. Each circle
+/// starts in the direction +x and is counter-clockwise seen from +z. The last vertex is the pole at +z.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct UvSphere {

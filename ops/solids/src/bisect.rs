@@ -13,17 +13,17 @@ use op::prelude::*;
 
 /// Cuts meshes along a plane.
 ///
-/// Every edge that crosses the plane gets a vertex on the plane. Every face that crosses the plane is cut along it. A
-/// concave face can be cut several times. A vertex counts as on the plane if its distance from the plane is at most
-/// 1e-9 times the largest extent of the mesh, or at most 1e-14 times the largest absolute coordinate. Such a vertex is
-/// not moved. When an edge is cut, the part at the start of its first half-edge keeps the id of the edge. When a face
-/// is cut, the part with the first corner keeps the id of the face. New elements get the highest ids. Attributes are
-/// interpolated at the crossings, separately on each side of a seam.
+/// Every edge that crosses the plane gets a vertex on the plane. Every face that crosses the plane is cut along the
+/// plane. A concave face can be cut several times. A vertex counts as on the plane if its distance from the plane is at
+/// most 1e-9 times the largest extent of the mesh, or at most 1e-14 times the largest absolute coordinate. Such a
+/// vertex is not moved. When an edge is cut, the part at the start of its first half-edge keeps the id of the edge.
+/// When a face is cut, the part with the first corner keeps the id of the face. New elements get the highest ids. Where
+/// an edge crosses the plane, attributes are interpolated. At a seam, the two sides are interpolated separately.
 ///
 /// With `keep: Front` or `keep: Back`, the other side of the plane is removed. A face in the plane belongs to the back
 /// if its normal points to the front, because the face then closes the solid behind the plane. Vertices left without a
 /// face are removed. If the remaining faces around a vertex form several fans, each fan gets a separate copy of the
-/// vertex. No faces are added to close the cut. To close it, use `FillHoles` in a later step.
+/// vertex. No faces are added to close the cut. To close the cut, use `FillHoles` in a later step.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Bisect {
@@ -61,8 +61,8 @@ impl MeshOperation for Bisect {
     const WORDS: &'static [&'static str] = &["slice", "clip", "plane"];
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        // The plane crosses each side of a face at most once, and the number of cuts through the face is half the
-        // number of crossings.
+        // The plane crosses each side of a face at most once. The number of cuts through the face is half the number of
+        // crossings.
         let per_face = plan.degrees.max / 2;
         let crossings = plan.edges.or_less();
         let cuts = plan.faces.by(per_face).capped(crossings.max).or_less();

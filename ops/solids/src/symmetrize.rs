@@ -28,7 +28,7 @@ pub struct Symmetrize {
     /// A point on the plane.
     #[serde(default)]
     pub point: Vector,
-    /// The normal of the plane, which points to the front. Its length does not matter but must not be 0.
+    /// The normal of the plane, which points to the front. The length of the normal does not matter but must not be 0.
     pub normal: Direction,
     /// The half that is kept and mirrored.
     #[serde(default)]
@@ -55,7 +55,7 @@ impl MeshOperation for Symmetrize {
     const WORDS: &'static [&'static str] = &["mirror", "reflect", "plane"];
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        // The counts are twice those of the plan of `Bisect`.
+        // All counts are twice the counts in the plan of `Bisect`.
         let per_face = plan.degrees.max / 2;
         let crossings = plan.edges.or_less();
         let cuts = plan.faces.by(per_face).capped(crossings.max).or_less();

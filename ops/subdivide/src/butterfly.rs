@@ -13,16 +13,16 @@
 //! ```
 //!
 //! Each level adds a vertex on every edge and connects the three new vertices of each triangle. Old vertices do not
-//! move, so the surface passes through all of them. An inner vertex is extraordinary if its valence n is not 6. In the
-//! mask for a new vertex on an edge of an extraordinary vertex, neighbor j of the extraordinary vertex has the weight
-//! (1/4 + cos(2πj/n) + cos(4πj/n)/2)/n; for n = 3 and n = 4, special weights are used. If both ends of an edge are
-//! extraordinary, the new vertex is the mean of the results of both masks. The scheme is the modified butterfly scheme
-//! of Zorin, Schröder and Sweldens, "Interpolating Subdivision for Meshes with Arbitrary Topology", 1996, which extends
-//! the scheme of Dyn, Levin and Gregory, "A Butterfly Subdivision Scheme for Surface Interpolation with Tension
-//! Control", 1990. The limit surface has a continuous tangent plane. The surface can ripple where a coarse mesh bends
-//! sharply, and it can leave the convex hull of the mesh.
+//! move, so the surface passes through all of them. An inner vertex is extraordinary if its valence n is not 6. A new
+//! vertex on an edge with an extraordinary end has a special mask: neighbor j of the extraordinary end has the weight
+//! (1/4 + cos(2πj/n) + cos(4πj/n)/2)/n. For n = 3 and n = 4, other weights are used. If both ends of an edge are
+//! extraordinary, the mask of each end is applied, and the new vertex is the mean of the two results. The scheme is the
+//! modified butterfly scheme of Zorin, Schröder and Sweldens, "Interpolating Subdivision for Meshes with Arbitrary
+//! Topology", 1996. It extends the scheme of Dyn, Levin and Gregory, "A Butterfly Subdivision Scheme for Surface
+//! Interpolation with Tension Control", 1990. The limit surface has a continuous tangent plane. The surface can ripple
+//! where a coarse mesh bends sharply, and it can leave the convex hull of the mesh.
 //!
-//! The crate `subdivision` implements all schemes.
+//! The crate `subdivision` implements all subdivision schemes.
 
 use op::prelude::*;
 use subdivision::{Rules, Scheme};
@@ -31,18 +31,18 @@ use crate::step::{Step, Until};
 
 /// Splits every triangle into four and smooths the surface without moving the old vertices, for a number of levels.
 ///
-/// A level turns V vertices, E edges and F triangles into V + E vertices, 2 E + 3 F edges and 4 F triangles, so
-/// V - E + F does not change. Old vertices keep their ids, the vertex on edge e has the id V + e, edge e becomes
-/// edges 2e and 2e + 1, and face f becomes faces 4f to 4f + 3. All faces must be triangles.
+/// A level turns V vertices, E edges and F triangles into V + E vertices, 2 E + 3 F edges and 4 F triangles. V - E + F
+/// does not change. Old vertices keep their ids, and the vertex on edge e has the id V + e. Edge e becomes edges 2e and
+/// 2e + 1, and face f becomes faces 4f to 4f + 3. All faces must be triangles.
 ///
-/// Vertex attributes are interpolated with the weights of the positions, and corner values are interpolated linearly
-/// within each old triangle separately. Parts of an edge or a triangle copy the values of the old edge or triangle.
-/// Normals are dropped, because they would be wrong. Sharpness has no effect and is copied unchanged.
+/// Vertex attributes are interpolated with the same weights as the positions. Corner values are interpolated linearly,
+/// separately in each old triangle. Parts of an edge or a triangle copy the values of the old edge or triangle. Normals
+/// are dropped, because they would be wrong. Sharpness has no effect and is copied unchanged.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Butterfly {
-    /// The number of levels. Each level multiplies the number of triangles by four. Defaults to 1. With `until`, this
-    /// is the maximum number of levels, and it defaults to 16.
+    /// The number of levels. Each level multiplies the number of triangles by four. Defaults to 1. With `until`,
+    /// `levels` is the maximum number of levels and defaults to 16.
     #[serde(default)]
     pub levels: Option<Levels>,
     /// The condition that ends the subdivision. If omitted, exactly `levels` levels are computed.

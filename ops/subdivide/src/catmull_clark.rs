@@ -29,7 +29,7 @@
 //! except at old vertices whose valence is not 4 and at the centers of faces that are not quads. The boundary is a
 //! cubic B-spline curve that depends on boundary vertices only.
 //!
-//! The crate `subdivision` implements all schemes.
+//! The crate `subdivision` implements all subdivision schemes.
 
 use op::prelude::*;
 use subdivision::{Boundary, Creasing, FaceVarying, Rules, Scheme};
@@ -39,19 +39,20 @@ use crate::step::{Step, Until};
 /// Splits every face into quads and smooths the surface, for a number of levels.
 ///
 /// A level creates a quad at each corner of each face. A level turns V vertices, E edges and F faces with C corners in
-/// total into V + E + F vertices, 2 E + C edges and C quads, so V - E + F does not change. Old vertices keep their ids,
-/// the vertex on edge e has the id V + e, the vertex at the center of face f has the id V + E + f, and edge e becomes
-/// edges 2e and 2e + 1. The ids of quads follow the order of the faces and of their corners.
+/// total into V + E + F vertices, 2 E + C edges and C quads. V - E + F does not change. Old vertices keep their ids.
+/// The vertex on edge e has the id V + e, and the vertex at the center of face f has the id V + E + f. Edge e becomes
+/// edges 2e and 2e + 1. The quads are numbered in the order of the old faces and, in each face, in the order of its
+/// corners.
 ///
-/// Vertex attributes are smoothed with the weights of the positions. Texture coordinates and other corner values are
-/// smoothed according to `face_varying`, and seams are kept. Parts of an edge or a face copy the values of the old edge
-/// or face. Normals are dropped, because they would be wrong. An edge or a vertex to which `Crease` gave the sharpness
-/// s stays sharp for s levels.
+/// Vertex attributes are smoothed with the same weights as the positions. Texture coordinates and other corner values
+/// are smoothed according to `face_varying`, and seams are kept. Parts of an edge or a face copy the values of the old
+/// edge or face. Normals are dropped, because they would be wrong. An edge or a vertex to which `Crease` gave the
+/// sharpness s stays sharp for s levels.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct CatmullClark {
-    /// The number of levels. Each level replaces every corner of a face with a quad. Defaults to 1. With `until`, this
-    /// is the maximum number of levels, and it defaults to 16.
+    /// The number of levels. Each level replaces every corner of a face with a quad. Defaults to 1. With `until`,
+    /// `levels` is the maximum number of levels and defaults to 16.
     #[serde(default)]
     pub levels: Option<Levels>,
     /// The condition that ends the subdivision. If omitted, exactly `levels` levels are computed.
@@ -66,8 +67,8 @@ pub struct CatmullClark {
     /// How texture coordinates and other corner values are smoothed.
     #[serde(default)]
     pub face_varying: FaceVarying,
-    /// Whether to move the vertices of the last level to the limit surface and to store its normals and
-    /// tangents.
+    /// Whether to move the vertices of the last level to the limit surface and to store the normals and tangents of
+    /// this surface.
     #[serde(default)]
     pub to_limit: bool,
     /// The faces to refine. If omitted, all faces. Faces next to the refined faces get the new vertices on common edges

@@ -10,8 +10,8 @@
 //!    a --------------- b          a --------------- b
 //! ```
 //!
-//! Every corner of a face becomes a vertex at a weighted mean of the corners of the face. Each boundary edge gets
-//! two more vertices:
+//! Every corner of a face becomes a vertex at a weighted mean of the corners of the face. Each boundary edge also gets
+//! two new vertices:
 //!
 //! ```text
 //!     3/16 ---- 1/16          1/6
@@ -28,7 +28,7 @@
 //! and has a continuous tangent plane. The boundary is a quadratic B-spline curve (Chaikin, "An algorithm for
 //! high-speed curve generation", 1974).
 //!
-//! The crate `subdivision` implements all schemes.
+//! The crate `subdivision` implements all subdivision schemes.
 
 use op::prelude::*;
 use subdivision::{Rules, Scheme};
@@ -39,20 +39,20 @@ use crate::step::{Step, Until};
 ///
 /// A level turns a closed mesh with V vertices, E edges and F faces into a mesh with 2 E vertices, 4 E edges and V +
 /// E + F faces. If the mesh has a boundary, a level creates additional elements along the boundary. V - E + F does not
-/// change. The face inside old face f has the id f, the face of edge e has the id F + e, and the faces of vertices
-/// follow. Isolated vertices are kept. Their ids follow the ids of all other vertices. Isolated vertices and inner
-/// vertices of valence 2 do not become faces.
+/// change. The face inside old face f has the id f, and the face of edge e has the id F + e. The faces of vertices have
+/// the highest ids. Isolated vertices are kept. The ids of isolated vertices follow the ids of all other vertices.
+/// Isolated vertices and inner vertices of valence 2 do not become faces.
 ///
-/// Vertex attributes are smoothed with the weights of the positions. Corner values are smoothed within each old face
-/// separately. The new faces at edges and vertices mix corner values of several old faces. At a seam, this distorts
-/// textures. A face inside an old face copies the values of the old face; the face of an edge or a vertex copies the
-/// values of an adjacent face. The two edges along an old edge copy its values; other edges have zero values (no
-/// crease, no tags). Normals are dropped, because they would be wrong.
+/// Vertex attributes are smoothed with the same weights as the positions. Corner values are smoothed within each old
+/// face separately. The new faces at edges and vertices mix corner values of several old faces. At a seam, this
+/// distorts textures. A face inside an old face copies the values of the old face; the face of an edge or a vertex
+/// copies the values of an adjacent face. The two new edges along an old edge copy the values of this edge. All other
+/// edges have zero values (no crease, no tags). Normals are dropped, because they would be wrong.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct DooSabin {
-    /// The number of levels. Each level multiplies the number of faces by about four. Defaults to 1. With `until`, this
-    /// is the maximum number of levels, and it defaults to 16.
+    /// The number of levels. Each level multiplies the number of faces by about four. Defaults to 1. With `until`,
+    /// `levels` is the maximum number of levels and defaults to 16.
     #[serde(default)]
     pub levels: Option<Levels>,
     /// The condition that ends the subdivision. If omitted, exactly `levels` levels are computed.

@@ -1,4 +1,4 @@
-//! Operations: subdivision of whole meshes or of some of their faces.
+//! Operations that subdivide whole meshes or some of their faces.
 
 mod butterfly;
 mod catmull_clark;

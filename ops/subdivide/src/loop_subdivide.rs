@@ -22,13 +22,13 @@
 //!     new, inside          old, inside, valence n    new, boundary      old, boundary
 //! ```
 //!
-//! Here u = 3/16 for n = 3 and u = 3/(8n) otherwise. Most weights are from Loop, "Smooth Subdivision Surfaces Based on
-//! Triangles", 1987. The weights at old vertices are the simpler weights from Warren, "Subdivision Methods for
-//! Geometric Design", 1995 (also Warren and Weimer, same title, 2001). The boundary is a cubic B-spline curve that
-//! depends on boundary vertices only. The limit surface has continuous curvature except at old vertices whose valence
-//! is not 6.
+//! Here u = 3/16 if the valence n is 3, and u = 3/(8n) otherwise. Most weights are from Loop, "Smooth Subdivision
+//! Surfaces Based on Triangles", 1987. The weights at old vertices are the simpler weights from Warren, "Subdivision
+//! Methods for Geometric Design", 1995 (also Warren and Weimer, same title, 2001). The boundary is a cubic B-spline
+//! curve that depends on boundary vertices only. The limit surface has continuous curvature except at old vertices
+//! whose valence is not 6.
 //!
-//! The crate `subdivision` implements all schemes.
+//! The crate `subdivision` implements all subdivision schemes.
 
 use op::prelude::*;
 use subdivision::{Boundary, Creasing, FaceVarying, LoopWeights, Rules, Scheme};
@@ -37,19 +37,19 @@ use crate::step::{Step, Until};
 
 /// Splits every triangle into four and smooths the surface, for a number of levels.
 ///
-/// A level turns V vertices, E edges and F triangles into V + E vertices, 2 E + 3 F edges and 4 F triangles, so
-/// V - E + F does not change. Old vertices keep their ids, the vertex on edge e has the id V + e, edge e becomes
-/// edges 2e and 2e + 1, and face f becomes faces 4f to 4f + 3. All faces must be triangles.
+/// A level turns V vertices, E edges and F triangles into V + E vertices, 2 E + 3 F edges and 4 F triangles. V - E + F
+/// does not change. Old vertices keep their ids, and the vertex on edge e has the id V + e. Edge e becomes edges 2e and
+/// 2e + 1, and face f becomes faces 4f to 4f + 3. All faces must be triangles.
 ///
-/// Vertex attributes are smoothed with the weights of the positions. Texture coordinates and other corner values are
-/// smoothed according to `face_varying`, and seams are kept. Parts of an edge or a triangle copy the values of the old
-/// edge or triangle. Normals are dropped, because they would be wrong. An edge or a vertex to which `Crease` gave the
-/// sharpness s stays sharp for s levels.
+/// Vertex attributes are smoothed with the same weights as the positions. Texture coordinates and other corner values
+/// are smoothed according to `face_varying`, and seams are kept. Parts of an edge or a triangle copy the values of the
+/// old edge or triangle. Normals are dropped, because they would be wrong. An edge or a vertex to which `Crease` gave
+/// the sharpness s stays sharp for s levels.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct LoopSubdivide {
-    /// The number of levels. Each level multiplies the number of triangles by four. Defaults to 1. With `until`, this
-    /// is the maximum number of levels, and it defaults to 16.
+    /// The number of levels. Each level multiplies the number of triangles by four. Defaults to 1. With `until`,
+    /// `levels` is the maximum number of levels and defaults to 16.
     #[serde(default)]
     pub levels: Option<Levels>,
     /// The condition that ends the subdivision. If omitted, exactly `levels` levels are computed.
@@ -67,8 +67,8 @@ pub struct LoopSubdivide {
     /// How texture coordinates and other corner values are smoothed.
     #[serde(default)]
     pub face_varying: FaceVarying,
-    /// Whether to move the vertices of the last level to the limit surface and to store its normals and
-    /// tangents.
+    /// Whether to move the vertices of the last level to the limit surface and to store the normals and tangents of
+    /// this surface.
     #[serde(default)]
     pub to_limit: bool,
     /// The faces to refine. If omitted, all faces. Triangles next to the refined faces are cut in two or four, so that

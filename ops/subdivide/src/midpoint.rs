@@ -15,7 +15,7 @@
 //! The connectivity is the same as in Loop and Catmull-Clark subdivision. The parts of a flat face stay in its plane,
 //! so a surface of flat faces keeps its shape. The surface only gets more faces, and a later step can deform them.
 //!
-//! The crate `subdivision` implements all schemes.
+//! The crate `subdivision` implements all subdivision schemes.
 
 use op::prelude::*;
 use subdivision::{Rules, Scheme, Split};
@@ -25,19 +25,19 @@ use crate::step::{Step, Until};
 /// Splits every face into smaller faces without moving vertices, for a number of levels.
 ///
 /// `into: Triangles` requires a mesh of triangles. A level turns V vertices, E edges and F triangles into V + E
-/// vertices, 2 E + 3 F edges and 4 F triangles. `into: Quads` accepts all polygons and creates a quad at each corner: V
+/// vertices, 2 E + 3 F edges and 4 F triangles. `into: Quads` accepts all polygons and creates a quad at each corner. V
 /// vertices, E edges and F faces with C corners in total become V + E + F vertices, 2 E + C edges and C quads. Old
-/// vertices keep their ids and positions, the vertex on edge e has the id V + e, and edge e becomes edges 2e and
-/// 2e + 1. Triangle f becomes faces 4f to 4f + 3. The ids of quads follow the order of the faces, and the vertex at the
-/// center of face f has the id V + E + f.
+/// vertices keep their ids and positions, and the vertex on edge e has the id V + e. Edge e becomes edges 2e and
+/// 2e + 1. Triangle f becomes faces 4f to 4f + 3. The quads are numbered in the order of the old faces. The vertex at
+/// the center of face f has the id V + E + f.
 ///
 /// Vertex attributes are interpolated. Corner values are interpolated within each old face separately. Parts of an edge
 /// or a face copy the values of the old edge or face, including sharpness. Normals are dropped.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Midpoint {
-    /// The number of levels. Each level multiplies the number of faces by about four. Defaults to 1. With `until`, this
-    /// is the maximum number of levels, and it defaults to 16.
+    /// The number of levels. Each level multiplies the number of faces by about four. Defaults to 1. With `until`,
+    /// `levels` is the maximum number of levels and defaults to 16.
     #[serde(default)]
     pub levels: Option<Levels>,
     /// The condition that ends the subdivision. If omitted, exactly `levels` levels are computed.

@@ -25,12 +25,12 @@
 //!      in a face          old, inside, valence n    old, boundary            new, boundary
 //! ```
 //!
-//! Here a = (4 - 2 cos(2π/n))/9. A boundary changes only on every second level of a step, which cuts each boundary edge
-//! in three. Boundary edges are never flipped. Two levels cut every edge in three and replace each triangle with nine
-//! triangles. Two levels of Loop subdivision replace each triangle with sixteen triangles. Source: Kobbelt,
+//! Here a = (4 - 2 cos(2π/n))/9. The boundary changes only on every second level of a step, which cuts each boundary
+//! edge in three. Boundary edges are never flipped. Two levels cut every edge in three and replace each triangle with
+//! nine triangles. Two levels of Loop subdivision replace each triangle with sixteen triangles. Source: Kobbelt,
 //! "√3-Subdivision", 2000. The limit surface has continuous curvature except at old vertices whose valence is not 6.
 //!
-//! The crate `subdivision` implements all schemes.
+//! The crate `subdivision` implements all subdivision schemes.
 
 use op::prelude::*;
 use subdivision::{Rules, Scheme};
@@ -39,22 +39,22 @@ use crate::step::{Step, Until};
 
 /// Splits every triangle into three, flips the old edges, and smooths the surface, for a number of levels.
 ///
-/// A level turns V vertices, E edges and F triangles into V + F vertices, E + 3 F edges and 3 F triangles.
-/// Every second level adds one more vertex and one more edge for each boundary edge. V - E + F does not change.
-/// Old vertices keep their ids, the vertex in face f has the id V + f, and face f becomes faces 3f to 3f + 2. All faces
-/// must be triangles. Levels are counted from the start of the step. One step of two levels therefore cuts the
-/// boundary edges, but two steps of one level leave the boundary unchanged.
+/// A level turns V vertices, E edges and F triangles into V + F vertices, E + 3 F edges and 3 F triangles. In addition,
+/// every second level adds one vertex and one edge for each boundary edge. V - E + F does not change. Old vertices keep
+/// their ids. The vertex in face f has the id V + f, and face f becomes faces 3f to 3f + 2. All faces must be
+/// triangles. Levels are counted from the start of the step. One step of two levels therefore cuts the boundary edges,
+/// but two steps of one level leave the boundary unchanged.
 ///
-/// Vertex attributes are smoothed with the weights of the positions. Corner values are interpolated linearly within
-/// each old triangle separately. A triangle next to a flipped edge covers parts of two old triangles. If the old edge
-/// was a seam, the triangle mixes texture coordinates of both sides, which distorts textures. New triangles copy the
-/// values of their old triangle. Parts of a boundary edge copy the values of the edge; other edges have zero values (no
-/// crease, no tags). Normals are dropped, because they would be wrong.
+/// Vertex attributes are smoothed with the same weights as the positions. Corner values are interpolated linearly
+/// within each old triangle separately. A triangle next to a flipped edge covers parts of two old triangles. If the
+/// flipped edge was a seam, the triangle mixes texture coordinates of both sides of the seam, which distorts textures.
+/// New triangles copy the values of their old triangle. Parts of a boundary edge copy the values of the boundary edge.
+/// All other edges have zero values (no crease, no tags). Normals are dropped, because they would be wrong.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sqrt3 {
-    /// The number of levels. Each level multiplies the number of triangles by three. Defaults to 1. With `until`, this
-    /// is the maximum number of levels, and it defaults to 16.
+    /// The number of levels. Each level multiplies the number of triangles by three. Defaults to 1. With `until`,
+    /// `levels` is the maximum number of levels and defaults to 16.
     #[serde(default)]
     pub levels: Option<Levels>,
     /// The condition that ends the subdivision. If omitted, exactly `levels` levels are computed.

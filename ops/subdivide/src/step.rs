@@ -1,4 +1,4 @@
-//! The code shared by the operations of all schemes: the plan, the memory budget, and the levels.
+//! The code that the operations of all subdivision schemes share: the plan, the memory budget, and the levels.
 
 use mesh::{CORNER_NORMAL, DVec3, Domain, EdgeId, Mesh, TANGENT, VERTEX_NORMAL};
 use op::{
@@ -184,7 +184,7 @@ impl Step<'_> {
         Ok(report)
     }
 
-    /// Subdivides until the condition is met. Returns a note with the number of levels.
+    /// Subdivides the mesh until the condition is met. Returns a note with the number of levels.
     fn levels_until(&self, mesh: &mut Mesh, until: Until, cx: &Context) -> Result<String, OpError> {
         let levels = self.most_levels();
         for level in 0.. {
@@ -269,7 +269,7 @@ impl Count for Planned {
     }
 }
 
-/// Returns the size of a planned mesh. Attributes count as in [`MeshPlan::bytes`].
+/// Returns the size of a planned mesh. Attributes are counted as in [`MeshPlan::bytes`].
 fn planned_size(plan: &MeshPlan) -> Size<Planned> {
     let attributes = Domain::ALL.map(|domain| {
         let columns = plan.attributes.iter().filter(|a| a.domain == domain);
@@ -290,7 +290,7 @@ fn planned_size(plan: &MeshPlan) -> Size<Planned> {
 fn degrees_after(scheme: Scheme, degrees: Range) -> Range {
     match scheme {
         Scheme::CatmullClark | Scheme::Midpoint(Split::Quads) => Range::exactly(4),
-        // The face of a vertex has as many corners as the vertex has edges.
+        // The new face at an old vertex has as many corners as the vertex has edges.
         Scheme::DooSabin => Range::between(3, u64::MAX),
         _ => degrees,
     }

@@ -20,10 +20,11 @@ use crate::simplify::triangles_problem;
 ///
 /// Each pass splits long edges, collapses short edges, flips edges so that most vertices have six edges, and moves
 /// vertices along the surface (Botsch, Kobbelt, 2004). Most edges of the result have 4/5 to 4/3 of the target length.
-/// All vertices lie on the original surface, with one exception: a new vertex stays where it is if moving it onto the
-/// surface would turn a triangle too far or would move the surface too far. The target length is either `length`, or it
-/// follows `curvature`: edges are short where the surface is curved, and long where it is flat (Dunyach and others,
-/// 2013). Exactly one of `length` and `curvature` must be given. All faces must be triangles.
+/// All vertices lie on the original surface, with one exception. A new vertex stays where it is if moving it onto the
+/// surface would turn a triangle too far or would move the surface too far. The target length of edges is either
+/// `length`, or it follows `curvature`. With `curvature`, edges are short where the surface is curved, and long where
+/// it is flat (Dunyach and others, 2013). Exactly one of `length` and `curvature` must be given. All faces must be
+/// triangles.
 ///
 /// The following properties are kept:
 ///
@@ -40,12 +41,12 @@ use crate::simplify::triangles_problem;
 ///   with sharpness also keep their exact positions.
 ///
 /// The number of faces depends on the area of the mesh, which is not known before the run. Therefore `check` shows the
-/// largest number that fits the memory budget. When the step starts, it estimates the number from the area, and fails
-/// if the estimate exceeds the budget.
+/// largest number of faces that fits the memory budget. When the step starts, it estimates the number of faces from the
+/// area. The step fails if the estimate exceeds the memory budget.
 ///
 /// Edits that would turn a triangle by more than 60 degrees are refused. All elements get new ids. If the distance
 /// between the result and the original could exceed `error`, the step is refused as `Unreached`. With
-/// `on_refusal: Skip`, the mesh then does not change.
+/// `on_refusal: Skip`, a refused step does not change the mesh.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Remesh {
@@ -60,8 +61,8 @@ pub struct Remesh {
     #[serde(default)]
     pub features: Option<EdgeSelection>,
     /// The largest allowed Hausdorff distance between the old and the new surface, in scene units. To keep this limit,
-    /// some edges can become shorter than the target length. The distance is measured at the end, in both directions
-    /// and for all points. If omitted, there is no limit.
+    /// some edges can become shorter than the target length. The distance is measured at the end of the step, in both
+    /// directions and for all points of both surfaces. If omitted, there is no limit.
     #[serde(default)]
     pub error: Option<PositiveLength>,
     /// Vertices that keep their exact positions, for example `Boundary`. If omitted, no vertices.
@@ -83,9 +84,9 @@ pub struct RemeshCurvature {
     /// The intended distance between the surface and the triangles, in scene units. It is not guaranteed. To guarantee
     /// a distance, use the parameter `error` of the step.
     pub error: PositiveLength,
-    /// The smallest length, in scene units.
+    /// The smallest target length of edges, in scene units.
     pub min: PositiveLength,
-    /// The largest length, in scene units.
+    /// The largest target length of edges, in scene units.
     pub max: PositiveLength,
 }
 
@@ -112,12 +113,12 @@ impl Remesh {
     }
 }
 
-/// The number of bytes for the connectivity and the positions, for each face. A mesh has about half a vertex and one
-/// and a half edges for each face.
+/// The number of bytes for connectivity and positions, divided by the number of faces. A mesh has about half a vertex
+/// and one and a half edges for each face.
 const BYTES: u64 = 54;
 
-/// Returns the largest number of faces whose arrays fit the memory budget. The arrays are those of the result and of
-/// the copy that is changed.
+/// Returns the largest number of faces whose arrays fit the memory budget. The arrays of the result and the arrays of
+/// the copy that the step changes are counted.
 fn max_faces(mesh: &Mesh, budget: u64) -> usize {
     let per_face = BYTES + mesh.bytes() as u64 / (mesh.n_faces() as u64).max(1);
     usize::try_from(budget / per_face).unwrap_or(usize::MAX)
@@ -222,7 +223,7 @@ impl MeshOperation for Remesh {
             Err(RemeshError::TooFar { reached, limit }) => {
                 let mut report = Report::default();
                 let message = format!(
-                    "the distance between the surfaces could be {}, which is above the allowed error {}",
+                    "the distance between the original and the new surface could be {}, which is above the allowed error {}",
                     readable(reached),
                     readable(limit)
                 );

@@ -35,8 +35,8 @@ use op::prelude::*;
 ///   are not merged.
 ///
 /// In a texture, the border of a chart is also simplified, and can then cross a chart that is close to it. The report
-/// counts the faces that overlap. To leave more space between charts, use `PackUvs` with a larger `padding` before this
-/// step.
+/// counts the faces that overlap in the texture. To leave more space between charts, use `PackUvs` with a larger
+/// `padding` before this step.
 ///
 /// No triangle is turned over. Remaining elements get new ids, in the order of their old ids. If the number of faces
 /// cannot be reached and `error` is not given, the step is refused as `Unreached`, and the message states the reasons.
@@ -44,16 +44,16 @@ use op::prelude::*;
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Simplify {
-    /// The number of faces to reach, for each mesh. The result can have one face fewer. A mesh that already has at most
-    /// this number of faces does not change.
+    /// The number of faces to reach, for each mesh. The result can have one face fewer than this number. A mesh that
+    /// already has at most this number of faces does not change.
     #[serde(default)]
     pub faces: Option<Count<0>>,
     /// The number of faces to reach, as a fraction of the number of faces of each mesh.
     #[serde(default)]
     pub ratio: Option<Fraction>,
     /// The largest allowed Hausdorff distance between the old and the new surface, in scene units. The limit is
-    /// guaranteed: for each collapse, the step adds an upper bound of the distance by which the surface moves. The true
-    /// distance is usually between a third of the limit and the limit. If omitted, there is no limit.
+    /// guaranteed, because the step adds up upper bounds of the distances by which the collapses move the surface. The
+    /// true distance is usually between a third of the limit and the limit. If omitted, there is no limit.
     #[serde(default)]
     pub error: Option<PositiveLength>,
     /// Edges to keep as lines, in addition to the lines that are always kept. For example, `Sharp(above: 30)`. If
@@ -63,8 +63,8 @@ pub struct Simplify {
     /// Vertices that keep their exact positions, for example `Boundary`. If omitted, no vertices.
     #[serde(default)]
     pub pin: Option<VertexSelection>,
-    /// Whether the step may create intersections of faces. They can occur where parts of the surface are close
-    /// together.
+    /// Whether the step may create intersections of faces. Such intersections can occur where parts of the surface are
+    /// close together.
     #[serde(default)]
     pub intersections: Intersections,
     /// What to do if the number of faces cannot be reached.
@@ -106,7 +106,7 @@ pub(crate) fn part(n_faces: u64, ratio: Fraction) -> u64 {
     (n_faces as f64 * ratio.get()).ceil() as u64
 }
 
-/// Plans that a mesh is reduced to a number of faces between `goal.min` and `goal.max`.
+/// Records in the plan that the mesh is reduced to a number of faces between `goal.min` and `goal.max`.
 pub(crate) fn plan_goal(plan: &mut MeshPlan, goal: Range, is_certain: bool) {
     let least = goal.min.saturating_sub(1).min(plan.faces.min);
     let most = if is_certain {
@@ -229,8 +229,8 @@ impl MeshOperation for Simplify {
     }
 }
 
-/// Notes how many faces overlap in the texture coordinates `uv` of the simplified mesh, if there are more than before.
-/// Simplified borders of charts can cross other charts.
+/// Adds a note with the number of faces that overlap in the texture coordinates `uv` of the simplified mesh, if more
+/// faces overlap than before. Simplified borders of charts can cross other charts.
 pub(crate) fn note_overlaps(
     before: &Mesh,
     after: &Mesh,
@@ -246,7 +246,7 @@ pub(crate) fn note_overlaps(
         let old = overlaps(before)?;
         if new > old {
             let note = format!(
-                "faces that overlap other faces in the texture: {new}, before this step: {old}"
+                "faces that overlap other faces in the texture: {new} after this step, {old} before"
             );
             report.notes.push(note);
         }
@@ -266,7 +266,8 @@ mod tests {
 
     #[test]
     fn intersections_are_refused_on_request() {
-        // One sphere closely surrounds another sphere. Coarse triangles of one sphere pass through the other.
+        // One sphere closely surrounds another sphere. If the triangles of one sphere are coarse, they pass through the
+        // other sphere.
         let sphere = shapes::fans(&shapes::uv_sphere(40, 20));
         let n = u32::try_from(sphere.n_vertices()).unwrap();
         let number = |v: mesh::VertexId| u32::try_from(v.index()).unwrap();
@@ -321,8 +322,8 @@ mod tests {
 
     #[test]
     fn new_overlaps_in_the_texture_are_counted() {
-        // The texture of half a ring closely surrounds the texture of a smaller half ring. With few vertices, the inner
-        // border of the larger ring cuts through the smaller ring.
+        // The texture of half a ring closely surrounds the texture of a smaller half ring. If the larger ring has few
+        // vertices, its inner border cuts through the smaller ring.
         let (mut positions, mut faces) = (Vec::new(), Vec::<[u32; 3]>::new());
         for (inner, outer, n) in [(0.5, 1.0, 32), (1.005, 2.0, 27)] {
             let first = u32::try_from(positions.len()).unwrap();
@@ -351,7 +352,7 @@ mod tests {
             .len();
         assert!(n > 0);
         let note =
-            format!("faces that overlap other faces in the texture: {n}, before this step: 0");
+            format!("faces that overlap other faces in the texture: {n} after this step, 0 before");
         assert_eq!(report.notes, [note]);
     }
 

@@ -16,7 +16,7 @@ use op::prelude::*;
 ///
 /// A vertex moves only if it is in `vertices`, is not in `pin`, and has a face. All other vertices keep their exact
 /// positions. Faces can have any number of corners, and degenerate faces are allowed. All elements keep their ids.
-/// Attributes are kept, so textures stretch with the surface, but normals are dropped.
+/// Attributes are kept, so textures stretch with the surface, but normals and tangents are dropped.
 ///
 /// | `by` | use | size |
 /// | --- | --- | --- |
@@ -44,8 +44,8 @@ pub struct Smooth {
     /// How vertices on the boundary move.
     #[serde(default)]
     pub boundary: SmoothBoundary,
-    /// Whether to restore the original volume of the mesh. To restore it, the step finally shifts all moved vertices
-    /// along their normals by the same distance. The mesh must be closed.
+    /// Whether to restore the original volume of the mesh. To restore the volume, the step finally shifts all moved
+    /// vertices along their normals by the same distance. The mesh must be closed.
     #[serde(default)]
     pub keep_volume: bool,
 }
@@ -59,19 +59,21 @@ pub enum SmoothBy {
         /// The weights of the neighbors.
         #[serde(default)]
         weights: SmoothWeights,
-        /// The distance of the movement, as a fraction of the distance to the mean. From 0 to 1. Defaults to 0.5.
+        /// The distance of the movement, as a fraction of the distance from the vertex to the mean of its neighbors.
+        /// From 0 to 1. Defaults to 0.5.
         #[serde(default = "half")]
         factor: ClosedFraction,
     },
     /// Moves each vertex towards the mean of its neighbors, and then back by a slightly larger factor. Removes noise,
-    /// and keeps larger shapes and the volume nearly unchanged. One pass consists of both steps.
+    /// and keeps larger shapes and the volume nearly unchanged. One pass consists of the movement towards the mean and
+    /// the movement back.
     Taubin {
         /// The weights of the neighbors.
         #[serde(default)]
         weights: SmoothWeights,
-        /// The distance of the first step, as a fraction of the distance to the mean. From 0 to 1, exclusive. Factors
-        /// that would amplify noise are refused. With the default `pass_band`, these are the factors of more than about
-        /// 0.7. Defaults to 0.33.
+        /// The distance of the movement towards the mean, as a fraction of the distance from the vertex to the mean.
+        /// From 0 to 1, exclusive. Factors that would amplify noise are refused. With the default `pass_band`, factors
+        /// of more than about 0.7 are refused. Defaults to 0.33.
         #[serde(default = "taubin_factor")]
         factor: Fraction,
         /// The frequency below which shapes are kept. A lower value smooths more. From 0 to 1, exclusive. Defaults to

@@ -20,21 +20,22 @@ use origins::{Origin, Source};
 
 /// Copies attributes from the nearest points of another object.
 ///
-/// An attribute of vertices, corners or faces of the object `from` becomes an attribute of the same kind of elements of
-/// the changed mesh. Numbers and vectors of vertices and corners are interpolated inside the face that contains the
-/// nearest point. Whole numbers, tags, and attributes that edits do not interpolate are copied from the nearest corner
-/// of this face. Values of faces are copied from the face that contains the nearest point. If the attribute already
-/// exists with the same type of values, it is overwritten. If its type is different, the step fails. Without `on`, the
-/// step acts on all meshes except `from`.
+/// The step copies vertex, corner and face attributes from the object `from` to elements of the same kind in the
+/// changed mesh. Numbers and vectors of vertices and corners are interpolated inside the face that contains the nearest
+/// point. Whole numbers, tags, and attributes that edits do not interpolate are copied from the nearest corner of the
+/// face that contains the nearest point. Values of faces are copied from the face that contains the nearest point. If
+/// the attribute already exists with the same type of values, it is overwritten. If the attribute already exists with a
+/// different type of values, the step fails. Without `on`, the step acts on all meshes except `from`.
 ///
 /// All corners of a face take their values from one side of each seam, so no triangle is stretched across a seam of
-/// texture coordinates. Usually this is the side at the center of the face. Seams divide the source into charts. If the
-/// chart at a corner is much nearer to the whole face than the chart at the center, the values of the chart at the
-/// corner are used. This happens where parts of the source intersect.
+/// texture coordinates. Usually the corners take their values from the side that is nearest to the center of the face.
+/// Seams divide the source into charts. The chart that is nearest to a corner is used instead if it is much nearer to
+/// the whole face than the chart that is nearest to the center of the face. This happens where parts of the source
+/// intersect.
 ///
 /// Elements whose distance from the source exceeds `within` keep their values, or get zeros if the attribute is new. If
 /// the distance of a corner or of the center of a face exceeds `within`, all corners of the face keep their values or
-/// get zeros. The report counts these elements.
+/// get zeros. The report counts the elements that are too far away.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Transfer {
@@ -89,7 +90,7 @@ impl MeshOperation for Transfer {
     }
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        // The domains are known only if the other object is known.
+        // The domains of the attributes are known only if the other object is known.
         plan.has_unlisted_attributes = true;
         let problem = |message| Problem::error(message).at(["attributes"]);
         self.problem().map(problem).into_iter().collect()
@@ -157,7 +158,7 @@ impl MeshOperation for Transfer {
 }
 
 impl Transfer {
-    /// Returns the columns of the other mesh with the names that the step lists.
+    /// Returns the attribute columns of the other mesh whose names the step lists.
     fn columns(&self, other: &Mesh, mesh: &Mesh) -> Result<Vec<(Domain, Column)>, OpError> {
         let mut columns = Vec::new();
         for name in &self.attributes {
@@ -220,8 +221,8 @@ const fn plural(domain: Domain) -> &'static str {
     }
 }
 
-/// Returns the new column of the target. An element with an origin gets the value of `column` at its origin. Other
-/// elements keep their values of `old`, or get zeros if there are none.
+/// Returns the new column of the target. An element with an origin gets the value of `column` at its origin. Elements
+/// without an origin keep their values in `old`, or get zeros if `old` is `None`.
 fn transferred(column: &Column, old: Option<&Column>, origins: &[Origin]) -> Column {
     let mut values = column.values.clone();
     let n = values.len();

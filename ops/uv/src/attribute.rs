@@ -1,4 +1,4 @@
-//! Code shared by the operations of this group: the attribute, the page and errors.
+//! The code that the operations on texture coordinates share: the attribute, the page and the errors.
 
 use geometry::uv::{Page, UvError};
 use mesh::{CORNER_TANGENT, Column, DVec2, Domain, UV, Value};
@@ -18,7 +18,7 @@ pub(crate) const fn padding() -> Count<0, 256> {
     Count::literal(2)
 }
 
-/// Returns the page of the parameters `page` and `padding`.
+/// Returns the page with the size and the padding from the parameters `page` and `padding`.
 pub(crate) const fn page_of(size: Count<16, 16384>, padding: Count<0, 256>) -> Page {
     Page {
         size: size.get(),

@@ -18,11 +18,11 @@ use crate::attribute::{
 
 /// Moves, rotates and scales charts of texture coordinates so that they do not overlap and have the same scale.
 ///
-/// A chart is a set of faces that are connected without seams of the texture coordinates. Afterwards, the area of each
-/// chart in the texture is proportional to its area on the surface. The shape of each chart does not change, even if it
-/// is stretched, mirrored or overlaps itself. Each zero-area chart becomes a point. The report counts zero-area charts
-/// and charts that overlap themselves. Each mesh gets its own page, that is, the whole square of a texture. Tangents
-/// are removed, because charts are rotated.
+/// A chart is a set of faces that are connected without seams of the texture coordinates. After the step, the area of
+/// each chart in the texture is proportional to its area on the surface. The shape of each chart does not change, even
+/// if it is stretched, mirrored or overlaps itself. Each zero-area chart becomes a point. The report counts zero-area
+/// charts and charts that overlap themselves. Each mesh gets its own page, that is, the whole square of a texture.
+/// Tangents are removed, because charts are rotated.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct PackUvs {

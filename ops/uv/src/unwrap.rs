@@ -18,17 +18,17 @@ use crate::attribute::{coverage, error, padding, padding_problem, page, page_of,
 /// Computes texture coordinates without overlaps.
 ///
 /// The surface is cut into charts, which are flattened and packed into a square page. Charts grow from flat regions as
-/// far as `max_angle` allows. They are flattened by least squares conformal maps (Levy and others, 2002) and the hybrid
-/// method of Liu and others (2008). A chart is cut again in three cases: it would overlap itself, it would exceed
-/// `max_stretch`, or the ratio of the largest to the smallest stretch would exceed 1.15 on more than 5 % of its area.
-/// All charts of a mesh have the same scale, and no chart is mirrored. A polygon stays in one chart. Each mesh gets its
-/// own page.
+/// far as `max_angle` allows. The charts are flattened by least squares conformal maps (Levy and others, 2002) and the
+/// hybrid method of Liu and others (2008). A chart is cut again if it would overlap itself or exceed `max_stretch`. It
+/// is also cut again if the ratio of the largest to the smallest stretch would exceed 1.15 on more than 5 % of its
+/// area. All charts of a mesh have the same scale, and no chart is mirrored. A polygon stays in one chart. Each mesh
+/// gets its own page.
 ///
 /// The coordinates are written to the corner attribute `uv`, which is replaced if it exists. Edges at which charts meet
 /// become seams. Positions, faces and other attributes do not change, but tangents are removed. Zero-area faces have no
 /// area in the texture. The report counts them. If a polygon is bent so far that it overlaps itself in the texture, the
-/// step is refused as `WrongPlace`. Triangulate such polygons first. With `on_refusal: Skip`, the triangles of the
-/// polygon overlap in the texture.
+/// step is refused as `WrongPlace`. Before this step, triangulate polygons that would overlap themselves. With
+/// `on_refusal: Skip`, the triangles of such a polygon overlap in the texture.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Unwrap {

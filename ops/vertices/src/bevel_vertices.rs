@@ -13,16 +13,17 @@ use op::prelude::*;
 
 /// Replaces vertices with faces.
 ///
-/// Each edge at a selected vertex is cut at a fraction of the length that it had before the step, and a new face joins
-/// the cuts. The new face has as many corners as the vertex had edges. If both ends of an edge are selected, the
-/// fraction must be below 0.5. For example, a fraction of 0.25 turns a cube into a truncated cube.
+/// Each edge at a selected vertex is cut near this vertex, and a new face joins the cuts. The distance of a cut from
+/// the vertex is a fraction of the length that the edge had before the step. The new face has as many corners as the
+/// vertex had edges. If both ends of an edge are selected, the fraction must be below 0.5. For example, a fraction
+/// of 0.25 turns a cube into a truncated cube.
 ///
 /// The selected vertices are removed, so the ids of the vertices after them change. New vertices get the highest ids,
 /// in order of the selected vertices and clockwise around each vertex. Faces keep their ids; new faces get the highest
 /// ids, in order of the vertices.
 ///
 /// Values at the cuts are interpolated between the ends of the edge, so textures do not change. A new face has the
-/// values (material, tags) of one of the faces at the vertex. Which of the faces is not specified, but the choice is
+/// values (material, tags) of one of the faces at the vertex. Which face is used is not specified, but the choice is
 /// the same in every run. New edges have zero values (no crease, no tags). Normals are dropped.
 ///
 /// A vertex cannot be beveled if it is on the boundary, if it has fewer than three edges, or if one of its edges is too
@@ -48,7 +49,7 @@ impl MeshOperation for BevelVertices {
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let done = self.on_refusal.done(self.vertices.count(plan));
         if done.max > 0 {
-            // An edge is cut at no end, one end or both ends. A beveled vertex has at least three edges.
+            // An edge can be cut at one end, at both ends or not at all. A beveled vertex has at least three edges.
             let cuts = Range::between(done.by(3).min, plan.edges.by(2).max);
             // A new face has as many corners as its vertex had edges. An old face gains at most one corner for each of
             // its corners.
@@ -97,7 +98,7 @@ mod tests {
         let counts = [mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()];
         assert_eq!(counts, [24, 36, 14]);
         assert!(plan.vertices.contains(24) && plan.edges.contains(36));
-        // Every vertex is at (1, 1, 1/2), up to the order and the signs of the coordinates.
+        // The coordinates of every vertex are 1, 1 and 1/2, in any order and with any signs.
         for &p in mesh.positions() {
             let mut p = p.abs().to_array();
             p.sort_by(f64::total_cmp);
@@ -125,7 +126,8 @@ mod tests {
             matches!(refused, Err(OpError::Refused { .. })),
             "{refused:?}"
         );
-        // Four corners of the cube that share no edge can be beveled. After that, no other corner has enough space.
+        // Four corners of the cube that share no edge can be beveled. After these corners are beveled, no other corner
+        // has enough space.
         let step = parse("(vertices: All, fraction: 0.5, on_refusal: Skip)");
         let (mesh, report) = try_applied(&step, shapes::cube()).unwrap();
         assert_eq!(report.changed, 4);

@@ -19,9 +19,10 @@ use op::prelude::*;
 /// kept, with its values. The remaining elements keep their order and their values but get new ids. Normals are
 /// dropped.
 ///
-/// A vertex cannot be removed if it is isolated or has a single edge, if a neighbor would be left with a single edge
-/// inside a face, if a face would contain a vertex twice or have fewer than three corners, or if an edge would join two
-/// vertices that are already joined. A vertex at a seam is removed only if `seams` is `Drop`.
+/// A vertex cannot be removed if it is isolated or has a single edge, or if a neighbor would be left with a single edge
+/// inside a face. A vertex also cannot be removed if a face would contain a vertex twice or have fewer than three
+/// corners, or if an edge would join two vertices that are already joined. A vertex at a seam is removed only if
+/// `seams` is `Drop`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct DissolveVertices {

@@ -1,4 +1,4 @@
-//! Tangents: tangents of corners for normal maps.
+//! Tangents: computes the tangents of corners for normal maps.
 
 use mesh::{CORNER_NORMAL, CORNER_TANGENT, DVec2, Domain, VERTEX_NORMAL, Value};
 use op::Refusal;

@@ -74,7 +74,7 @@ impl MeshOperation for VertexNormals {
             report
         } else {
             report.note(format!(
-                "vertices without a normal: {without}; they have no faces with an area, or the normals of their faces cancel out"
+                "vertices without a normal: {without}; they have no faces, their faces have zero area, or the normals of their faces cancel out"
             ))
         })
     }
@@ -112,8 +112,8 @@ mod tests {
         sums.into_iter().map(DVec3::normalize_or_zero).collect()
     }
 
-    /// Returns a closed fan of triangles around vertex 0, which is at height `peak`. `rim` has the distance from the
-    /// axis and the height of each other vertex.
+    /// Returns a closed fan of triangles around vertex 0, which is at height `peak`. `rim` contains, for each of the
+    /// remaining vertices, its distance from the axis and its height.
     fn umbrella(rim: &[(f64, f64)], peak: f64) -> Mesh {
         let n = rim.len();
         let mut points = vec![DVec3::new(0.0, 0.0, peak)];

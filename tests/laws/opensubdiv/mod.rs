@@ -38,7 +38,7 @@ fn matched(mesh: &Mesh, expected: &[DVec3], tolerance: f64) -> Result<Vec<Vertex
     if wrong > 0 {
         let n = expected.len();
         return Err(format!(
-            "{wrong} of {n} vertices do not match, by up to {most:e}"
+            "{wrong} of {n} vertices do not match; the largest distance is {most:e}"
         ));
     }
     Ok(partners)
@@ -100,9 +100,7 @@ fn faces_differ(mesh: &Mesh, partners: &[VertexId], expected: &Lines) -> Vec<Str
         ));
     }
     if apart > 0 {
-        failures.push(format!(
-            "{apart} corners have different uvs, by up to {most}"
-        ));
+        failures.push(format!("the uvs of {apart} corners differ by up to {most}"));
     }
     failures
 }
@@ -179,9 +177,9 @@ fn compared(mesh: &Mesh, expected: &Lines, tolerance: f64) -> Vec<String> {
 }
 
 /// Describes the differences between the limit surface at the vertices of a refined mesh and the expected limit
-/// surface. Compares only values for which OpenSubdiv uses exact limit masks. The compared values are the positions of
-/// all vertices except darts, and the normals of smooth vertices, of creases on the boundary with at most 2 quads
-/// (Catmull-Clark) or 3 triangles (Loop), and of corners with one face.
+/// surface. Compares only values for which OpenSubdiv uses exact limit masks. The positions of all vertices except
+/// darts are compared. The compared normals are the normals of smooth vertices, of corners with one face, and of
+/// creases on the boundary with at most 2 quads (Catmull-Clark) or 3 triangles (Loop).
 fn limits_differ(mesh: &Mesh, rules: Rules, expected: &Lines, tolerance: f64) -> Vec<String> {
     let partners =
         matched(mesh, &expected.positions(), tolerance).expect("the meshes were compared before");
@@ -273,15 +271,16 @@ fn assert_positions(case: &str, expected_values: &[([f64; 3], usize)]) {
 #[test]
 fn the_stored_results_of_small_meshes_equal_those_computed_by_hand() {
     // With Loop subdivision, an old vertex p of valence 3 has the weight 7/16, and each neighbor has the weight 3/16.
-    // The sum of the neighbors is -p. For the new vertex on an edge, each end has the weight 3/8, and each of the two
-    // opposite vertices has the weight 1/8.
+    // In the tetrahedron, the sum of the three neighbors of p is -p. For the new vertex on an edge, each end has the
+    // weight 3/8, and each of the two opposite vertices has the weight 1/8.
     let quarter = [0.0, 0.0, 0.25];
     assert_positions(
         "known_tetrahedron",
         &[(quarter, 3), ([0.25; 3], 1), ([0.0, 0.25, 0.25], 6)],
     );
     // With Catmull-Clark subdivision, an old vertex p of the cube has the weight 1/3, and each neighbor and each face
-    // point has the weight 1/9. The sum of the three neighbors is p, and the sum of the three face points is also p.
+    // point has the weight 1/9. In the cube, the sum of the three neighbors of p is p. The sum of the three face points
+    // is also p.
     let [near, corner, far] = [[0.0, 0.0, 1.0], [5.0 / 9.0; 3], [0.0, 0.75, 0.75]];
     assert_positions("known_cube", &[(near, 6), (corner, 8), (far, 12)]);
     // With sharpness 1/2, each position is halfway between the results of the smooth rule and the sharp rule. The sharp

@@ -14,7 +14,8 @@ pub(crate) fn run(folder: &Path, arguments: &[&str]) {
     assert!(status.is_ok_and(|status| status.success()), "{arguments:?}");
 }
 
-/// Prints the median time of the runs of `work`. Each run follows a call of `prepare`, which is not timed.
+/// Prints the median time of the runs of `work`. Before each run, `prepare` is called. The time that `prepare` takes is
+/// not measured.
 #[expect(clippy::print_stdout, reason = "a benchmark prints its figures")]
 pub(crate) fn measure(name: &str, runs: usize, prepare: impl Fn(), work: impl Fn()) {
     let mut times: Vec<Duration> = (0..runs)

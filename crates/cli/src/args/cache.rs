@@ -23,7 +23,7 @@ pub(crate) struct CacheArgs {
 /// The location of the cache.
 #[derive(Debug, ClapArgs)]
 pub(crate) struct CacheFolder {
-    /// Folder of the step cache; defaults to `meshwright` in the user's cache folder
+    /// The folder of the step cache; defaults to the folder `meshwright` in the user's cache folder
     #[arg(long, env = "MESHWRIGHT_CACHE", value_name = "DIR")]
     pub(crate) cache: Option<PathBuf>,
 }

@@ -56,7 +56,7 @@ const GROUPS: [(&str, &[(&str, &str)]); 4] = [
     ),
 ];
 
-/// Printed when the program is started without arguments.
+/// The text that is printed when the program is started without arguments.
 pub(crate) const FIRST_STEPS: &str = "\
 Meshwright edits 3D meshes with recipes. Three commands to start with:
 
@@ -91,7 +91,7 @@ pub(crate) fn command() -> Command {
         .mut_subcommands(|command| command.mut_args(in_any_case))
 }
 
-/// Lets the values of an argument be written in lower or upper case.
+/// Changes an argument so that its values can be written in lower or upper case.
 fn in_any_case(argument: Arg) -> Arg {
     let takes_values = argument.get_action().takes_values();
     argument.ignore_case(takes_values)

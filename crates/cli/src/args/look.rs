@@ -16,9 +16,9 @@ pub(crate) enum Kind {
 
 #[derive(Debug, ClapArgs)]
 pub(crate) struct SelectArgs {
-    /// A mesh file, or a recipe (*.ron), whose final scene is used
+    /// A mesh file or a recipe (*.ron); for a recipe, its final scene is used
     pub(crate) file: PathBuf,
-    /// The selection, as in recipes, such as 'Sharp(above: 30)'
+    /// The selection, written as in recipes, such as 'Sharp(above: 30)'
     pub(crate) selection: String,
     /// The kind of elements to select; required if the selection is valid for several kinds
     #[arg(long, value_enum, value_name = "ELEMENTS")]
@@ -26,11 +26,11 @@ pub(crate) struct SelectArgs {
     /// Select only on the object with this name; can be repeated
     #[arg(long, value_name = "OBJECT")]
     pub(crate) on: Vec<String>,
-    /// Use the scene after the recipe's step or call with this id
+    /// For a recipe, use the scene after the step or call with this id
     #[arg(long, value_name = "ID", conflicts_with = "before")]
     pub(crate) after: Option<String>,
-    /// Use the scene before the recipe's step or call with this id; random selections choose the same elements as in
-    /// that step
+    /// For a recipe, use the scene before the step or call with this id; random selections choose the same elements as
+    /// in that step
     #[arg(long, value_name = "ID")]
     pub(crate) before: Option<String>,
     #[command(flatten)]
@@ -60,10 +60,10 @@ pub(crate) struct DiffArgs {
     pub(crate) first: PathBuf,
     /// The second mesh file or recipe (*.ron)
     pub(crate) second: PathBuf,
-    /// Largest allowed difference of positions and attribute values
+    /// Largest allowed difference between two positions or two attribute values
     #[arg(long, value_name = "X", default_value_t = 0.0, value_parser = not_negative)]
     pub(crate) tolerance: f64,
-    /// Compare two recorded runs, as printed by `meshwright run --format json`
+    /// Compare two runs; the files contain the output of `meshwright run --format json`
     #[arg(long)]
     pub(crate) runs: bool,
     #[command(flatten)]

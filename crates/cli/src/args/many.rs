@@ -17,13 +17,13 @@ pub(crate) struct ManyArgs {
     /// Number of threads; defaults to the number of processors
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
-    /// Maximum number of runs at the same time, up to the number of threads; defaults to the number of threads
+    /// Maximum number of simultaneous runs, at most the number of threads; defaults to the number of threads
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     jobs: Option<u16>,
     /// Memory budget for the meshes of all simultaneous runs together, such as 512MiB or 8GiB
     #[arg(long, default_value = "8GiB", value_name = "SIZE", value_parser = size)]
     pub(crate) budget: u64,
-    /// Fail if a step loses anything, except losses that the recipe allows with `on_loss: Allow([..])`
+    /// Fail if a step loses data, unless the recipe allows the loss with `on_loss: Allow([..])`
     #[arg(long)]
     pub(crate) strict: bool,
 }
@@ -49,10 +49,10 @@ impl ManyArgs {
 #[command(
     after_help = "Example: meshwright test scenes --filter cube --junit tests.xml
 
-Folders are searched recursively, except hidden folders and folders named `assets`. Recipes without
-expectations, and recipes called by other tested recipes, are read and listed, but not run and not counted
-as passed. An error in their text is a failure. A recipe given by its own path is run even if other recipes
-call it."
+Folders are searched recursively, except hidden folders and folders named `assets`. Two kinds of recipes
+are read and listed, but not run and not counted as passed: recipes without expectations, and recipes that
+other tested recipes call. An error in the text of such a recipe is a failure. A recipe whose own path
+is given is run even if other recipes call it."
 )]
 pub(crate) struct TestArgs {
     /// Recipes, or folders of recipes
@@ -61,7 +61,7 @@ pub(crate) struct TestArgs {
     /// Test only recipes whose path contains TEXT
     #[arg(long, value_name = "TEXT")]
     pub(crate) filter: Option<String>,
-    /// Keep the outputs of each recipe in a folder named after the recipe, below DIR
+    /// Keep the outputs of each recipe, in a folder below DIR that is named after the recipe
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     /// Also write the results as JUnit XML
@@ -88,9 +88,10 @@ pub(crate) struct TestArgs {
   meshwright batch clean.ron --inputs 'models/*' --out clean --shard 1/3 --report one.json
   meshwright batch --merge one.json two.json three.json --report all.csv
 
-If a batch was interrupted or has crashed, run it again to resume it: finished files that have not changed
-are not processed again, even if the number of parts is different. The state is kept in DIR/batch.jsonl, or
-in DIR/batch-I-of-N.jsonl with --shard I/N, where DIR is the folder given by --out.")]
+If a batch was interrupted or has crashed, run it again to resume it. Finished files that have not changed
+are not processed again, even if the batch is now divided into a different number of parts. The state of
+the batch is kept in DIR/batch.jsonl, where DIR is the folder given by --out. With --shard I/N, the state is
+kept in DIR/batch-I-of-N.jsonl.")]
 pub(crate) struct BatchArgs {
     /// The recipe
     #[arg(required_unless_present = "merge")]
@@ -98,8 +99,9 @@ pub(crate) struct BatchArgs {
     /// Input files, as paths or patterns: `*` and `?` match within one folder, `**` matches any number of folders
     #[arg(long, value_name = "PATTERN", num_args = 1.., required_unless_present_any = ["merge", "sets"])]
     pub(crate) inputs: Vec<String>,
-    /// Parameter sets, as a JSON list of objects such as [{"levels": 1}, {"levels": 2}]; the recipe runs once for each
-    /// set (and input file) and writes its outputs to a folder named after the number of the set
+    /// A file with parameter sets, as a JSON list of objects such as [{"levels": 1}, {"levels": 2}]. The recipe runs
+    /// once for each set or, with --inputs, for each combination of a set and an input file. The outputs are in a
+    /// folder named after the number of the set
     #[arg(long, value_name = "FILE.json")]
     pub(crate) sets: Option<PathBuf>,
     /// The parameter that receives the input file; required if the recipe has several parameters of type Path
@@ -119,8 +121,8 @@ pub(crate) struct BatchArgs {
     /// Also write the results as JUnit XML, with a test case for each input file
     #[arg(long, value_name = "FILE")]
     pub(crate) junit: Option<PathBuf>,
-    /// Process only part I of N of the input files; the part of a file depends only on its path and, with --sets, on
-    /// the number of its parameter set
+    /// Divide the input files into N parts, and process only part I. The part of a file depends only on its path and,
+    /// with --sets, on the number of its parameter set
     #[arg(long, value_name = "I/N")]
     pub(crate) shard: Option<Shard>,
     /// Estimate the memory that each of N parts of the batch needs, and run nothing
@@ -150,7 +152,7 @@ pub(crate) struct BatchArgs {
     pub(crate) many: ManyArgs,
 }
 
-/// One part of a list of files that is divided into several parts.
+/// One of the parts into which a list of files is divided.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(expecting = "an object")]
 pub(crate) struct Shard {
@@ -190,13 +192,14 @@ impl fmt::Display for Shard {
       keep: [Faces, Area, MinAngle, DistanceTo(other: File(\"cow.obj\")), Seconds],
   )
 
-The recipe runs once for each combination of the values in `over`; the last parameter changes fastest.
-Lists under `zip` must have the same length and are combined value by value. Each combination is a cell
-of the sweep. In the table, the row of a failed cell contains its error.
+The recipe runs once for each combination of the values in `over`. The value of the last parameter changes
+fastest. All lists in `zip` must have the same length. Their first values are used together, then their
+second values, and so on. Each combination is a cell of the sweep. In the table, the row of a failed cell
+contains its error.
 
   meshwright sweep levels.sweep.ron --sheet levels.png --wireframe --from Front
 
-draws the final scene of each cell. If exactly two parameters vary (all lists under `zip` count as one), the
+draws the final scene of each cell. If exactly two parameters vary (all lists in `zip` count as one), the
 rows are labeled with the values of the first parameter, and the columns with the values of the second.
 Otherwise, the parameter values of each cell are shown below the cell. All cells share one camera, one scale
 and one color range. A failed cell shows its error instead of a scene."
@@ -208,7 +211,7 @@ pub(crate) struct SweepArgs {
     /// Also write the table to a file
     #[arg(long, value_name = "FILE.csv|.json")]
     pub(crate) out: Option<PathBuf>,
-    /// Keep the outputs of each cell in a folder named after its number, below DIR
+    /// Keep the outputs of each cell, in a folder below DIR that is named after the number of the cell
     #[arg(long, value_name = "DIR")]
     pub(crate) keep_outputs: Option<PathBuf>,
     #[command(flatten)]
@@ -218,10 +221,10 @@ pub(crate) struct SweepArgs {
     /// Output format
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: Format,
-    /// Draw the scenes of all cells in one image (.png); the values of `keep` are shown where they fit
+    /// Draw the scenes of all cells in one image (.png); each cell shows as many values of `keep` as fit
     #[arg(long, value_name = "FILE", help_heading = SHEET)]
     pub(crate) sheet: Option<PathBuf>,
-    /// Number of cells in a row; with this option, the parameter values of each cell are shown below the cell
+    /// Number of cells in each row; with this option, the parameter values of each cell are shown below the cell
     #[arg(
         long,
         value_name = "N",
@@ -234,7 +237,7 @@ pub(crate) struct SweepArgs {
     pub(crate) draw: DrawArgs,
 }
 
-const SHEET: &str = "Options of the sheet, as in `meshwright picture`";
+const SHEET: &str = "Options for drawing the sheet, as in `meshwright picture`";
 
 #[cfg(test)]
 mod tests {

@@ -35,7 +35,7 @@ pub(crate) struct Args {
 pub(crate) enum Command {
     /// Run a recipe
     Run(RunArgs),
-    /// Check a recipe without running it, and forecast counts and memory
+    /// Check a recipe without running it, and forecast mesh sizes and memory use
     Check(CheckArgs),
     /// Run a recipe again whenever it or one of its inputs is saved
     Watch(RunArgs),
@@ -49,7 +49,7 @@ pub(crate) enum Command {
     Select(SelectArgs),
     /// Compare two files, or the results of two recipes
     ///
-    /// The exit code is 0 if they are equal, 1 if they differ and 2 if they cannot be compared.
+    /// The exit code is 0 if the files or results are equal, 1 if they differ and 2 if they cannot be compared.
     Diff(DiffArgs),
     /// Convert a file to another format
     Convert(ConvertArgs),
@@ -66,7 +66,7 @@ pub(crate) enum Command {
     /// The server sends the headers that a browser requires before a page can use threads. Other computers cannot
     /// connect. Ctrl-C ends the server.
     Web(WebArgs),
-    /// Write a small commented recipe to start from
+    /// Write a small recipe with comments, as a starting point
     New(NewArgs),
     /// List the operations or the selections, or describe one operation
     Ops(OpsArgs),
@@ -81,8 +81,8 @@ pub(crate) enum Command {
     Upgrade(UpgradeArgs),
     /// Check that files are reproducible: run their recipes again and compare the bytes
     ///
-    /// An output file records the recipe, the parameters and the inputs that it was made from. The recipe is
-    /// searched for below the working directory.
+    /// An output file records the recipe, the parameters and the inputs that it was made from. The command searches for
+    /// this recipe below the working directory.
     Reproduce(ReproduceArgs),
     /// Reduce a failing step to a minimal mesh
     Shrink(ShrinkArgs),
@@ -90,7 +90,8 @@ pub(crate) enum Command {
     Cache(CacheCommandArgs),
     /// Write the source of a new operation, with a test and a picture
     ///
-    /// Writes a new crate or, with `--in`, a file in one of the operation groups of Meshwright's workspace.
+    /// Writes a new crate. With `--in`, the command instead writes a file into an operation group of Meshwright's
+    /// workspace.
     NewOp(NewOpArgs),
     /// Print a completion script for a shell
     Completions {
@@ -112,7 +113,7 @@ pub(crate) struct WebArgs {
     /// The folder that contains the page
     #[arg(default_value = "target/web/page")]
     pub(crate) folder: PathBuf,
-    /// The port; 0 chooses a free one
+    /// The port; if 0, a free port is chosen
     #[arg(long, default_value_t = 8000)]
     pub(crate) port: u16,
 }
@@ -127,14 +128,14 @@ pub(crate) struct NewArgs {
 pub(crate) struct OpsArgs {
     /// The operation to describe
     pub(crate) name: Option<String>,
-    /// List the selections instead
+    /// List the selections instead of the operations
     #[arg(long, conflicts_with = "name")]
     pub(crate) selections: bool,
     /// Print the whole reference as Markdown
     #[arg(long, conflicts_with = "name")]
     pub(crate) markdown: bool,
-    /// A folder of pictures for the reference: `NAME/before.png` and `NAME/after.png`, drawn by `NAME.ron`, where
-    /// NAME is the operation in snake case
+    /// A folder with pictures for the Markdown reference. For each operation, `NAME.ron` draws `NAME/before.png` and
+    /// `NAME/after.png`, where NAME is the name of the operation in snake case
     #[arg(long, requires = "markdown", value_name = "FOLDER")]
     pub(crate) pictures: Option<PathBuf>,
     /// Output format
@@ -149,7 +150,7 @@ pub(crate) struct InfoArgs {
     /// The format of standard input, such as `obj` or `obj.gz`
     #[arg(long, value_name = "FORMAT")]
     pub(crate) from: Option<String>,
-    /// Also show a small picture: pixels if the terminal supports them, otherwise characters
+    /// Also show a small picture, drawn with pixels if the terminal supports them, and otherwise with characters
     #[arg(long)]
     pub(crate) picture: bool,
     #[command(flatten)]
@@ -187,7 +188,7 @@ pub(crate) struct ConvertArgs {
     pub(crate) compress: Option<Compression>,
     /// Store the geometry of .glb and .gltf files with fewer bits
     ///
-    /// The defaults are position=16,normal=8,uv=16,color=8. Each number is from 8 to 16.
+    /// The numbers of bits default to position=16,normal=8,uv=16,color=8. Each number must be from 8 to 16.
     #[arg(
         long,
         value_name = "ATTRIBUTE=BITS,...",
@@ -197,8 +198,7 @@ pub(crate) struct ConvertArgs {
         value_parser = bits
     )]
     pub(crate) quantize: Option<Quantization>,
-    /// The elements that are the rows of a .csv file: Vertices, Faces or Corners; defaults to
-    /// Vertices
+    /// The elements that the rows of a .csv file describe: Vertices, Faces or Corners; defaults to Vertices
     #[arg(long, value_name = "ELEMENTS", value_parser = read::policy::<Rows>)]
     pub(crate) rows: Option<Rows>,
     /// Output format
@@ -216,7 +216,7 @@ pub(crate) struct NewOpArgs {
     /// The folder to write the crate to; with `--in`, the root of Meshwright's workspace
     #[arg(long, default_value = ".")]
     pub(crate) dir: PathBuf,
-    /// The root of Meshwright's workspace, which the crate depends on
+    /// The root of the Meshwright workspace that the new crate depends on
     #[arg(
         long,
         default_value = ".",
@@ -226,7 +226,7 @@ pub(crate) struct NewOpArgs {
     pub(crate) meshwright: PathBuf,
 }
 
-/// Reads numbers of bits, such as `position=14,uv=12`.
+/// Parses the number of bits of each attribute, such as `position=14,uv=12`.
 fn bits(text: &str) -> Result<Quantization, String> {
     let mut bits = Quantization::default();
     for part in text.split(',').filter(|part| !part.is_empty()) {

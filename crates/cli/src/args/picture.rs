@@ -22,8 +22,8 @@ pub(crate) struct DrawArgs {
     /// Use a camera without perspective
     #[arg(long)]
     pub(crate) orthographic: bool,
-    /// Draw the z axis upwards; if omitted, the y axis points upwards, unless the model stands on the plane z = 0 and
-    /// not on the plane y = 0
+    /// Draw the z axis upwards. If omitted, this applies only to models that stand on the plane z = 0 and not on the
+    /// plane y = 0; all other models are drawn with the y axis upwards
     #[arg(long)]
     pub(crate) z_up: bool,
     /// Shading: Flat, Smooth, Phong, Matcap or Plain
@@ -35,7 +35,7 @@ pub(crate) struct DrawArgs {
     /// Draw the control nets of patches and the control polygons of curves
     #[arg(long)]
     pub(crate) control_nets: bool,
-    /// Transparent background instead of white
+    /// Draw a transparent background instead of a white background
     #[arg(long)]
     pub(crate) transparent: bool,
     /// Highlight elements, such as 'Sharp(above: 30)' or 'Faces(Boundary)'
@@ -45,8 +45,8 @@ pub(crate) struct DrawArgs {
     /// as in 'DistanceTo("other.obj")', are relative to the working directory
     #[arg(long, value_name = "QUANTITY")]
     pub(crate) color_by: Option<String>,
-    /// Folder with images that are not next to their model, relative to the working directory; defaults to the folder
-    /// of the file or recipe
+    /// The folder of texture images that are not next to their model. The path is relative to the working directory.
+    /// Defaults to the folder of the file or recipe
     #[arg(long, value_name = "DIR")]
     pub(crate) images: Option<String>,
     /// Further parameters of the operation Picture, written as in recipes
@@ -57,11 +57,11 @@ pub(crate) struct DrawArgs {
     pub(crate) on: Vec<String>,
 }
 
-/// The option that draws failures.
+/// The option that draws a picture of each failure.
 #[derive(Debug, ClapArgs)]
 pub(crate) struct PictureErrorsArgs {
-    /// Write a picture of each failure (at most 20) to this folder, with the affected elements enlarged and
-    /// highlighted; without DIR, to the working directory
+    /// Write a picture of each failure, at most 20, with the affected elements enlarged and highlighted. The pictures
+    /// are written to DIR, which defaults to the working directory
     #[arg(
         long,
         value_name = "DIR",
@@ -86,8 +86,8 @@ pub(crate) struct PictureArgs {
     /// Mesh, patch or curve files, or recipes (*.ron); patterns such as 'models/*.obj' are allowed
     #[arg(required = true, value_name = "FILES")]
     pub(crate) files: Vec<String>,
-    /// Image to write: .png, or .gif or .apng for a turntable; defaults to the name of the input file, or `sheet` with
-    /// --sheet, in the working directory
+    /// The image to write: a .png file or, for a turntable, a .gif or .apng file. By default, the image is written to
+    /// the working directory, and has the name of the input file (with --sheet, the name `sheet`)
     #[arg(long, short, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
     #[command(flatten)]
@@ -98,16 +98,16 @@ pub(crate) struct PictureArgs {
     /// Draw all files on one sheet, each with its name
     #[arg(long)]
     pub(crate) sheet: bool,
-    /// Number of files (on a sheet) or views in a row
+    /// Number of views in each row; on a sheet, the number of files in each row
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
     pub(crate) columns: Option<u32>,
-    /// Draw the scene after the recipe's step or call with this id
+    /// For a recipe, draw the scene after the step or call with this id
     #[arg(long, value_name = "ID", conflicts_with_all = ["before", "change"])]
     pub(crate) after: Option<String>,
-    /// Draw the scene before the recipe's step or call with this id
+    /// For a recipe, draw the scene before the step or call with this id
     #[arg(long, value_name = "ID", conflicts_with = "change")]
     pub(crate) before: Option<String>,
-    /// Draw the scenes before and after the recipe's step or call with this id, side by side
+    /// For a recipe, draw the scenes before and after the step or call with this id, side by side
     #[arg(long, value_name = "ID", conflicts_with = "sheet")]
     pub(crate) change: Option<String>,
     #[command(flatten)]

@@ -36,7 +36,7 @@ pub(crate) struct RecipeArgs {
     /// Memory budget for meshes, such as 512MiB or 8GiB
     #[arg(long, default_value = "8GiB", value_name = "SIZE", value_parser = size)]
     pub(crate) budget: u64,
-    /// Fail if a step loses anything, except losses that the recipe allows with `on_loss: Allow([..])`
+    /// Fail if a step loses data, unless the recipe allows the loss with `on_loss: Allow([..])`
     #[arg(long)]
     pub(crate) strict: bool,
     /// Output format
@@ -58,8 +58,8 @@ pub(crate) struct RunArgs {
     /// Do not check the recipe's expectations
     #[arg(long)]
     pub(crate) no_expect: bool,
-    /// Print the origin of each parameter value, the notes of the steps, and why each step was run instead of taken
-    /// from the cache
+    /// Print the origin of each parameter value, the notes of the steps and, for each step that runs, why its result is
+    /// not taken from the cache
     #[arg(long)]
     pub(crate) explain: bool,
     #[command(flatten)]
@@ -89,7 +89,7 @@ pub(crate) struct UpgradeArgs {
 
 #[derive(Debug, ClapArgs)]
 pub(crate) struct ShrinkArgs {
-    /// A recipe with a failing step, such as the recipe of a capsule
+    /// A recipe with a failing step, such as a recipe that `meshwright run --capsule` writes
     pub(crate) recipe: PathBuf,
     #[command(flatten)]
     pub(crate) values: ValueArgs,

@@ -1,4 +1,4 @@
-//! `meshwright convert`: converts a file to another format. Files can be standard input and standard output.
+//! `meshwright convert`: converts a file to another format. The path `-` stands for standard input or standard output.
 
 use serde_json::json;
 

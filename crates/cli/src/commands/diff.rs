@@ -101,7 +101,7 @@ fn mesh_text(mesh: &MeshDifference, files: &[String; 2]) -> String {
         "connectivity",
         match mesh.connectivity {
             Connectivity::Same => "the same",
-            Connectivity::Reordered => "the same, with vertices or faces in a different order",
+            Connectivity::Reordered => "the same, except for the order of the vertices or faces",
             Connectivity::Different => "different",
         },
     );
@@ -156,7 +156,7 @@ const FACTS: [(&str, Show); 10] = [
     ("bounds z", |c| extent(c, 2)),
 ];
 
-/// Formats the bounds of a mesh along one axis.
+/// Formats the lower and the upper bound of a mesh along one axis.
 fn extent(counts: &Counts, axis: usize) -> String {
     match counts.bounds {
         Some([min, max]) => format!("{} to {}", number(min[axis]), number(max[axis])),
@@ -164,7 +164,8 @@ fn extent(counts: &Counts, axis: usize) -> String {
     }
 }
 
-/// Formats the largest distance. If `at_most` exceeds the distance, the distance is only a lower bound.
+/// Formats the largest distance. If `at_most` exceeds the computed distance, the computed distance is only a lower
+/// bound of the largest distance.
 fn largest(distance: &Distance) -> String {
     let (largest, most) = (distance.largest(), distance.at_most());
     if most > largest {
@@ -181,7 +182,9 @@ fn column_text(attribute: &AttributeDifference, files: &[String; 2]) -> String {
         ColumnDifference::OnlySecond => format!("only in {}", files[1]),
         ColumnDifference::Types([a, b]) => format!("{a} in {}, {b} in {}", files[0], files[1]),
         ColumnDifference::Rules => "different edit rules".to_owned(),
-        ColumnDifference::Unknown => "in both, not compared because the elements differ".to_owned(),
+        ColumnDifference::Unknown => {
+            "in both files, but not compared because the elements differ".to_owned()
+        }
         ColumnDifference::Values { count, by, element } => {
             let n = group_digits(*count as u64);
             format!(

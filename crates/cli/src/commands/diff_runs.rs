@@ -1,4 +1,5 @@
-//! `meshwright diff --runs`: compares two recorded runs, as printed by `run --format json`, one event per line.
+//! `meshwright diff --runs`: compares two recorded runs. A recorded run is the output of `run --format json`, with one
+//! event per line.
 
 use std::path::Path;
 
@@ -11,7 +12,7 @@ use crate::output::{print, print_json};
 /// Fields that are not compared: times, cache use, and the path of the recipe.
 const IGNORED_FIELDS: [&str; 4] = ["milliseconds", "cached", "ran_because", "file"];
 
-/// The newest version of the event format that can be read.
+/// The newest version of the event format that this program can read.
 const FORMAT: u64 = 1;
 
 /// A recorded run.
@@ -24,7 +25,7 @@ struct Run {
     end: Vec<Json>,
 }
 
-/// The name of a differing value, and the value in each run.
+/// The name of a value that differs between two runs, and the value in each run.
 type ValuePair<'j> = (String, &'j Json, &'j Json);
 
 pub(crate) fn run(first: &Path, second: &Path, format: Format) -> anyhow::Result<bool> {
@@ -108,7 +109,7 @@ impl Run {
         Ok(run)
     }
 
-    /// Returns the parameters that both runs have with different values.
+    /// Returns the parameters that exist in both runs but have different values.
     fn differing_parameters<'j>(&'j self, other: &'j Self) -> Vec<ValuePair<'j>> {
         let value = |parameter: &Json| {
             let theirs = other
@@ -151,8 +152,8 @@ impl Run {
     }
 }
 
-/// Returns the fields that differ between two events. Fields that only one event has are ignored, because the other
-/// event can be from an older version.
+/// Returns the fields that differ between two events. If only one of the two events has a field, this field is ignored,
+/// because the other event can be from an older version of the program.
 fn differing_fields<'j>(a: &'j Json, b: &'j Json) -> Vec<ValuePair<'j>> {
     let names = a.as_object().into_iter().flat_map(Map::keys);
     names

@@ -29,7 +29,7 @@ pub(crate) fn run(args: &EditArgs) -> anyhow::Result<bool> {
     Ok(status.success())
 }
 
-/// Returns the path of the editor in the folder of the program.
+/// Returns the path of the editor, which is expected in the folder of the program `meshwright`.
 fn beside(program: &Path) -> PathBuf {
     program.with_file_name(format!("{EDITOR}{}", std::env::consts::EXE_SUFFIX))
 }

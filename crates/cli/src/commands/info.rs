@@ -76,7 +76,7 @@ pub(crate) fn run(args: &InfoArgs) -> anyhow::Result<bool> {
     Ok(true)
 }
 
-/// The measures of all instances of a mesh together, in scene space.
+/// The area, the volume and the bounds of all instances of a mesh together, in the space of the scene.
 struct Placed {
     n: usize,
     area: f64,
@@ -138,7 +138,7 @@ fn duration(graph: &Graph, animation: &Animation) -> f64 {
     })
 }
 
-/// Returns the number of joints with weights, and the largest number of these joints at one vertex.
+/// Returns the number of joints that have weights, and the largest number of joints that influence one vertex.
 fn joint_counts(mesh: &Mesh) -> (usize, usize) {
     let joints = mesh.attributes().joints();
     let at = |v: usize| {
@@ -151,7 +151,7 @@ fn joint_counts(mesh: &Mesh) -> (usize, usize) {
     (joints.len(), most.unwrap_or(0))
 }
 
-/// Returns the locations of the elements of a note, for a picture.
+/// Returns the locations of the elements that a note is about, to draw them in a picture.
 fn places(note: &Note) -> Vec<ErrorLocation> {
     let names: Vec<String> = match &note.elements {
         Some(Elements::Vertices(list)) => list.iter().map(ToString::to_string).collect(),
@@ -285,7 +285,8 @@ fn mesh_facts(object: &Object, mesh: &Mesh, placed: &Placed) -> Vec<(&'static st
     facts
 }
 
-/// Formats a histogram such as `12 of 3, 6 of 4 corners`, with at most eight entries.
+/// Formats a histogram with at most eight entries. An example is `12 of 3, 6 of 4 corners`: 12 faces have 3 corners,
+/// and 6 faces have 4 corners.
 fn histogram(counts: &[usize], what: &str) -> String {
     let found = counts.iter().enumerate().filter(|(_, n)| **n > 0);
     let mut parts: Vec<String> = found

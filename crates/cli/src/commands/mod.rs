@@ -1,4 +1,4 @@
-//! The commands, one per file or folder. Each command returns whether it succeeded.
+//! The commands of the program. Each command returns whether it succeeded.
 
 pub(crate) mod batch;
 pub(crate) mod cache;

@@ -10,7 +10,7 @@ use crate::output::print;
 
 const RECIPE: &str = include_str!("new/recipe.ron.txt");
 
-/// Writes a recipe that creates a cube or loads a model.
+/// Writes a new recipe, which creates a cube or loads a given model.
 pub(crate) fn run(args: &NewArgs) -> anyhow::Result<bool> {
     let given = &args.name;
     let path = given.with_extension("ron");

@@ -15,7 +15,8 @@ const PICTURE: &str = include_str!("new_op/picture.ron.txt");
 const MAIN: &str = include_str!("new_op/main.rs.txt");
 const MANIFEST: &str = include_str!("new_op/Cargo.toml.txt");
 
-/// Module names that a new operation cannot have: crates that the generated source uses, and keywords.
+/// Names that the module of a new operation cannot have: keywords, and the names of crates that the generated source
+/// uses.
 const RESERVED_MODULES: &str = "abstract alloc as async await become box break cli const continue core crate do \
     dyn else enum extern false final fn for gen if impl in let lib loop macro main match mesh mod move mut op \
     ops_all override priv proc_macro pub ref return schemars self serde static std struct super test \
@@ -25,11 +26,11 @@ const RESERVED_MODULES: &str = "abstract alloc as async await become box break c
 const RESERVED_TYPES: &str = "Context DVec3 Deserialize JsonSchema Mesh MeshOperation MeshPlan OpError PlanContext \
     Problem Report Result Select Serialize Vec Vector VertexSelection";
 
-/// Paths of files, with their contents.
+/// A list of files: the path and the content of each file.
 type Files = Vec<(PathBuf, String)>;
 
-/// Writes an operation to a group of the workspace in `dir`; without a group, writes a crate to `dir` that depends on
-/// the workspace in the folder `meshwright`.
+/// Writes an operation. If a group is given, `dir` is the workspace, and the operation is added to this group.
+/// Otherwise, a new crate is written to `dir`, which depends on the workspace in the folder `meshwright`.
 pub(crate) fn run(args: &NewOpArgs, registry: &Registry) -> anyhow::Result<bool> {
     let (name, snake) = (&args.name, module_name(&args.name)?);
     let fill = |text: &str| text.replace("{Name}", name).replace("{name}", &snake);
@@ -59,7 +60,7 @@ pub(crate) fn run(args: &NewOpArgs, registry: &Registry) -> anyhow::Result<bool>
     Ok(true)
 }
 
-/// Returns the files of an operation in a group, and the commands to run next.
+/// Returns the files that add an operation to a group, and the commands that the user should run next.
 fn in_group(
     group: &str,
     snake: &str,
@@ -97,7 +98,7 @@ fn in_group(
     Ok((files, next))
 }
 
-/// Returns the files of a program with the operation, and the commands to run next.
+/// Returns the files of a new program that has the operation, and the commands that the user should run next.
 fn in_new_crate(
     snake: &str,
     dir: &Path,
@@ -160,7 +161,7 @@ pub(crate) fn snake_case(name: &str) -> String {
     snake
 }
 
-/// Returns the name in snake case, or an error if an operation cannot have this name.
+/// Returns the name of an operation in snake case, or an error if an operation cannot have this name.
 fn module_name(name: &str) -> anyhow::Result<String> {
     let mut letters = name.chars();
     let first_is_upper = letters.next().is_some_and(|c| c.is_ascii_uppercase());
@@ -180,7 +181,7 @@ fn module_name(name: &str) -> anyhow::Result<String> {
     Ok(snake)
 }
 
-/// Inserts a line in sorted order among the lines that begin with `prefix`.
+/// Inserts a line among the lines that begin with `prefix`, so that these lines stay sorted.
 fn insert_sorted(text: &str, prefix: &str, line: &str) -> anyhow::Result<String> {
     let next = |l: &&str| l.starts_with(prefix) && *l > line;
     match text.lines().find(next) {

@@ -1,5 +1,5 @@
-//! `meshwright ops` and `meshwright expectations`: describe the contents of recipes, based on the types that recipes
-//! are parsed into.
+//! `meshwright ops` and `meshwright expectations`: describe what recipes can contain. The descriptions are made from
+//! the Rust types into which recipes are parsed.
 
 use op::{Entry, Registry};
 use recipe::{
@@ -36,7 +36,7 @@ pub(crate) fn run(args: &OpsArgs, registry: &Registry) -> anyhow::Result<bool> {
     Ok(true)
 }
 
-/// Prints the list of expectations, or describes one with its fields.
+/// Prints the list of all expectations, or the description of one expectation and its fields.
 pub(crate) fn expectations(name: Option<&str>) -> anyhow::Result<bool> {
     let all = recipe::expectations();
     let Some(name) = name else {
@@ -158,8 +158,8 @@ fn detail(entry: &Entry) -> String {
     text + &format!("\nExample: {}\n", entry.example)
 }
 
-/// Returns the description, the parameters and their types. Selection types are only named. The first paragraph of the
-/// description is left out if it repeats `summary`.
+/// Returns the text that describes an operation: its description, its parameters and their types. For selection types,
+/// only the name is printed. The first paragraph of the description is left out if it repeats `summary`.
 fn described(schema: &Json, summary: &str) -> String {
     let mut text = String::new();
     if let Some(description) = schema["description"].as_str() {
@@ -176,8 +176,8 @@ fn described(schema: &Json, summary: &str) -> String {
         "\nParameters:\n"
     };
     text.extend(fields.iter().map(|field| field_text(field, "  ")));
-    // The variants of a parameter's type are listed with the parameter. The fields of the type are not listed with the
-    // parameter.
+    // If the type of a parameter has only variants, they are listed with the parameter. A type with fields is listed
+    // separately below.
     let is_shown = |t: &TypeDoc| t.fields.is_empty() && fields.iter().any(|f| f.kind == t.name);
     let types = types(schema);
     for t in types.iter().filter(|t| !t.is_selection() && !is_shown(t)) {
@@ -189,8 +189,8 @@ fn described(schema: &Json, summary: &str) -> String {
     text
 }
 
-/// Whether a sentence such as "Creates a cube." has the words of a summary such as "Create a cube". Verbs can have a
-/// different form.
+/// Whether a sentence such as "Creates a cube." has the words of a summary such as "Create a cube". The verbs of the
+/// sentence and of the summary can have different forms, as "Creates" and "Create".
 fn repeats(sentence: &str, summary: &str) -> bool {
     let sentence: Vec<&str> = sentence.trim_end_matches('.').split_whitespace().collect();
     let summary: Vec<&str> = summary.split_whitespace().collect();

@@ -74,8 +74,8 @@ fn output_path(args: &PictureArgs, first: &Path) -> PathBuf {
 /// Default size of the images on a sheet, in pixels.
 pub(crate) const SHEET_CELL: [u32; 2] = [320, 240];
 
-/// Parses the options as a `Picture` step of a recipe, with the same checks and suggestions. `default_size` is in
-/// pixels. `more` contains further fields of the step.
+/// Parses the options of the command as a `Picture` step of a recipe, with the same checks and suggestions as in a
+/// recipe. `default_size` is in pixels. `more` contains further fields of the `Picture` step.
 pub(crate) fn parameters(
     args: &DrawArgs,
     out: &Path,
@@ -109,7 +109,7 @@ fn absolute_path(path: &str) -> anyhow::Result<String> {
     })
 }
 
-/// Formats the options as fields of a `Picture` step.
+/// Formats the options of the command as the fields of a `Picture` step.
 fn fields(args: &DrawArgs, out: &Path, default_size: [u32; 2], further: Vec<String>) -> String {
     let path = out.file_name().unwrap_or_default().to_string_lossy();
     let mut fields = vec![format!("path: {}", string_literal(&path))];
@@ -158,7 +158,7 @@ fn fields(args: &DrawArgs, out: &Path, default_size: [u32; 2], further: Vec<Stri
     fields.join(", ")
 }
 
-/// Whether one of the further parameters is the camera or the list of cameras.
+/// Whether the parameters in `with` set the camera or the list of cameras.
 fn has_camera(with: &str) -> bool {
     let with = ron_tree::parse(&format!("({with})")).value;
     with.field("camera").is_some() || with.field("views").is_some()
@@ -240,7 +240,8 @@ pub(crate) fn check_names(on: &[String], scenes: &[&Scene]) -> anyhow::Result<()
     Ok(())
 }
 
-/// Draws scenes of a file, each with a caption. Draws only the objects named in `on`, or all objects if `on` is empty.
+/// Draws one or more scenes of the same file, each with a caption. Draws only the objects named in `on`, or all objects
+/// if `on` is empty.
 pub(crate) fn draw_scenes(
     picture: &Picture,
     path: &Path,
@@ -311,7 +312,7 @@ fn is_cancelled(error: &anyhow::Error) -> bool {
     matches!(error.downcast_ref(), Some(op::OpError::Cancelled))
 }
 
-/// Writes one image as PNG. If `say` is set, prints the path and the size of the image.
+/// Writes one image as PNG. If `say` is true, prints the path and the size of the image.
 pub(crate) fn write_png(image: &Image, path: &Path, say: bool) -> anyhow::Result<()> {
     let bytes = image.to_png_with_progress(&[("Software", STAMP)], &INTERRUPT)?;
     if say {

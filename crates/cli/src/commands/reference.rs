@@ -56,7 +56,8 @@ pub(crate) fn reference(registry: &Registry, pictures: Option<&Path>) -> String 
     text + &variants_table(&recipe::refusals())
 }
 
-/// Adds the types that are not in the list yet. Types that differ are all added, even if they have the same name.
+/// Adds types to the list, except the types that the list already has. If types have the same name but differ, all of
+/// them are added.
 fn add_types(used: &mut Vec<TypeDoc>, types: Vec<TypeDoc>) {
     for t in types {
         if !used.contains(&t) {

@@ -1,4 +1,5 @@
-//! `meshwright reproduce`: runs the recipe that wrote a file again, and compares the bytes.
+//! `meshwright reproduce`: finds the recipe that wrote a file, runs it again, and compares the bytes of the new file
+//! and the old file.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -51,8 +52,8 @@ fn recipe_of(
     let stamp = stamp.with_context(|| {
         format!("{shown} does not record which recipe wrote it: name the recipe with --recipe")
     })?;
-    // The recipe may have been renamed, and a different recipe may now have its name. Therefore the digest identifies
-    // the recipe.
+    // The recipe may have been renamed, and a different recipe may now have its name. Therefore the recipe is
+    // identified by its digest and not by its name.
     let mut candidates = recipes_here();
     let is_named = |path: &PathBuf| {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
@@ -193,7 +194,8 @@ impl Rerun {
         Ok(false)
     }
 
-    /// Returns possible reasons for the difference: what has changed since the file was written.
+    /// Returns possible reasons why the new file differs: the inputs and other data that have changed since the old
+    /// file was written.
     fn reasons(&self, stamp: Option<&Stamp>) -> Vec<String> {
         let Some(stamp) = stamp else {
             return vec!["the file does not record which recipe wrote it".to_owned()];

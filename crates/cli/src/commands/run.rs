@@ -56,7 +56,7 @@ pub(crate) fn start_threads(n: Option<u16>) -> anyhow::Result<()> {
         .context("cannot start the threads")
 }
 
-/// Reads and checks the recipe, without its expectations if `--no-expect` is given.
+/// Reads and checks the recipe. If `--no-expect` is given, its expectations are left out.
 pub(crate) fn load_to_run(args: &RunArgs, engine: &Engine) -> anyhow::Result<Loaded> {
     let mut loaded = load(&args.recipe, engine)?;
     if args.no_expect {
@@ -65,8 +65,9 @@ pub(crate) fn load_to_run(args: &RunArgs, engine: &Engine) -> anyhow::Result<Loa
     Ok(loaded)
 }
 
-/// Runs a recipe until the recipe ends or `go_on` returns false, and draws failures. If the recipe has errors, prints
-/// them and returns `None`. With `--format json`, prints events.
+/// Runs a recipe until its end or until `go_on` returns false. Draws failures, if the options request this. If the
+/// recipe has errors, prints them and returns `None`. If the option `--format json` is given, prints the events of the
+/// run.
 pub(crate) fn execute(
     args: &RunArgs,
     loaded: &Loaded,

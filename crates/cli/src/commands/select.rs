@@ -59,7 +59,7 @@ pub(crate) fn run(args: &SelectArgs, engine: &Engine) -> anyhow::Result<bool> {
     Ok(true)
 }
 
-/// Returns the meshes to select on: the meshes that `--on` names, or all meshes.
+/// Returns the meshes whose elements can be selected: the meshes that `--on` names or, without this option, all meshes.
 fn meshes<'s>(
     args: &SelectArgs,
     objects: &'s [Object],
@@ -86,7 +86,7 @@ fn meshes<'s>(
     args.on.iter().map(named).collect()
 }
 
-/// Returns the number of all elements of the selected kind.
+/// Returns how many vertices, edges or faces a mesh has in total, depending on the kind of the selected elements.
 fn total(mesh: &Mesh, chosen: &Selected) -> usize {
     match chosen {
         Selected::Vertices(_) => mesh.n_vertices(),
@@ -139,7 +139,8 @@ fn corners(mesh: &Mesh, f: FaceId) -> impl Iterator<Item = usize> {
     mesh.face_vertices(f).map(VertexId::index)
 }
 
-/// Returns the selected elements as JSON: all of them, regardless of `--first`, or only their numbers with `--count`.
+/// Returns the selected elements as JSON. All selected elements are listed, even if `--first` is given. With `--count`,
+/// only their numbers are returned: how many vertices, edges or faces are selected.
 fn json(args: &SelectArgs, elements: &Elements, selected: &[(&Object, &Mesh, Selected)]) -> Json {
     let objects = selected.iter().map(|(object, mesh, chosen)| {
         let mut json = json!({

@@ -1,4 +1,5 @@
-//! `meshwright shrink`: reduces the scene on which a step of a recipe fails.
+//! `meshwright shrink`: reduces the scene before a failing step of a recipe to a smaller scene on which the step still
+//! fails.
 
 use engine::{Engine, Run};
 use op::OpError;

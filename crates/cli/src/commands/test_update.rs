@@ -1,5 +1,5 @@
-//! `meshwright test --update`: replaces recorded values in recipes by the actual values, and reference files by the
-//! written files.
+//! `meshwright test --update`: in recipes, replaces the recorded values by the actual values of a run. Also replaces
+//! reference files by the files that the run has written.
 
 use std::path::Path;
 
@@ -9,15 +9,15 @@ use recipe::update::update;
 use crate::output::write_temporary;
 use engine::Loaded;
 
-/// Replaces recorded values that differ from the values of the run. Returns a line for each change. Failures that the
-/// update fixes are removed from `outcome`.
+/// Replaces the recorded values that differ from the actual values of the run. Returns one line of text for each
+/// change. If the update fixes a failure, this failure is removed from `outcome`.
 pub(crate) fn update_recorded_values(
     path: &Path,
     loaded: &Loaded,
     outcome: &mut Outcome,
 ) -> anyhow::Result<Vec<String>> {
     let update = update(&loaded.recipe, outcome);
-    // Reference files are written first. If one cannot be written, the recipe stays unchanged.
+    // Reference files are written first. If a reference file cannot be written, the recipe stays unchanged.
     let files = update
         .files
         .iter()

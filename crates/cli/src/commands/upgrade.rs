@@ -32,7 +32,8 @@ pub(crate) fn run(args: &UpgradeArgs, registry: &Registry) -> anyhow::Result<boo
     Ok(failed == 0 && !(args.check && outdated > 0))
 }
 
-/// Upgrades one recipe. With `only_check`, only lists the changes. Returns whether the recipe has outdated names.
+/// Upgrades one recipe. If `only_check` is true, lists the changes but does not make them. Returns whether the recipe
+/// has outdated names.
 fn upgrade_recipe(path: &Path, only_check: bool, registry: &Registry) -> anyhow::Result<bool> {
     let source = Source::open(path)?;
     let shown = path.display().to_string();

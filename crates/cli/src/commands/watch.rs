@@ -1,10 +1,10 @@
 //! `meshwright watch`: runs a recipe again whenever the recipe, a recipe that it calls, or one of its inputs is saved.
 //!
-//! The program watches the folders of these files, since many editors save by replacing the file. Other files in the
-//! watched folders, and the files that the run writes, are ignored. The cache compares contents. Therefore, steps whose
-//! inputs did not change are not run again, and saving an unchanged file prints no results. If a file is saved during a
-//! run, the run is canceled and the next run starts. Ctrl-C cancels the current run, if any, and ends the program with
-//! exit code 0.
+//! The program does not watch the files themselves but their folders, because many text editors replace a file when
+//! they save it. Changes of other files in the watched folders, and of files that the run itself writes, are ignored.
+//! The cache compares contents. Therefore, a step whose inputs did not change is not run again. If an unchanged file is
+//! saved, no results are printed. If a file is saved during a run, the run is canceled and the next run starts. Ctrl-C
+//! cancels the current run, if any, and ends the program with exit code 0.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -28,7 +28,7 @@ use crate::pipes;
 use crate::recording::{RecordingDisk, with_real_folder};
 use engine::Loaded;
 
-/// How long the files must stay unchanged before a run starts. Editors save in several steps.
+/// The time for which the files must stay unchanged before a run starts. Editors save in several steps.
 const SETTLE_TIME: Duration = Duration::from_millis(50);
 
 /// The interval for checking whether Ctrl-C was pressed.
@@ -65,7 +65,7 @@ pub(crate) fn run(args: &RunArgs, engine: &Engine) -> anyhow::Result<bool> {
                 let now = loaded.recipe.sources.iter().map(|s| s.text.clone());
                 let now: Vec<_> = now.collect();
                 let is_same = texts.as_ref() == Some(&now);
-                // If all steps come from the cache, the results have been printed before.
+                // If the cache had the results of all steps, so that no step ran, the results have been printed before.
                 let is_unchanged = |o: &Outcome| {
                     is_same && o.succeeded() && o.steps.iter().all(|s| s.ran.is_none())
                 };
@@ -114,11 +114,12 @@ struct FolderWatcher {
     watcher: notify::RecommendedWatcher,
     events: Mutex<Receiver<notify::Result<notify::Event>>>,
     folders: BTreeSet<PathBuf>,
-    /// The store that records the files that the recipe reads. Changes of other files are ignored.
+    /// The store through which the recipe reads files, and which records the paths of these files. Changes of files
+    /// that the recipe does not read are ignored.
     disk: Arc<RecordingDisk>,
-    /// Files that the runs write. Changes of these files are ignored.
+    /// Files that the runs write. Changes of these output files are ignored.
     ignored: Mutex<BTreeSet<PathBuf>>,
-    /// A file that has changed since the last call of [`wait`](Self::wait), if any.
+    /// A file that has changed since the last call of [`wait`](Self::wait), or `None` if no file has changed.
     pending: Mutex<Option<PathBuf>>,
 }
 
@@ -147,7 +148,8 @@ impl FolderWatcher {
         Ok(())
     }
 
-    /// Starts to watch the folders of all files that were read, such as the material files of a model.
+    /// Starts to watch the folders of all files that the recipe has read. The files of a recipe include, for example,
+    /// the material files of a model.
     fn follow_files(&mut self) {
         let is_temporary = |path: &Path| {
             let mut parts = path.components();
@@ -155,8 +157,8 @@ impl FolderWatcher {
         };
         for file in self.disk.files() {
             if !is_temporary(&file) && !lock(&self.ignored).contains(&file) {
-                // The run has already read the file. If its folder cannot be watched, the other folders are still
-                // watched.
+                // The run has already read the file. If the folder of one file cannot be watched, the folders of the
+                // other files are still watched.
                 let _ = self.follow(folder_of(&file));
             }
         }
@@ -226,7 +228,7 @@ impl FolderWatcher {
     }
 }
 
-/// Whether this is the name of a temporary file or folder of this program.
+/// Whether a name has the form in which this program names its temporary files and folders.
 fn is_temporary(name: &str) -> bool {
     name.starts_with(".meshwright-")
 }

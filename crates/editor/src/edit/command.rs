@@ -1,4 +1,5 @@
-//! Commands: operations with parameters and a selection that become steps of the text.
+//! Commands: a command is an operation with its parameters and a selection. A command becomes one or two steps of the
+//! recipe's text.
 
 use op::ElementKind;
 use ron_tree::{parse, string_literal};
@@ -9,28 +10,29 @@ use crate::keys::Action;
 use crate::panel::{FieldKind, Panel, PanelField};
 use crate::text::{self, TextError};
 
-/// An operation to insert after the cursor.
+/// An operation that is to be inserted as a step after the step cursor.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Command {
     /// The name of the operation.
     pub operation: String,
-    /// The parameters with their values as RON.
+    /// The names of the parameters, and their values as RON.
     pub parameters: Vec<(String, String)>,
-    /// The selection for the first parameter that selects elements, if that parameter has no value.
+    /// The selection that becomes the value of the first parameter that selects elements, if this parameter has no
+    /// value.
     pub selection: Option<SelectionText>,
-    /// The object that the step acts on. If `None`, the step acts on the object of the selection if the scene has
-    /// several meshes, and on all objects otherwise.
+    /// The object that the step acts on. If `None`, the step acts on all objects or, if the scene has several meshes,
+    /// on the object of the selection.
     pub on: Option<String>,
 }
 
 /// A selection for a command.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SelectionText {
-    /// The kind of elements that it selects.
+    /// The kind of elements that the selection selects.
     pub kind: ElementKind,
     /// The selection as RON.
     pub text: String,
-    /// A step that must come first, because it adds the tag that the selection uses.
+    /// A step that must be inserted before the command's step, because it adds the tag that the selection uses.
     pub before: Option<String>,
     /// The name of the object.
     pub object: String,
@@ -42,7 +44,7 @@ pub enum CommandError {
     /// The registry does not have the operation.
     #[error("the operation `{0}` does not exist")]
     Unknown(String),
-    /// The operation needs a selection, and nothing is picked.
+    /// The operation needs a selection, but no elements are picked.
     #[error("{operation} needs {kind}: pick some first")]
     NothingPicked {
         /// The operation.
@@ -50,18 +52,18 @@ pub enum CommandError {
         /// The kind of elements.
         kind: &'static str,
     },
-    /// A parameter has a problem: its name, and the problem.
+    /// A parameter of the operation is missing or has an invalid value.
     #[error("{operation}: {message}")]
     Parameter {
         /// The operation.
         operation: String,
-        /// The name of the parameter; empty if the problem is not about a parameter.
+        /// The name of the parameter. Empty if the problem is not about one parameter.
         field: String,
         /// The problem.
         message: String,
     },
-    /// The scene at the cursor is not known, because the run has not ended or has failed.
-    #[error("the scene at the cursor is not known: wait for the run, or correct the recipe")]
+    /// The scene at the step cursor is not known, because the run has not ended or has failed.
+    #[error("the scene at the cursor is not known: wait until the run ends, or correct the recipe")]
     NoScene,
     /// The object is neither a curve nor patches, or does not exist.
     #[error("\"{0}\" is not a curve or patches of the scene at the cursor")]
@@ -106,7 +108,7 @@ impl Command {
         }
     }
 
-    /// Adds a parameter with its value as RON.
+    /// Adds a parameter to the command. `value` is the value of the parameter as RON.
     #[must_use]
     pub fn with(mut self, name: &str, value: &str) -> Self {
         self.parameters.push((name.to_owned(), value.to_owned()));
@@ -114,7 +116,7 @@ impl Command {
     }
 }
 
-/// Operations after which elements keep their ids, so that the picked elements stay picked.
+/// Operations that do not change the ids of elements. After such an operation, the picked elements stay picked.
 const KEEPS_IDS: &[&str] = &[
     "FlipEdges",
     "SplitEdges",
@@ -147,7 +149,7 @@ const KEEPS_IDS: &[&str] = &[
 ];
 
 impl Editor {
-    /// Returns the selection that describes the picked elements, for a command.
+    /// Returns the selection that describes the picked elements, in the form in which a command needs it.
     pub fn selection(&mut self) -> Option<SelectionText> {
         let proposal = self.proposal()?.clone();
         let picked = self.picked.as_ref()?;
@@ -159,8 +161,8 @@ impl Editor {
         })
     }
 
-    /// Returns the command of a key, with the selection of the picked elements. `None` for an action that is not an
-    /// operation.
+    /// Returns the command that a key starts, with the selection of the picked elements. Returns `None` if the action
+    /// is not an operation.
     pub fn command_of(&mut self, action: Action) -> Option<Command> {
         let kind = self.picked.as_ref().map(crate::Picked::kind);
         let command = match action {
@@ -184,7 +186,7 @@ impl Editor {
         })
     }
 
-    /// Returns the initial distance for an extrusion: a fifth of the size of the picked object.
+    /// Returns the distance with which an extrusion starts: a fifth of the size of the object with the picked elements.
     fn extrusion(&self) -> String {
         let object = self
             .picked()
@@ -211,7 +213,7 @@ impl Editor {
     ///
     /// # Errors
     ///
-    /// [`CommandError`] if the operation does not exist, a parameter has a problem, or a selection is missing.
+    /// Returns [`CommandError`] if the operation does not exist, a parameter has a problem, or a selection is missing.
     pub fn steps_of(&self, command: &Command) -> Result<Vec<String>, CommandError> {
         let name = &command.operation;
         let entry = self
@@ -290,12 +292,12 @@ impl Editor {
             .collect())
     }
 
-    /// Inserts the steps of a command after the cursor, moves the cursor after them, and runs them.
+    /// Inserts the steps of a command after the step cursor, moves the cursor after the new steps, and runs them.
     ///
     /// # Errors
     ///
-    /// [`CommandError`]. The text is then unchanged. A command with a selection needs the scene at the cursor, because
-    /// the selection refers to elements of this scene.
+    /// [`CommandError`]. The text is then unchanged. A command that has a selection can be applied only if the scene at
+    /// the step cursor is known, because the selection refers to elements of this scene.
     pub fn apply(&mut self, command: &Command) -> Result<(), CommandError> {
         if command.selection.is_some() && self.preview.is_none() && !self.view().is_current {
             return Err(CommandError::NoScene);
@@ -310,19 +312,19 @@ impl Editor {
         Ok(())
     }
 
-    /// Returns the names of the objects that consist of Bezier patches, in the scene that the view shows.
+    /// Returns the names of the objects in the viewed scene that consist of Bezier patches.
     pub fn patches(&self) -> Vec<&str> {
         let objects = self.shown.objects().iter();
         let patches = objects.filter(|object| matches!(object.geometry, Geometry::Patches(_)));
         patches.map(|object| object.name.as_str()).collect()
     }
 
-    /// Inserts steps after the cursor that turn all Bezier patches of the scene into meshes, whose elements can be
-    /// picked: `Tessellate` and `Weld`.
+    /// Inserts the steps `Tessellate` and `Weld` after the step cursor. These two steps turn all Bezier patches of the
+    /// scene into meshes, whose elements can be picked.
     ///
     /// # Errors
     ///
-    /// [`CommandError::Text`] if the text cannot be edited.
+    /// Returns [`CommandError::Text`] if the text cannot be edited.
     pub fn turn_into_mesh(&mut self) -> Result<(), CommandError> {
         let patches = self.patches();
         let is_all = patches.len() == self.shown.objects().len();
@@ -339,7 +341,7 @@ impl Editor {
         self.edit(edits, "turn into a mesh", Some(cursor))
     }
 
-    /// Runs a command without writing it to the text, for a live preview. [`end_preview`](Self::end_preview) ends the
+    /// Runs a command as a live preview, without writing it to the text. [`end_preview`](Self::end_preview) ends the
     /// preview.
     ///
     /// # Errors
@@ -354,8 +356,9 @@ impl Editor {
     }
 }
 
-/// Returns the first parameter that selects elements, and the kind of elements that it selects. A command sets this
-/// parameter to the selection of the picked elements. `None` if the parameter already has a value.
+/// Returns the first parameter that selects elements, and the kind of elements that it selects. A command sets the
+/// first parameter that selects elements to the selection of the picked elements. Returns `None` if this parameter
+/// already has a value.
 fn unset_selection(panel: &Panel) -> Option<(&PanelField, Option<ElementKind>)> {
     let first = panel
         .fields
@@ -373,8 +376,9 @@ impl Panel {
         unset_selection(self).is_some_and(|(_, wanted)| wanted.is_none_or(|wanted| wanted == kind))
     }
 
-    /// Returns the parameter that a command with this selection sets, and the value that it gets as RON. `None` if the
-    /// operation has no such parameter, or if the picked elements do not fit.
+    /// Returns the name of the parameter that a command with this selection sets, and its new value as RON. Returns
+    /// `None` if the operation has no such parameter, or if the picked elements cannot be converted to the elements
+    /// that the parameter selects.
     pub fn picked_value(&self, selection: &SelectionText) -> Option<(String, String)> {
         let (field, kind) = unset_selection(self)?;
         let selection = selection.without_tag(&self.operation);
@@ -382,7 +386,8 @@ impl Panel {
     }
 }
 
-/// Returns a selection of the wanted kind: the selection itself, or its conversion to this kind, such as `EdgesWithin`.
+/// Converts a selection to a selection of elements of the kind `wanted`. A selection that already selects elements of
+/// this kind is returned unchanged. An example of a conversion is `EdgesWithin`.
 fn converted(selection: &SelectionText, wanted: Option<ElementKind>) -> Option<String> {
     let text = &selection.text;
     match wanted {
@@ -393,7 +398,7 @@ fn converted(selection: &SelectionText, wanted: Option<ElementKind>) -> Option<S
         }),
         Some(kind) if kind == selection.kind => Some(text.clone()),
         Some(kind) => {
-            // Of several conversions, the last is the narrowest: `EdgesWithin` instead of `EdgesAround`.
+            // `conversions` lists the narrowest conversion last: `EdgesWithin` comes after `EdgesAround`.
             let outer = kind.conversions(selection.kind).last()?;
             Some(format!("{outer}({text})"))
         }

@@ -1,4 +1,4 @@
-//! The files of an editor: recipes and models that are opened, recipes that are saved, and unsaved texts.
+//! Opens and saves the files of an editor: recipes, models, and unsaved texts that are recovered.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -15,11 +15,12 @@ use crate::text::Outline;
 use super::{Editor, OpenError};
 
 impl Editor {
-    /// Opens a recipe, or a model in a new recipe that loads it. The previous document is dropped.
+    /// Opens a recipe. If the file is a model, opens a new recipe that loads the model. The previous document is
+    /// discarded, even if it has unsaved changes.
     ///
     /// # Errors
     ///
-    /// [`OpenError`] if the file cannot be read or is neither a recipe nor a model. The document stays.
+    /// Returns [`OpenError`] if the file cannot be read or is neither a recipe nor a model. The document stays.
     pub fn open(&mut self, path: &Path) -> Result<(), OpenError> {
         let is_recipe = path
             .extension()
@@ -52,12 +53,12 @@ impl Editor {
         Ok(Document::new(recipe, new_text(&load)))
     }
 
-    /// Starts a new recipe. The previous document is dropped.
+    /// Starts a new recipe. The previous document is discarded, even if it has unsaved changes.
     pub fn new_recipe(&mut self) {
         self.set_document(new_document());
     }
 
-    /// Replaces the document, and runs it. The cursor is at the end.
+    /// Replaces the document of the editor, and runs the new document. The cursor is at the end.
     pub fn set_document(&mut self, document: Document) {
         self.document = document;
         self.outline = Outline::of(self.document.text());
@@ -69,15 +70,15 @@ impl Editor {
         self.show(None);
     }
 
-    /// Opens an unsaved text that [`recoverable`](crate::recoverable) has found. The previous document is dropped. The
-    /// text counts as unsaved, and its old journal is removed.
+    /// Opens an unsaved text that [`recoverable`](crate::recoverable) has found. The previous document is discarded,
+    /// even if it has unsaved changes. The recovered text counts as unsaved, and its old journal is removed.
     pub fn recover(&mut self, recovery: &Recovery) {
         self.set_document(recovery.document(&*self.store));
         self.keep_journal();
         recovery.discard(&*self.store);
     }
 
-    /// Writes the journal, if one is kept.
+    /// Writes the unsaved text to the journal, if the editor has a journal.
     pub(super) fn keep_journal(&mut self) {
         if let Some(journal) = &mut self.journal {
             journal.keep(&self.document, &*self.store);
@@ -88,7 +89,7 @@ impl Editor {
     ///
     /// # Errors
     ///
-    /// The errors of [`Document::save`].
+    /// Returns the errors of [`Document::save`].
     pub fn save(&mut self) -> Result<(), SaveError> {
         self.document.save(&*self.store)?;
         self.keep_journal();
@@ -96,12 +97,12 @@ impl Editor {
         Ok(())
     }
 
-    /// Saves the recipe to a file, which becomes the file of the document. The relative paths of its inputs are
-    /// rewritten if the file is in another folder.
+    /// Saves the recipe to another file. After saving, this file is the file of the document. If the file is in another
+    /// folder, relative paths of input files in the recipe are changed to fit the new folder.
     ///
     /// # Errors
     ///
-    /// The errors of [`Document::save_as`].
+    /// Returns the errors of [`Document::save_as`].
     pub fn save_as(&mut self, path: &Path) -> Result<(), StoreError> {
         let moved = self
             .with_moved_inputs(path)
@@ -118,7 +119,7 @@ impl Editor {
         saved
     }
 
-    /// Returns the text with the paths of its inputs relative to the folder of `path`.
+    /// Returns the text of the recipe, in which the paths of input files are relative to the folder of `path`.
     fn with_moved_inputs(&self, path: &Path) -> Option<String> {
         let rebase = Rebase {
             from: self.document.path().parent()?,
@@ -131,20 +132,21 @@ impl Editor {
         crate::text::apply(self.text(), edits).ok()
     }
 
-    /// Ends a conflict with another program that changed the file: the text stays, and the next save replaces the file.
+    /// Ends a conflict with another program that has changed the file. The text of the document stays, and the next
+    /// save replaces the file.
     pub fn keep_mine(&mut self) {
         self.document.keep_mine();
     }
 
-    /// Ends a conflict with another program that changed the file: its text becomes the text of the document. An undo
-    /// brings back the previous text.
+    /// Ends a conflict with another program that has changed the file. The text of the file becomes the text of the
+    /// document. [`undo`](Self::undo) restores the previous text of the document.
     pub fn take_theirs(&mut self) {
         self.document.take_theirs();
         self.text_changed(None);
     }
 }
 
-/// Returns a new recipe with a cube.
+/// Returns the document of a new recipe, which creates a cube.
 pub(super) fn new_document() -> Document {
     let cube = "Cube(name: \"cube\", size: 2, triangles: true)";
     Document::new("recipe.ron", new_text(cube))

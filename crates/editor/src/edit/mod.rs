@@ -1,4 +1,4 @@
-//! The editor: a document, its engine thread, the step cursor and the picked elements.
+//! The editor: a document, the thread that runs it, the step cursor and the picked elements.
 
 mod command;
 mod files;
@@ -35,10 +35,11 @@ pub struct Settings {
     pub out: PathBuf,
     /// The memory budget for the meshes of a run, in bytes. Defaults to [`engine::BUDGET`].
     pub budget: u64,
-    /// The maximum memory for the scenes that are kept after steps have run, in bytes. Defaults to 4 GiB.
+    /// The maximum memory, in bytes, for the scenes after steps that are kept so that these steps need not run again.
+    /// Defaults to 4 GiB.
     pub memory: u64,
-    /// The folder of journals, for the recovery of unsaved texts after a crash. If `None`, which is the default, no
-    /// journal is written.
+    /// The folder for journals, from which unsaved texts are recovered after a crash. If `None`, which is the default,
+    /// no journal is written.
     pub journals: Option<PathBuf>,
 }
 
@@ -53,7 +54,7 @@ impl Default for Settings {
     }
 }
 
-/// The editor: a document, its engine thread, the step cursor and the picked elements.
+/// The editor: a document, the thread that runs it, the step cursor and the picked elements.
 pub struct Editor {
     registry: Arc<Registry>,
     store: Arc<dyn Store>,
@@ -63,30 +64,32 @@ pub struct Editor {
     outline: Outline,
     runner: Runner,
     run: RunState,
-    /// The number of the newest request.
+    /// The number of the newest request to run a text.
     number: u64,
-    /// The version of the text that `run` belongs to; `None` for a preview.
+    /// The version of the text to which `run` belongs. `None` if `run` belongs to a preview.
     run_version: Option<u64>,
-    /// The version of the text of the newest request; `None` for a preview.
+    /// The version of the text that was last requested to run. `None` if a preview was requested.
     requested: Option<u64>,
-    /// Whether `run` belongs to the newest request.
+    /// Whether `run` belongs to the newest request to run a text.
     is_checked: bool,
-    /// Whether the newest request was canceled.
+    /// Whether the newest request to run a text was canceled.
     is_canceled: bool,
-    /// The text that runs in place of the document's text.
+    /// The text of a preview, which runs in place of the document's text.
     preview: Option<Arc<str>>,
     /// The number of steps that the preview inserts at the cursor.
     preview_steps: usize,
     /// The number of steps of the text before the cursor.
     cursor: usize,
-    /// The scene that is shown until the scene at the cursor is known.
+    /// The scene that is shown as long as the scene at the step cursor is not known.
     shown: Arc<Scene>,
     picked: Option<Picked>,
-    /// Whether the scene that is shown has all picked elements. A preview may lack some of them for a while.
+    /// Whether the scene that is shown has all picked elements. In a preview, some of the picked elements may be
+    /// missing for a while.
     has_picked: bool,
     /// The selections that describe the picked elements.
     proposals: Proposals,
-    /// The selection that was typed, or that describes one picked element, until another one is requested.
+    /// The selection that describes the picked elements until another selection is requested. The user has typed it, or
+    /// it describes one picked element.
     first_proposal: Option<Proposal>,
     proposal: usize,
     indexes: Indexes,
@@ -107,14 +110,14 @@ pub enum OpenError {
     Kind(PathBuf, String),
 }
 
-/// What changed since the last poll.
+/// The things that have changed since the last call of [`Editor::poll`].
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Update {
     /// Whether the scene at the cursor may have changed.
     pub scene: bool,
     /// Whether the state of the run changed.
     pub run: bool,
-    /// What happened to the file of the recipe.
+    /// The change that another program made to the file of the recipe, if any.
     pub file: Option<FileChange>,
 }
 
@@ -123,8 +126,8 @@ pub struct Update {
 pub struct View {
     /// The scene.
     pub scene: Arc<Scene>,
-    /// Whether `scene` is the scene after the step at the cursor. If not, `scene` is the last scene that was known: the
-    /// run has not ended or has failed.
+    /// Whether `scene` is the scene after the steps before the step cursor. If the run has not ended or has failed,
+    /// `scene` is an earlier scene instead: the last scene that was known.
     pub is_current: bool,
 }
 
@@ -181,24 +184,24 @@ impl Editor {
         &self.registry
     }
 
-    /// Returns the spatial indexes for picking.
+    /// Returns the spatial indexes of meshes that are used to pick elements.
     pub fn indexes(&self) -> &Indexes {
         &self.indexes
     }
 
-    /// Sets a function that is called from other threads when [`poll`](Self::poll) has something new.
+    /// Sets a function that is called, from other threads, when [`poll`](Self::poll) would return a change.
     pub fn on_wake(&self, wake: Wake) {
         self.runner.on_event(wake.clone());
         self.indexes.on_ready(wake);
     }
 
-    /// Replaces the text, as typing does. Consecutive changes of this kind are one entry of the history.
+    /// Replaces the text, as typing does. Consecutive changes by typing become one entry of the history.
     pub fn set_text(&mut self, text: &str) {
         self.change(text, "type", true);
     }
 
-    /// Undoes the last change of the text. No step runs if the scenes of the earlier text are still known. Returns
-    /// whether there was a change.
+    /// Undoes the last change of the text. If the scenes of the earlier text are still in memory, no step has to run.
+    /// Returns whether there was a change to undo.
     pub fn undo(&mut self) -> bool {
         let done = self.document.undo();
         if done {
@@ -231,12 +234,13 @@ impl Editor {
         &self.run
     }
 
-    /// Whether [`run`](Self::run) is about the current text, so that its spans fit the text.
+    /// Whether [`run`](Self::run) belongs to the current text. If the run belongs to the current text, the spans in the
+    /// state of the run fit the text.
     pub fn is_run_current(&self) -> bool {
         self.run_version == Some(self.document.version())
     }
 
-    /// Whether a run is in progress or waiting.
+    /// Whether a run is in progress, or is waiting to start.
     pub fn is_running(&self) -> bool {
         !self.is_canceled && (!self.is_checked || self.run.is_running())
     }
@@ -249,7 +253,7 @@ impl Editor {
         Some(self.runner.progress(self.number).unwrap_or_default())
     }
 
-    /// Cancels the run. The scenes that are known stay.
+    /// Cancels the run. The scenes of the steps that have already run are kept.
     pub fn cancel(&mut self) {
         if self.is_running() {
             self.runner.cancel();
@@ -258,12 +262,12 @@ impl Editor {
         }
     }
 
-    /// Runs the recipe again from the start and writes its outputs.
+    /// Runs the whole recipe again from the first step, and writes its output files.
     pub fn write_outputs(&mut self) {
         self.request(true);
     }
 
-    /// Receives the messages of the engine thread. Returns what changed, or `None` if nothing did.
+    /// Receives the messages of the engine thread. Returns the changes, or `None` if nothing has changed.
     pub fn poll(&mut self) -> Option<Update> {
         let mut update = Update::default();
         for event in self.runner.events() {
@@ -340,8 +344,8 @@ impl Editor {
         }
     }
 
-    /// Returns the step cursor: the number of steps of the text before the cursor. The view shows the scene after these
-    /// steps, and new steps come after them.
+    /// Returns the step cursor: the number of steps of the text before the cursor. The view shows the scene after the
+    /// steps before the cursor. New steps are inserted at the cursor.
     pub fn cursor(&self) -> usize {
         self.cursor
     }
@@ -363,16 +367,16 @@ impl Editor {
         }
     }
 
-    /// Returns the steps of the newest run that belong to a step of the text, as a range of indices. A preview can have
-    /// more steps than the text.
+    /// Returns the steps of the newest run that belong to a step of the text, as a range of indices. The indices can
+    /// differ from those of the text, because a preview can have more steps than the text.
     pub fn steps_of_item(&self, item: usize) -> std::ops::Range<usize> {
         let is_after = item >= self.cursor;
         let new = if is_after { self.preview_steps } else { 0 };
         self.run.steps_of(item + new)
     }
 
-    /// Returns the last known result of the steps before the cursor, and whether it is the result of the last of these
-    /// steps.
+    /// Returns the last known result among the steps before the cursor. Also returns whether the returned result is the
+    /// result of the step right before the cursor.
     fn result(&self) -> (Option<&Snapshot>, bool) {
         let n = self.cursor + self.preview_steps;
         let (last, is_known) = self.run.result_after(n);
@@ -384,7 +388,8 @@ impl Editor {
         (last, is_known && is_read)
     }
 
-    /// Keeps the scene at the cursor as the scene that is shown. If the recipe has errors, the last scene stays.
+    /// Makes the scene at the step cursor the scene that is shown. If the recipe has errors, the scene that was shown
+    /// last is still shown.
     fn keep_shown(&mut self) {
         let (last, is_known) = self.result();
         let shown = match last {
@@ -417,8 +422,8 @@ impl Editor {
         changed
     }
 
-    /// Reads the outline of the changed text and runs it. If `cursor` is `None`, the cursor keeps its place between the
-    /// steps.
+    /// Reads the outline of the changed text and runs it. If `cursor` is `None`, the number of steps before the step
+    /// cursor stays the same. A cursor after the last step stays after the last step.
     fn text_changed(&mut self, cursor: Option<usize>) {
         let new = Outline::of(self.document.text());
         let (old_n, new_n) = (self.outline.steps.len(), new.steps.len());
@@ -450,7 +455,7 @@ impl Editor {
             .clone()
             .unwrap_or_else(|| self.document.text().clone());
         self.requested = self.preview.is_none().then(|| self.document.version());
-        // The current state belongs to another text.
+        // The existing results come from an earlier version of the text.
         self.run_version = None;
         self.runner.request(Request {
             number: self.number,
@@ -462,14 +467,14 @@ impl Editor {
         });
     }
 
-    /// Writes the unsaved text to the journal, and keeps it there when the editor is dropped, so that the next start
-    /// offers the text. A program calls this function if it must end although the text is not saved.
+    /// Writes the unsaved text to the journal, and keeps the journal when the editor is dropped. At its next start, the
+    /// program can offer the text. A program calls this function if it must end before the user can save the text.
     pub fn leave_journal(&mut self) {
         self.keep_journal();
         self.journal = None;
     }
 
-    /// Watches the file of the recipe, the recipes that it calls, and its inputs.
+    /// Watches the file of the recipe, the files of the recipes that it calls, and its input files.
     fn watch(&self) {
         let own = self.document.seen();
         self.runner.watch(

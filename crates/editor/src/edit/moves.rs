@@ -8,19 +8,19 @@ use serde::Deserialize;
 use super::{Command, CommandError, Editor};
 use crate::panel::number;
 
-/// How picked elements move. The axes are those of [`Editor::picked_axes`].
+/// How picked elements move. The axes are the axes that [`Editor::picked_axes`] returns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Movement {
-    /// By an offset in scene units, along the axes of the scene.
+    /// Move by an offset in scene units, along the axes of the scene.
     Offset(DVec3),
-    /// Around an axis through their center: the index of the axis, and the angle in degrees, counter-clockwise when the
-    /// axis points towards the viewer.
+    /// Rotate around an axis through the center of the elements. The values are the index of the axis and the angle in
+    /// degrees. The rotation is counter-clockwise when the axis points towards the viewer.
     Rotate(usize, f64),
-    /// By factors along the axes, about their center.
+    /// Scale by a factor along each axis, about the center of the elements.
     Scale(DVec3),
 }
 
-/// The parameter `by` of a step `MoveVertices` that a drag changes.
+/// The value of the parameter `by` of a step `MoveVertices`, which changes when the user drags the picked elements.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
 enum By {
     Offset([f64; 3]),
@@ -29,7 +29,7 @@ enum By {
 }
 
 impl By {
-    /// Returns the movement in the space of the object.
+    /// Converts the movement to the space of the object.
     fn of(movement: Movement, to_scene: DAffine3) -> Self {
         let map = to_scene.matrix3;
         match movement {
@@ -47,7 +47,7 @@ impl By {
             }
             Movement::Rotate(axis, angle) => Self::Rotate {
                 axis: [Axis::X, Axis::Y, Axis::Z][axis.min(2)],
-                // A mirrored object turns the other way.
+                // In a mirrored object, the same rotation has the opposite direction.
                 angle: if map.determinant() < 0.0 {
                     -angle
                 } else {
@@ -58,7 +58,7 @@ impl By {
         }
     }
 
-    /// Returns one movement with the effect of both, if there is one.
+    /// Combines two movements to one movement with the same effect. Returns `None` if they cannot be combined.
     fn then(self, next: Self) -> Option<Self> {
         Some(match (self, next) {
             (Self::Offset(a), Self::Offset(b)) => {
@@ -107,7 +107,7 @@ impl By {
 }
 
 impl Editor {
-    /// Returns the mean of the vertices of the picked elements, in scene units. `None` if nothing is picked.
+    /// Returns the mean position of the vertices of the picked elements, in scene space. `None` if nothing is picked.
     pub fn picked_center(&self) -> Option<DVec3> {
         let picked = self.picked()?;
         let mesh = self.shown.object(&picked.object)?.as_mesh()?;
@@ -117,8 +117,8 @@ impl Editor {
         Some(self.placed(&picked.object).transform_point3(center))
     }
 
-    /// Returns the axes of the object with the picked elements, as unit vectors of the scene. If nothing is picked, the
-    /// axes of the scene.
+    /// Returns the axes of the object with the picked elements, as unit vectors of the scene. If no elements are
+    /// picked, returns the axes of the scene.
     pub fn picked_axes(&self) -> [DVec3; 3] {
         let object = self.picked().map(|picked| self.placed(&picked.object));
         let map = object.unwrap_or_default().matrix3;
@@ -126,8 +126,8 @@ impl Editor {
         axes.map(|axis| (map * axis).try_normalize().unwrap_or(axis))
     }
 
-    /// Returns the map from the space of an object to the scene. If the scene has several instances of the object, the
-    /// map of the first instance.
+    /// Returns the affine map from the space of an object to the space of the scene. If the scene has several instances
+    /// of the object, returns the map of the first instance.
     fn placed(&self, object: &str) -> DAffine3 {
         let instances = self.shown.instances();
         let mut all = instances.iter();
@@ -135,13 +135,15 @@ impl Editor {
         found.map_or(DAffine3::IDENTITY, |instance| instance.to_scene)
     }
 
-    /// Moves the picked elements with a step `MoveVertices`. If the step before the cursor moves the same elements in
-    /// the same way, the parameter `by` of that step is changed, so that dragging several times gives one step. With
-    /// `is_preview`, the text stays as it is.
+    /// Moves the picked elements with a step `MoveVertices`. If the step before the cursor already moves the same
+    /// elements in the same way, the parameter `by` of that step is changed instead. If the user drags the same
+    /// elements several times, the text thus gets only one step. If `is_preview` is true, the movement is only
+    /// previewed, and the text does not change.
     ///
     /// # Errors
     ///
-    /// [`CommandError::NothingPicked`] if nothing is picked; other errors as [`Editor::apply`].
+    /// Returns [`CommandError::NothingPicked`] if no elements are picked. All errors of [`Editor::apply`] are also
+    /// possible.
     pub fn move_picked(
         &mut self,
         movement: Movement,
@@ -178,7 +180,8 @@ impl Editor {
         }
     }
 
-    /// Returns the step before the cursor and its movement, if it moves the same elements as the new step.
+    /// If the step before the cursor moves the same elements as the new step, returns the index and the movement of
+    /// that step.
     fn moves_same(&self, new: &[String]) -> Option<(usize, By)> {
         let [new] = new else { return None };
         let step = self.cursor().checked_sub(1)?;
@@ -199,12 +202,12 @@ impl Editor {
     }
 }
 
-/// Rounds to 12 significant digits.
+/// Rounds a number to 12 significant digits.
 fn rounded(x: f64) -> f64 {
     format!("{x:.11e}").parse().unwrap_or(x)
 }
 
-/// Returns the vertices of elements, each once.
+/// Returns the vertices of elements. Each vertex is in the list only once.
 fn vertices_of(mesh: &Mesh, elements: &Selected) -> Vec<VertexId> {
     let mut vertices: Vec<VertexId> = match elements {
         Selected::Vertices(list) => return list.clone(),

@@ -10,29 +10,29 @@ use crate::select::{Picked, Proposal, propose, propose_one};
 
 use super::Editor;
 
-/// For a mesh with more edges than this number, a separate thread searches for the selections.
+/// If a mesh has more edges than this, a separate thread searches for the selections that describe the picked elements.
 const MAX_AT_ONCE: usize = 50_000;
 
 /// The selections that describe the picked elements.
 #[derive(Default)]
 pub(super) enum Proposals {
-    /// They have not been requested yet.
+    /// The selections have not been requested yet.
     #[default]
     Unknown,
-    /// A thread searches for them.
+    /// A thread searches for the selections.
     Searching(JoinHandle<Vec<Proposal>>),
-    /// They are known.
+    /// The selections are known.
     Known(Vec<Proposal>),
 }
 
 impl Editor {
-    /// Returns the picked elements, which exist in the scene that the view shows. `None` while a preview lacks some of
-    /// them.
+    /// Returns the picked elements. All picked elements exist in the scene that the view shows. Returns `None` if a
+    /// preview is shown whose scene does not have all picked elements.
     pub fn picked(&self) -> Option<&Picked> {
         self.picked.as_ref().filter(|_| self.has_picked)
     }
 
-    /// Sets the picked elements of the scene that the view shows.
+    /// Sets the picked elements, which must be elements of the scene that the view shows.
     pub fn set_picked(&mut self, picked: Option<Picked>) {
         self.picked = picked.filter(|picked| !picked.is_empty());
         self.has_picked = true;
@@ -40,8 +40,8 @@ impl Editor {
         self.proposals = Proposals::default();
     }
 
-    /// Returns the selections that describe the picked elements, the best first. The list is computed once for each
-    /// pick.
+    /// Returns the selections that describe the picked elements, the best first. The list is computed only once for the
+    /// same picked elements.
     pub fn proposals(&mut self) -> &[Proposal] {
         self.search();
         self.proposals = match std::mem::take(&mut self.proposals) {
@@ -55,7 +55,7 @@ impl Editor {
         }
     }
 
-    /// Returns the selection that commands use for the picked elements.
+    /// Returns the selection with which commands describe the picked elements.
     pub fn proposal(&mut self) -> Option<&Proposal> {
         let at = self.proposal;
         if self.first_proposal.is_none() && matches!(self.proposals, Proposals::Unknown) {
@@ -89,8 +89,8 @@ impl Editor {
     }
 
     /// Whether the search for the selections that describe several picked elements is still in progress. In a large
-    /// mesh, the search takes long. Commands wait for the search; a window calls this function before it shows a
-    /// selection.
+    /// mesh, the search takes long. Commands wait for the end of the search. A window calls this function before it
+    /// shows a selection, so that it does not wait.
     pub fn is_searching(&mut self) -> bool {
         let is_one = self.picked.as_ref().is_some_and(|picked| picked.len() == 1);
         if !is_one && self.first_proposal.is_none() {
@@ -99,8 +99,8 @@ impl Editor {
         matches!(&self.proposals, Proposals::Searching(thread) if !thread.is_finished())
     }
 
-    /// Whether another selection may describe the picked elements. All selections are computed only when they are
-    /// requested, because their computation takes long in a large mesh.
+    /// Whether there may be another selection that describes the picked elements. The selections are computed only when
+    /// they are requested, because this takes long in a large mesh.
     pub fn may_have_other_proposal(&self) -> bool {
         match &self.proposals {
             Proposals::Known(proposals) => proposals.len() > 1,
@@ -108,7 +108,8 @@ impl Editor {
         }
     }
 
-    /// Chooses the next selection that describes the picked elements. After the last selection, chooses the first.
+    /// Chooses the next selection that describes the picked elements. If the last selection is chosen now, chooses the
+    /// first selection.
     pub fn next_proposal(&mut self) {
         let first = self.first_proposal.take();
         self.proposals();
@@ -122,13 +123,15 @@ impl Editor {
         self.proposal = (self.proposal + 1) % all.len().max(1);
     }
 
-    /// Picks the elements that a selection of a recipe selects. Commands then use this text. The selection is of the
-    /// given kind or, if the text does not fit this kind, of another kind. The object is that of the picked elements,
-    /// or else the first mesh.
+    /// Picks the elements that a typed selection selects. The text has the form of a selection in a recipe. Commands
+    /// then use this text. If elements are picked, the text is read as a selection of elements of their kind. If
+    /// nothing is picked, the text is read as a selection of elements of the given kind. If the text does not fit one
+    /// kind of elements, the other kinds are tried. The elements are selected on the object with the picked elements
+    /// or, if nothing is picked, on the first mesh.
     ///
     /// # Errors
     ///
-    /// A message if the text is not a selection, is refused, or selects no elements.
+    /// Returns a message if the text is not a selection, if the selection is refused, or if it selects no elements.
     pub fn pick_by_text(&mut self, text: &str, kind: ElementKind) -> Result<(), String> {
         let kind = self.picked.as_ref().map_or(kind, Picked::kind);
         let object = if let Some(picked) = &self.picked {
@@ -161,13 +164,13 @@ impl Editor {
         Ok(())
     }
 
-    /// Drops picked elements that the scene at the cursor does not have.
+    /// Removes the elements from the picked elements that do not exist in the scene at the step cursor.
     pub(super) fn keep_picked(&mut self) {
         let existing = self.existing();
         self.set_picked(existing);
     }
 
-    /// Returns the picked elements that the scene at the cursor has.
+    /// Returns the picked elements that exist in the scene at the step cursor.
     pub(super) fn existing(&self) -> Option<Picked> {
         let picked = self.picked.as_ref()?;
         let mesh = self.shown.object(&picked.object)?.as_mesh()?;

@@ -1,4 +1,4 @@
-//! Records a test: adds expectations that the scene meets.
+//! Records a test: adds expectations to the recipe that its scene meets now.
 
 use engine::{FileReader, Silent};
 use op::Files;
@@ -10,14 +10,14 @@ use super::{CommandError, Editor};
 use crate::text::{self, Outline};
 
 impl Editor {
-    /// Adds expectations about the scene at the cursor: its counts, and `Manifold` and `Closed` if they hold. If the
-    /// cursor is before the end, the step before the cursor gets an id, and the expectations are checked after this
-    /// step. Returns the expectations.
+    /// Adds expectations about the scene at the step cursor: the numbers of its elements, and `Manifold` and `Closed`
+    /// if they hold. If the step cursor is not at the end of the recipe, the step before the cursor gets an id, and the
+    /// expectations are checked after this step. Returns the expectations.
     ///
     /// # Errors
     ///
-    /// [`CommandError::Text`] if the text has errors. [`CommandError::NoScene`] if the scene at the cursor is not
-    /// known.
+    /// Returns [`CommandError::Text`] if the text has errors. Returns [`CommandError::NoScene`] if the scene at the
+    /// step cursor is not known.
     pub fn record_test(&mut self) -> Result<Vec<String>, CommandError> {
         let view = self.view();
         if !view.is_current {

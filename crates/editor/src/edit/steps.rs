@@ -1,4 +1,4 @@
-//! Changes of the steps, the parameters and the expectations of the text.
+//! Changes the steps, the parameters and the expectations of the recipe's text.
 
 use std::sync::Arc;
 
@@ -7,7 +7,7 @@ use crate::panel::Panel;
 use crate::text::{self, Edits, TextError};
 
 impl Editor {
-    /// Applies edits to the text and runs it.
+    /// Applies edits to the text of the recipe, and runs the changed recipe.
     pub(super) fn edit(
         &mut self,
         edits: Edits,
@@ -45,7 +45,7 @@ impl Editor {
     ///
     /// # Errors
     ///
-    /// [`CommandError::Text`] if the span is out of range or splits a character.
+    /// Returns [`CommandError::Text`] if the span is out of range or splits a character.
     pub fn replace_span(
         &mut self,
         start: usize,
@@ -56,18 +56,19 @@ impl Editor {
         self.edit(edits, "edit", None)
     }
 
-    /// Returns the panel of a step. `None` if the step does not exist or its operation is unknown.
+    /// Returns the panel of a step. Returns `None` if the step does not exist or its operation is unknown.
     pub fn panel(&self, step: usize) -> Option<Panel> {
         Panel::of_step(self.registry(), self.outline.run_of(step)?, self.text())
     }
 
-    /// Sets a parameter of a step, given by its path: `["edges", "Random", "count"]`. `None` removes it, so that it
-    /// gets its default. Comments and layout stay.
+    /// Sets a parameter of a step, or a part of its value. The path, such as `["edges", "Random", "count"]`, says which
+    /// part is set. If the new value is `None`, the parameter is removed from the text, so that it has its default
+    /// value. Comments and layout stay.
     ///
     /// # Errors
     ///
-    /// [`CommandError::Text`] if the step does not exist, or if `path` leads into a value without fields or to an item
-    /// that does not exist.
+    /// Returns [`CommandError::Text`] if the step does not exist, or if `path` leads into a value without fields or to
+    /// an item that does not exist.
     pub fn set_parameter(
         &mut self,
         step: usize,
@@ -78,13 +79,13 @@ impl Editor {
         self.edit(edits, "change a parameter", None)
     }
 
-    /// Runs the recipe with another value of a parameter of a step, while a slider is dragged. A newer value cancels
-    /// the run with an older one. [`set_parameter`](Self::set_parameter) writes a value to the text;
-    /// [`end_preview`](Self::end_preview) ends the preview.
+    /// Runs the recipe with another value of a parameter of a step, as a preview while a slider is dragged. If a run
+    /// with an older value is still in progress, it is canceled. Afterwards, [`set_parameter`](Self::set_parameter) can
+    /// write the value to the text, or [`end_preview`](Self::end_preview) can end the preview.
     ///
     /// # Errors
     ///
-    /// As [`set_parameter`](Self::set_parameter).
+    /// Returns the errors of [`set_parameter`](Self::set_parameter).
     pub fn preview_parameter(
         &mut self,
         step: usize,
@@ -107,28 +108,28 @@ impl Editor {
         text::set_field(self.text(), run, &path, value)
     }
 
-    /// Returns the text of a parameter of a step; `None` if the text does not have it.
+    /// Returns the text of the value of a parameter of a step. Returns `None` if the step does not set the parameter.
     pub fn parameter(&self, step: usize, path: &[&str]) -> Option<&str> {
         let path: Vec<String> = path.iter().map(|&item| item.to_owned()).collect();
         let value = text::field_value(self.outline.run_of(step)?, &path)?;
         Some(value.span.of(self.text()))
     }
 
-    /// Sets the default of a parameter of the recipe.
+    /// Sets the default value of a parameter of the recipe.
     ///
     /// # Errors
     ///
-    /// [`CommandError::Text`] if the parameter does not exist.
+    /// Returns [`CommandError::Text`] if the parameter does not exist.
     pub fn set_recipe_parameter(&mut self, name: &str, value: &str) -> Result<(), CommandError> {
         let edits = self.recipe_parameter_edits(name, value)?;
         self.edit(edits, "change a parameter of the recipe", None)
     }
 
-    /// Runs the recipe with another default of a parameter, while a slider is dragged.
+    /// Runs the recipe with another default value of one of its parameters, as a preview while a slider is dragged.
     ///
     /// # Errors
     ///
-    /// As [`set_recipe_parameter`](Self::set_recipe_parameter).
+    /// Returns the errors of [`set_recipe_parameter`](Self::set_recipe_parameter).
     pub fn preview_recipe_parameter(
         &mut self,
         name: &str,
@@ -150,7 +151,7 @@ impl Editor {
     ///
     /// # Errors
     ///
-    /// [`CommandError::Text`] if the step does not exist.
+    /// Returns [`CommandError::Text`] if the step does not exist.
     pub fn delete_step(&mut self, step: usize) -> Result<(), CommandError> {
         let edits = text::remove_step(self.text(), &self.outline, step)?;
         let cursor = if step < self.cursor() {
@@ -161,11 +162,11 @@ impl Editor {
         self.edit(edits, "delete a step", Some(cursor))
     }
 
-    /// Inserts a copy of a step after the step. If the step has an id, the copy gets a new id.
+    /// Inserts a copy of a step directly after this step. If the step has an id, the copy gets a new id.
     ///
     /// # Errors
     ///
-    /// [`CommandError::Text`] if the step does not exist.
+    /// Returns [`CommandError::Text`] if the step does not exist.
     pub fn duplicate_step(&mut self, step: usize) -> Result<(), CommandError> {
         let edits = text::duplicate_step(self.text(), &self.outline, step)?;
         let cursor = if step < self.cursor() {
@@ -176,22 +177,23 @@ impl Editor {
         self.edit(edits, "duplicate a step", Some(cursor))
     }
 
-    /// Moves a step, so that it has the index `to`. The comments above it and at the end of its line move with it.
+    /// Moves the step with the index `from`, so that its new index is `to`. The comments above the step, and the
+    /// comments at the end of its line, move with the step.
     ///
     /// # Errors
     ///
-    /// [`CommandError::Text`] if a step does not exist.
+    /// Returns [`CommandError::Text`] if there is no step with one of these indices.
     pub fn move_step(&mut self, from: usize, to: usize) -> Result<(), CommandError> {
         let edits = text::move_step(self.text(), &self.outline, from, to)?;
         let cursor = self.cursor();
         self.edit(edits, "move a step", Some(cursor))
     }
 
-    /// Enables or disables a step. A disabled step has `enabled: false`.
+    /// Enables or disables a step. In the text of the recipe, a disabled step has `enabled: false`.
     ///
     /// # Errors
     ///
-    /// [`CommandError::Text`] if the step does not exist.
+    /// Returns [`CommandError::Text`] if the step does not exist.
     pub fn set_enabled(&mut self, step: usize, enabled: bool) -> Result<(), CommandError> {
         let edits = text::set_enabled(self.text(), &self.outline, step, enabled)?;
         let label = if enabled {
@@ -207,7 +209,7 @@ impl Editor {
     ///
     /// # Errors
     ///
-    /// [`CommandError::Text`] if the text has errors.
+    /// Returns [`CommandError::Text`] if the text has errors.
     pub fn add_expectations(&mut self, expectations: &[String]) -> Result<(), CommandError> {
         let edits = text::add_expectations(self.text(), &self.outline, expectations)?;
         self.edit(edits, "record a test", None)

@@ -1,4 +1,4 @@
-//! The kinds of fields, which are read from JSON schemas, and the values that widgets show.
+//! The kinds of a panel's fields, which are read from JSON schemas, and the values that the widgets of fields show.
 
 use op::ElementKind;
 use ron_tree::{Number, Value, ValueKind, parse, string_literal};
@@ -16,19 +16,19 @@ pub enum FieldKind {
     Integer(Limits),
     /// `true` or `false`.
     Bool,
-    /// One of several names, each with its description.
+    /// One of several names. Each name has a description.
     Choice(Vec<(String, String)>),
     /// A text in quotes.
     Text,
-    /// Two or three numbers `(x, y, z)`, with this length.
+    /// A tuple of two or three numbers, such as `(x, y, z)`. The content of the variant is the length.
     Vector(usize),
-    /// One of several variants, some of which have content.
+    /// One variant of an enumeration in which some variants have content.
     Variants(Vec<Variant>),
     /// A struct with these fields.
     Struct(Vec<PanelField>),
-    /// A selection of elements. If `None`, a selection of elements of any kind.
+    /// A selection of elements. If `None`, the selection can select elements of any kind.
     Selection(Option<ElementKind>),
-    /// Any other type. Its widget is a text field for RON, which is checked.
+    /// Any other type. The widget of such a field is a text field for RON. The text is checked.
     Other,
     /// A value of this kind, or none.
     Optional(Box<FieldKind>),
@@ -59,7 +59,7 @@ impl Limits {
         low && high && value.is_finite()
     }
 
-    /// Returns a number in the range: 1, if 1 is in the range.
+    /// Returns an initial number that is in the range. If 1 is in the range, returns 1.
     fn first(&self) -> f64 {
         match (self.min, self.max) {
             _ if self.allows(1.0) => 1.0,
@@ -80,7 +80,8 @@ fn integer(x: f64) -> i64 {
 }
 
 impl FieldKind {
-    /// Returns the kind of a field with this schema. References are looked up in `root`.
+    /// Returns the kind of a field whose values have this JSON schema. References in the schema are looked up in the
+    /// schema `root`.
     pub(super) fn at_depth(json: &Json, root: &Json, depth: usize) -> Self {
         // Schemas can refer to themselves.
         if depth > 8 {
@@ -177,7 +178,7 @@ impl FieldKind {
         }
     }
 
-    /// Returns the kind of the value itself, without `Optional` around it.
+    /// If the kind is `Optional`, returns the kind inside it. If the kind is not `Optional`, returns the kind itself.
     pub fn inner(&self) -> &Self {
         match self {
             Self::Optional(inner) => inner.inner(),
@@ -186,7 +187,7 @@ impl FieldKind {
     }
 }
 
-/// Returns the names of an enumeration whose variants have no content.
+/// If no variant of an enumeration has content, returns the names of the variants.
 fn choice(json: &Json) -> Option<Vec<(String, String)>> {
     let text = |json: &Json| json.as_str().map(str::to_owned);
     if let Some(names) = json["enum"].as_array() {
@@ -221,7 +222,7 @@ fn limits(json: &Json) -> Limits {
     }
 }
 
-/// Returns the length of an array of two or three numbers.
+/// Returns the length of an array if its schema allows exactly two or exactly three numbers.
 fn vector(json: &Json) -> Option<usize> {
     let is_number = |item: &Json| item["type"] == "number";
     let n = if let Some(items) = json["prefixItems"].as_array() {
@@ -234,7 +235,7 @@ fn vector(json: &Json) -> Option<usize> {
     (2..=3).contains(&n).then_some(n)
 }
 
-/// A value, as its widget shows it.
+/// The value of a field, in the form in which a widget shows it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FieldValue {
     /// A number.
@@ -251,7 +252,7 @@ pub enum FieldValue {
     Vector(Vec<f64>),
     /// Any other value as RON.
     Ron(String),
-    /// No value, for an optional field.
+    /// The field is optional and has no value.
     None,
 }
 
@@ -273,7 +274,7 @@ impl FieldValue {
         }
     }
 
-    /// Reads a value of a kind from RON. `None` if the text is not a value of this kind.
+    /// Parses the RON text of a value of the given kind. Returns `None` if the text is not a value of this kind.
     pub fn read(kind: &FieldKind, text: &str) -> Option<Self> {
         let parsed = parse(text);
         if !parsed.diagnostics.is_empty() {
@@ -319,7 +320,7 @@ impl FieldValue {
     }
 }
 
-/// Returns the shortest text that reads back as the same number: `2` and `0.5`.
+/// Returns the shortest text that is parsed to the same number, such as `2` or `0.5`.
 pub(crate) fn number(x: f64) -> String {
     if x.is_finite() && x.abs() < 1e15 && x.abs() >= 1e-5 || x == 0.0 {
         let text = format!("{x}");

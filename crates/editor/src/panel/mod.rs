@@ -1,5 +1,5 @@
-//! The panel of an operation: a list of fields, generated from the schema of its parameters. A panel writes the text of
-//! a step.
+//! The panel of an operation: a list of fields, generated from the schema of its parameters. With its values, a panel
+//! writes the text of a step.
 
 mod kind;
 mod parts;
@@ -18,7 +18,7 @@ pub(crate) use kind::number;
 pub struct Panel {
     /// The name of the operation.
     pub operation: String,
-    /// One line: what the operation does.
+    /// A summary of the operation in one line.
     pub summary: String,
     /// The description of the operation. Each paragraph is one line.
     pub doc: String,
@@ -26,7 +26,7 @@ pub struct Panel {
     pub example: String,
     /// The fields, in the order of the documentation.
     pub fields: Vec<PanelField>,
-    /// The names of the fields that have a value, in the order of the text.
+    /// The names of the fields that have a value, in the order in which the text of the step sets them.
     order: Vec<String>,
     schema: serde_json::Value,
 }
@@ -38,40 +38,40 @@ pub struct PanelField {
     pub name: String,
     /// The description of the parameter.
     pub doc: String,
-    /// The kind of values, which determines the widget.
+    /// The kind of the parameter's values, which determines the widget of the field.
     pub kind: FieldKind,
-    /// The type in words, as in the reference.
+    /// The type of the parameter in words, as in the reference of operations.
     pub type_name: String,
-    /// The variants of the type, for completion.
+    /// The variants of the parameter's type, which are offered while the user types.
     pub variants: Vec<VariantDoc>,
-    /// The default as RON; `None` if the parameter is required.
+    /// The default value as RON. `None` if the parameter is required.
     pub default: Option<String>,
-    /// The value in the step as RON; `None` if the step does not set the parameter.
+    /// The value that the step gives to the parameter, as RON. `None` if the step does not set the parameter.
     pub value: Option<String>,
-    /// The name of the recipe's parameter, if the value is `arg("name")`.
+    /// If the value is `arg("name")`, the name of this parameter of the recipe.
     pub argument: Option<String>,
 }
 
 impl PanelField {
-    /// Whether the parameter must be set and is not.
+    /// Whether the parameter is required but has no value.
     pub fn is_missing(&self) -> bool {
         self.default.is_none() && self.value.is_none()
     }
 
-    /// Returns the value or, if the step does not set the parameter, the default.
+    /// Returns the value that the step sets or, if the step does not set the parameter, the default value.
     pub fn current(&self) -> Option<&str> {
         self.value.as_deref().or(self.default.as_deref())
     }
 
-    /// Returns the current value, as the widget shows it. `None` if the value is missing, or if the widget cannot show
-    /// it, as with `arg(..)`.
+    /// Returns the current value in the form in which the widget shows it. Returns `None` if there is no value, or if
+    /// the widget cannot show the value, as with `arg(..)`.
     pub fn typed(&self) -> Option<FieldValue> {
         FieldValue::read(&self.kind, self.current()?)
     }
 }
 
 impl Panel {
-    /// Creates the panel of an operation without values.
+    /// Creates the panel of an operation, in which no field has a value.
     pub fn new(entry: &Entry) -> Self {
         let schema = entry.schema();
         Self {
@@ -85,8 +85,8 @@ impl Panel {
         }
     }
 
-    /// Creates the panel of a step `Name(..)` with the values of the step. `text` is the text that the spans of `run`
-    /// refer to. `None` if the registry does not have the operation.
+    /// Creates the panel of a step `Name(..)` with the values of the step. The spans of `run` are ranges of `text`.
+    /// Returns `None` if the registry does not have the operation.
     pub fn of_step(registry: &Registry, run: &Value, text: &str) -> Option<Self> {
         let entry = registry.get(run.name()?.0)?;
         let mut panel = Self::new(entry);
@@ -102,8 +102,8 @@ impl Panel {
         self.fields.iter().find(|field| field.name == name)
     }
 
-    /// Sets the value of a parameter as RON, or removes it if `value` is `None`. A name that the operation does not
-    /// have is ignored.
+    /// Sets the value of a parameter, which is given as RON. If `value` is `None`, the value is removed. If the
+    /// operation has no parameter of this name, nothing happens.
     pub fn set(&mut self, name: &str, value: Option<&str>) {
         let Some(field) = self.fields.iter_mut().find(|field| field.name == name) else {
             return;
@@ -117,15 +117,16 @@ impl Panel {
         }
     }
 
-    /// Returns the step `Name(parameter: value, ..)`.
+    /// Returns the text of the step, in the form `Name(parameter: value, ..)`.
     pub fn step_text(&self) -> String {
         let value = |name: &String| Some(format!("{name}: {}", self.field(name)?.value.as_ref()?));
         let fields: Vec<String> = self.order.iter().filter_map(value).collect();
         format!("{}({})", self.operation, fields.join(", "))
     }
 
-    /// Returns the problems of the values: missing parameters, wrong types, values out of range. Each problem has the
-    /// name of its field; the name is empty for a problem of the whole step. A value `arg(..)` has no problem here.
+    /// Returns the problems of the panel: missing values, values of the wrong type, and values that are out of range.
+    /// Each problem has the name of the field that it is about. For a problem of the whole step, the name is empty. A
+    /// value of the form `arg(..)` is not checked.
     pub fn problems(&self) -> Vec<(String, Diagnostic)> {
         let text = self.step_text();
         let parsed = parse(&text);
@@ -157,7 +158,8 @@ impl Panel {
         found.into_iter().filter_map(problem).collect()
     }
 
-    /// Returns the current name of a parameter that the step names by an earlier name.
+    /// Returns the current name of a parameter. `name` can be an earlier name of the parameter, which older recipes
+    /// use.
     fn current_name(&self, name: &str) -> String {
         if self.field(name).is_some() {
             return name.to_owned();
@@ -174,7 +176,7 @@ impl Panel {
     }
 }
 
-/// Joins the lines of each paragraph. Items of lists and rows of tables stay lines of their own.
+/// Joins the lines of each paragraph to one line. Each item of a list and each row of a table remains a separate line.
 fn unwrapped(doc: &str) -> String {
     let mut text = String::with_capacity(doc.len());
     for line in doc.lines() {
@@ -188,7 +190,7 @@ fn unwrapped(doc: &str) -> String {
     text
 }
 
-/// Returns the fields of a struct. References in its schema are looked up in `root`.
+/// Returns the fields of a struct. References in the schema of the struct are looked up in the schema `root`.
 fn panel_fields(
     json: &serde_json::Value,
     root: &serde_json::Value,
@@ -208,7 +210,7 @@ fn panel_fields(
     docs.into_iter().map(field).collect()
 }
 
-/// Returns the name in `arg("name")`.
+/// If a value is `arg("name")`, returns the name.
 fn argument(text: &str) -> Option<String> {
     if !text.trim_start().starts_with("arg") {
         return None;

@@ -1,5 +1,5 @@
-//! Values with parts: structs, and variants of enumerations with content. Each part has a field of its own in the
-//! panel.
+//! Values that consist of parts: structs, and variants of enumerations that have content. In the panel, each part of a
+//! value has its own field.
 
 use ron_tree::{Value, ValueKind, parse};
 use serde_json::Value as Json;
@@ -18,7 +18,7 @@ pub struct Variant {
     content: Content,
 }
 
-/// What the parentheses of a variant contain.
+/// The content of a variant, which is written in parentheses.
 #[derive(Clone, Debug, PartialEq)]
 enum Content {
     /// `Name`
@@ -34,14 +34,14 @@ enum Content {
 /// A part of a value: the field of a struct, or the content of a variant.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Part {
-    /// The part as a field with its value.
+    /// The field that shows the part, with the value of the part.
     pub field: PanelField,
-    /// The path of the part in the whole value. Empty for the numbers of `Name(x, y, z)`.
+    /// The path that leads from the whole value to the part. The path is empty for the numbers of `Name(x, y, z)`.
     path: Vec<String>,
 }
 
 impl Variant {
-    /// Returns the variants of an enumeration. `None` if the schema is not an enumeration.
+    /// Returns the variants of an enumeration. Returns `None` if the schema is not an enumeration.
     pub(super) fn all(json: &Json, root: &Json, depth: usize) -> Option<Vec<Self>> {
         let options = json["oneOf"].as_array()?;
         let all = options.iter().map(|option| {
@@ -75,7 +75,7 @@ impl Variant {
         }
     }
 
-    /// Returns an initial value of this variant as RON: parts without a default get a value.
+    /// Returns an initial value of this variant as RON. Parts that have no default get an initial value.
     pub fn first(&self) -> String {
         let name = &self.name;
         match &self.content {
@@ -108,8 +108,8 @@ pub(super) fn first_fields(fields: &[PanelField]) -> String {
 }
 
 impl FieldKind {
-    /// Returns the name of the variant, if the kind is an enumeration, and the parts of a value of this kind. The list
-    /// of parts is empty for a value without parts, or a value of another kind.
+    /// Returns the parts of a value of this kind. If the kind is an enumeration, also returns the name of the value's
+    /// variant. The list of parts is empty if the value has no parts, or if it is not a value of this kind.
     pub fn parts(&self, whole: &str) -> (Option<String>, Vec<Part>) {
         let parsed = parse(whole);
         let value = parsed.value.some().unwrap_or(&parsed.value);
@@ -185,8 +185,9 @@ fn parts_of(fields: &[PanelField], outer: &[String], value: &Value, whole: &str)
 }
 
 impl Part {
-    /// Returns the whole value as RON, with `new` as the value of this part. If `new` is `None`, the part is removed,
-    /// so that it gets its default. Returns `None` if the part cannot be written into the whole value.
+    /// Returns the whole value as RON, after the value of this part was replaced by `new`. If `new` is `None`, the part
+    /// is removed from the text, so that it has its default value. Returns `None` if the part cannot be written into
+    /// the whole value.
     pub fn in_whole(&self, whole: &str, new: Option<&str>) -> Option<String> {
         if self.path.is_empty() {
             return Some(format!("{}{}", self.field.name, new?));

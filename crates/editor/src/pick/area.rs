@@ -1,4 +1,4 @@
-//! Picking in an area of the view: a box or a lasso.
+//! Finds the elements of meshes in an area of the view, which is a box or a lasso.
 
 use mesh::{DVec2, DVec3, Element, Mesh, VertexId};
 use op::{ElementKind, Selected};
@@ -37,8 +37,8 @@ impl Area {
     }
 }
 
-/// Returns, for each mesh, the elements whose vertices all lie in the area, whether the elements are hidden or not.
-/// Meshes without such elements are left out.
+/// Returns, for each mesh, the elements whose vertices all lie in the area. Elements that other faces hide are
+/// included. Meshes that have no elements in the area are left out.
 pub fn pick_area(scene: &Scene, view: &Projection, area: &Area, kind: ElementKind) -> Vec<Picked> {
     let mut all: Vec<Picked> = Vec::new();
     for placed in scene.instances() {
@@ -62,8 +62,8 @@ pub fn pick_area(scene: &Scene, view: &Projection, area: &Area, kind: ElementKin
     all
 }
 
-/// Keeps the picked elements that nothing hides. An edge is hidden if its middle is hidden, and a face if its center is
-/// hidden.
+/// Removes the elements that are hidden by faces of the scene from the picked elements. An edge counts as hidden if its
+/// midpoint is hidden. A face counts as hidden if its center is hidden.
 pub fn keep_visible(scene: &Scene, indexes: &Indexes, view: &Projection, picked: &mut Vec<Picked>) {
     let targets = Target::all(scene, indexes, view);
     for set in &mut *picked {
@@ -83,7 +83,7 @@ pub fn keep_visible(scene: &Scene, indexes: &Indexes, view: &Projection, picked:
     picked.retain(|set| !set.is_empty());
 }
 
-/// Whether nothing hides an element of an instance.
+/// Whether an element of an instance is visible: no face of the scene hides it.
 fn sees(targets: &[Target], at: usize, target: &Target, element: Element) -> bool {
     let points = target.mesh.element_points(element);
     let middle = points.iter().sum::<DVec3>() / points.len() as f64;

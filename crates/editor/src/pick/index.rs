@@ -9,8 +9,8 @@ use crate::run::Wake;
 
 /// The spatial indexes of meshes. An index is built in the background, once for each mesh, when it is first needed.
 ///
-/// Two meshes count as the same only if they share one allocation. The index of a mesh that no longer exists is
-/// dropped.
+/// Two meshes share an index only if they are the same object in memory. When a mesh no longer exists, its index is
+/// removed.
 #[derive(Clone, Default)]
 pub struct Indexes {
     shared: Arc<Shared>,
@@ -27,7 +27,7 @@ struct Entry {
     mesh: Weak<Mesh>,
     /// Whether the index was built.
     is_built: bool,
-    /// `None` while the index is built, and for a mesh without faces.
+    /// `None` while the index is built, and if the mesh has no faces.
     index: Option<Arc<SurfaceIndex>>,
 }
 
@@ -46,8 +46,8 @@ impl Indexes {
             .unwrap_or_else(PoisonError::into_inner) = Some(wake);
     }
 
-    /// Returns the index of a mesh. If it is not ready, returns `None` and builds it in the background. Also `None` for
-    /// a mesh without faces.
+    /// Returns the index of a mesh. If the index is not ready, returns `None` and builds the index in the background.
+    /// Also returns `None` if the mesh has no faces.
     pub fn get(&self, mesh: &Arc<Mesh>) -> Option<Arc<SurfaceIndex>> {
         let weak = Arc::downgrade(mesh);
         {
@@ -94,7 +94,7 @@ impl Indexes {
         None
     }
 
-    /// Returns the index of a mesh, and waits until it is ready. `None` for a mesh without faces.
+    /// Returns the index of a mesh, and waits until it is ready. Returns `None` if the mesh has no faces.
     pub fn wait_for(&self, mesh: &Arc<Mesh>) -> Option<Arc<SurfaceIndex>> {
         if let Some(index) = self.get(mesh) {
             return Some(index);

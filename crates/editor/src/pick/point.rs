@@ -1,11 +1,12 @@
-//! Picking under a point: the vertex, edge or face that is visible at a pixel.
+//! Finds the vertex, edge or face that is visible at a pixel of the view.
 //!
 //! ```text
 //!   ray through the pixel --> first face of the spatial index --> vertices and edges of this and the neighboring faces
 //!                         \-> nothing: all faces whose picture is near the pixel
 //! ```
 //!
-//! The smallest element is picked: a vertex within the radius comes before an edge, and an edge before the face.
+//! If there is a vertex within the pick radius of the pixel, the vertex is picked. If there is no such vertex, an edge
+//! within the radius is picked. If there is neither, the face at the pixel is picked.
 
 use std::sync::Arc;
 
@@ -17,10 +18,11 @@ use scene::Scene;
 
 use super::{Indexes, Projection};
 
-/// The distance in pixels at which vertices and edges are picked.
+/// The largest distance in pixels from the cursor at which vertices and edges are picked.
 pub const PICK_RADIUS: f64 = 8.0;
 
-/// The maximum number of faces around the face under the cursor that are searched for vertices and edges.
+/// The maximum number of faces that are searched for vertices and edges near the cursor: the face under the cursor and
+/// faces around it.
 const MAX_FACES: usize = 64;
 
 /// What a pick looks for.
@@ -33,7 +35,7 @@ pub enum PickMode {
     Vertex,
     /// An edge.
     Edge,
-    /// A half-edge: the half of the nearest edge that is on the side where the pixel is.
+    /// A half-edge: of the two halves of the nearest edge, the half on the side of the pixel.
     HalfEdge,
     /// A face.
     Face,
@@ -57,19 +59,21 @@ pub struct Hit {
     pub object: String,
     /// The index of the instance in [`Scene::instances`].
     pub instance: usize,
-    /// The element. For [`PickMode::HalfEdge`], a half-edge.
+    /// The element. If the mode is [`PickMode::HalfEdge`], the element is a half-edge.
     pub element: Element,
-    /// The half-edge of the element: the half of an edge that lies on the face under the cursor, or the half-edge of
-    /// the face whose edge is nearest. `None` for a vertex without edges.
+    /// The half-edge that belongs to the element. For an edge, it is the half on the face under the cursor. For a face,
+    /// it is the half-edge of the face that is nearest to the pixel. `None` if the element is a vertex that has no
+    /// edges.
     pub half_edge: Option<HalfEdgeId>,
-    /// The face under the cursor; `None` if the cursor is beside the surface.
+    /// The face under the cursor. `None` if no face is under the cursor.
     pub face: Option<FaceId>,
     /// The picked point in scene space: the vertex, the nearest point of the edge, or the point of the face under the
     /// cursor.
     pub point: DVec3,
 }
 
-/// Returns the element at a pixel. `None` if nothing is there, or if the index of the mesh is not ready yet.
+/// Returns the element at a pixel. Returns `None` if there is no element at the pixel, or if the spatial index of the
+/// mesh is not ready yet.
 pub fn pick(
     scene: &Scene,
     indexes: &Indexes,
@@ -113,7 +117,7 @@ pub fn pick(
     })
 }
 
-/// An instance of a mesh with its index.
+/// An instance of a mesh, with the spatial index of the mesh.
 pub(super) struct Target<'s> {
     pub(super) object: &'s str,
     pub(super) instance: usize,
@@ -145,7 +149,7 @@ impl<'s> Target<'s> {
         self.index.triangle(hit.triangle).face
     }
 
-    /// Of the half-edges of a face, returns the one whose picture is nearest to a pixel.
+    /// Returns the half-edge of a face that is nearest to a pixel in the view.
     fn nearest_side(&self, face: FaceId, pixel: DVec2) -> Option<HalfEdgeId> {
         let sides = self
             .mesh
@@ -160,7 +164,8 @@ impl<'s> Target<'s> {
     }
 }
 
-/// Returns the point under a pixel that is nearest to the viewer, among all targets, with the index of its target.
+/// Returns the surface point under a pixel that is nearest to the viewer, and the index of the target to which the
+/// point belongs.
 pub(super) fn first_hit(targets: &[Target], pixel: DVec2) -> Option<(usize, RayHit)> {
     let hits = targets.iter().enumerate().filter_map(|(i, target)| {
         let (origin, direction) = target.view.ray(pixel);
@@ -189,8 +194,8 @@ struct Search<'a, 's> {
 }
 
 impl Search<'_, '_> {
-    /// Adds the vertices and edges near the pixel, of a face and of the faces around it that show the same side (front
-    /// or back) to the viewer.
+    /// Adds the vertices and edges of a face, and of faces around it, that are near the pixel. The faces around it must
+    /// show the same side (front or back) to the viewer.
     fn around(&mut self, at: usize, face: FaceId) {
         let target = &self.targets[at];
         let (_, direction) = target.view.ray(self.pixel);
@@ -214,7 +219,7 @@ impl Search<'_, '_> {
         }
     }
 
-    /// Adds all vertices and edges whose pictures are near the pixel.
+    /// Adds all vertices and edges of the mesh that are near the pixel in the view.
     fn near(&mut self, at: usize) {
         let target = &self.targets[at];
         let (view, pixel) = (target.view, self.pixel);
@@ -228,7 +233,7 @@ impl Search<'_, '_> {
         });
         for corners in faces {
             for (k, h) in corners.into_iter().enumerate() {
-                // The other sides of triangles are inside a face.
+                // A side of a triangle that is not an edge of the mesh is a diagonal inside a face, and is skipped.
                 if target.mesh.next(h) == corners[(k + 1) % 3] {
                     self.add(at, h);
                 }
@@ -286,7 +291,7 @@ impl Search<'_, '_> {
         true
     }
 
-    /// Returns the best candidate that is visible. `under` is the face under the cursor.
+    /// Returns the best candidate among the visible candidates. `under` is the face under the cursor.
     fn best(mut self, under: Option<FaceId>) -> Option<Hit> {
         let key = |c: &Candidate| (c.rank, c.distance);
         // Of the two halves of an edge, the half on the face under the cursor comes first, because it was added first.
@@ -311,7 +316,7 @@ impl Search<'_, '_> {
         })
     }
 
-    /// Whether nothing hides the point of a candidate.
+    /// Whether the point of a candidate is visible: no face of the scene hides it.
     fn is_visible(&self, candidate: &Candidate) -> bool {
         let target = &self.targets[candidate.target];
         let Some((pixel, _)) = target.view.to_pixel(candidate.point) else {

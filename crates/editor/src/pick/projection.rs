@@ -3,19 +3,21 @@
 use glam::{DAffine3, DMat4};
 use mesh::{DVec2, DVec3};
 
-/// The map between the scene and the pixels of the view. Pixels count from the upper left corner, y down.
+/// The map between the scene and the pixels of the view. Pixel coordinates start at the upper left corner of the view,
+/// and y points down.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Projection {
-    /// The map from scene space to clip space, where x and y run from -1 to 1 and y points up, and z runs from 0 (near)
-    /// to 1.
+    /// The map from scene space to clip space. In clip space, x and y run from -1 to 1, y points up, and z runs from 0
+    /// (near) to 1 (far).
     to_clip: DMat4,
     from_clip: DMat4,
     size: DVec2,
 }
 
 impl Projection {
-    /// Creates a projection from a matrix to clip space and the size of the view in pixels. In clip space, x and y run
-    /// from -1 to 1, y points up, and z runs from 0 at the near plane to 1 at the far plane.
+    /// Creates a projection. `to_clip` is the matrix from scene space to clip space, and `size` is the size of the view
+    /// in pixels. In clip space, x and y run from -1 to 1, y points up, and z runs from 0 at the near plane to 1 at the
+    /// far plane.
     pub fn new(to_clip: DMat4, size: DVec2) -> Self {
         Self {
             to_clip,
@@ -29,14 +31,14 @@ impl Projection {
         self.size
     }
 
-    /// Returns the projection of an object whose points `placed` maps to the scene.
+    /// Returns the projection for points in the space of an object. `placed` is the map from this space to the scene.
     #[must_use]
     pub fn of_object(&self, placed: DAffine3) -> Self {
         Self::new(self.to_clip * DMat4::from(placed), self.size)
     }
 
-    /// Returns the pixel of a point, and its depth from 0 (near) to 1; `None` if the point is not in front of the
-    /// viewer.
+    /// Returns the pixel at which a point is seen, and the depth of the point, from 0 (near) to 1 (far). Returns `None`
+    /// if the point is not in front of the viewer.
     pub fn to_pixel(self, point: DVec3) -> Option<(DVec2, f64)> {
         let clip = self.to_clip * point.extend(1.0);
         let scene = clip.truncate() / clip.w;
@@ -44,15 +46,14 @@ impl Projection {
         (clip.w > 0.0 && scene.z >= 0.0 && pixel.is_finite()).then_some((pixel, scene.z))
     }
 
-    /// Returns the ray through a pixel: a point on the near plane, and a direction away from the viewer whose end is on
-    /// the far plane.
+    /// Returns the ray through a pixel: its start on the near plane, and the vector from this start to the far plane.
     pub fn ray(&self, pixel: DVec2) -> (DVec3, DVec3) {
         let near = self.point_at(pixel, 0.0);
         (near, self.point_at(pixel, 1.0) - near)
     }
 
-    /// Returns the point at a pixel with this depth, from 0 (near) to 1. Points of the same depth lie in a plane that
-    /// is parallel to the picture.
+    /// Returns the point that is seen at a pixel and has the given depth, from 0 (near) to 1 (far). All points with the
+    /// same depth lie in a plane that is parallel to the picture.
     pub fn point_at(&self, pixel: DVec2, depth: f64) -> DVec3 {
         let flat = DVec2::new(
             2.0 * pixel.x / self.size.x - 1.0,
@@ -62,9 +63,9 @@ impl Projection {
         point.truncate() / point.w
     }
 
-    /// Returns the distance in pixels from a pixel to the segment between two points, and the point of the segment that
-    /// is nearest. The part of the segment behind the viewer does not count; `None` if no part is in front of the
-    /// viewer.
+    /// Returns the distance in pixels from a pixel to the line segment between two points, and the nearest point of the
+    /// segment. The part of the segment behind the viewer is ignored. Returns `None` if no part of the segment is in
+    /// front of the viewer.
     pub(crate) fn to_segment(self, pixel: DVec2, a: DVec3, b: DVec3) -> Option<(f64, DVec3)> {
         let (mut a, mut b) = (a, b);
         // Clips the segment to the near plane.
@@ -86,7 +87,8 @@ impl Projection {
         } else {
             0.0
         };
-        // The parameter, on the segment in space, of the point that has the parameter s in the picture.
+        // Under perspective, the point at the fraction s of the segment in the picture is at a different fraction t of
+        // the segment in space.
         let t = if p.1 > 0.0 && q.1 > 0.0 {
             let w = s / q.1;
             w / (w + (1.0 - s) / p.1)
@@ -106,8 +108,8 @@ impl Projection {
         )
     }
 
-    /// Returns the box of pixels that contains the picture of a box in space; `None` if the box reaches behind the
-    /// viewer, so that its picture is not bounded.
+    /// Returns a rectangle of pixels in which a box in space is seen. Returns `None` if the box reaches behind the
+    /// viewer, because its picture is then not bounded.
     pub(crate) fn bounds(&self, min: DVec3, max: DVec3) -> Option<[DVec2; 2]> {
         let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
         for i in 0..8 {

@@ -1,4 +1,5 @@
-//! One run: reads and checks the recipe, finds the first step whose result is not known, and runs from there.
+//! One run: reads and checks the recipe, finds the first step whose result is not known, and runs the recipe from this
+//! step on.
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -110,7 +111,7 @@ impl Job<'_> {
         if is_whole {
             snapshots.digests.insert(keys.end(), outcome.digest);
         }
-        // The failures of expectations are in the verdicts. Outputs that cannot be written have no event of their own.
+        // A failed expectation is reported by its verdict. An output that cannot be written is reported only here.
         let is_unmet = |i: usize| outcome.unmet.iter().any(|unmet| unmet.failure == i);
         let others = outcome
             .failures
@@ -137,7 +138,7 @@ impl Job<'_> {
         }
     }
 
-    /// Returns the index of the step that the run starts with, if the results of the first `known` steps are known.
+    /// Returns the index of the first step that must run. The results of the first `known` steps are known.
     fn first_step(&self, loaded: &Loaded, state: &RunState, known: usize) -> usize {
         if self.request.keep_outputs {
             return 0;
@@ -170,8 +171,8 @@ impl Job<'_> {
     }
 }
 
-/// Adds what is known about the steps and expectations. Returns the number of steps at the start whose results are
-/// known.
+/// Adds the known results of the steps and expectations to the state. Returns how many of the first steps, without a
+/// gap, have known results.
 fn take_known(state: &mut RunState, keys: &StepKeys, snapshots: &mut Snapshots) -> usize {
     let mut known = 0;
     for (step, key) in state.steps.iter_mut().zip(&keys.steps) {
@@ -187,7 +188,8 @@ fn take_known(state: &mut RunState, keys: &StepKeys, snapshots: &mut Snapshots) 
     known
 }
 
-/// Adds the results of the expectations that a run has checked. `is_whole` says whether the run completed all steps.
+/// Adds the results of the expectations that a run has checked to the state. `is_whole` says whether the run has
+/// completed all of its steps.
 fn take_verdicts(
     state: &mut RunState,
     recipe: &Recipe,
@@ -217,7 +219,8 @@ fn take_verdicts(
     }
 }
 
-/// Returns the end of a run with everything that is known. `failures` are the failures of steps and outputs.
+/// Returns the message about the end of a run, with all results that are known then. `failures` are the failures of
+/// steps and outputs.
 fn end_of(
     state: &RunState,
     recipe: &Recipe,
@@ -295,13 +298,13 @@ fn state_of(loaded: &Loaded) -> RunState {
     }
 }
 
-/// Follows a run: keeps the scene after each step, forwards progress, and cancels.
+/// The listener of a run: keeps the scene after each step, passes on the progress, and cancels the run on request.
 struct Follower<'a> {
     job: &'a Job<'a>,
     /// The index of the current step.
     last: AtomicUsize,
     label: Mutex<String>,
-    /// The report of the step whose scene comes next.
+    /// The report of the step whose scene is received next.
     done: Mutex<Option<StepDone>>,
     results: Mutex<Vec<(usize, Snapshot)>>,
     failures: Mutex<Vec<FailureState>>,

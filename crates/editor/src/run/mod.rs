@@ -1,5 +1,5 @@
-//! Runs the recipe in a separate thread. A new request cancels the previous run. Steps whose results are known do not
-//! run again.
+//! Runs the recipe in a separate thread. When a new run is requested, the current run is canceled. If the result of a
+//! step is known, the step does not run again.
 //!
 //! ```text
 //! request --> waiting (only the newest) --> thread: read, check, reuse snapshots, run the rest --> events --> Editor::poll
@@ -31,7 +31,7 @@ pub(crate) use state::Event;
 /// A request to run a recipe.
 #[derive(Clone, Debug)]
 pub(crate) struct Request {
-    /// The number of the request. Later requests have higher numbers.
+    /// The number of the request. A later request has a higher number.
     pub(crate) number: u64,
     pub(crate) source: Source,
     /// The folder for outputs.
@@ -40,14 +40,14 @@ pub(crate) struct Request {
     pub(crate) keep_outputs: bool,
     /// The memory budget for meshes, in bytes.
     pub(crate) budget: u64,
-    /// The memory for snapshots, in bytes.
+    /// The maximum memory for the scenes after steps that are kept, in bytes.
     pub(crate) memory: u64,
 }
 
-/// Called when there is something new to poll.
+/// A function that is called when there are new events to poll.
 pub type Wake = Arc<dyn Fn() + Send + Sync>;
 
-/// A handle of the thread. Dropping it cancels the run and ends the thread.
+/// A handle of the thread. When the handle is dropped, the run is canceled and the thread ends.
 pub(crate) struct Runner {
     shared: Arc<Shared>,
     thread: Option<JoinHandle<()>>,
@@ -68,11 +68,11 @@ struct Waiting {
     progress: Option<(u64, Progress)>,
     ends: bool,
     on_event: Option<Wake>,
-    /// The files whose changes are reported, and their stamps.
+    /// The files whose changes are reported, and the stamp of each file.
     watched: Vec<(PathBuf, String)>,
 }
 
-/// The time between two checks of the files.
+/// The time between two checks whether the watched files have changed.
 const LOOK: Duration = Duration::from_millis(250);
 
 /// The progress of a run.
@@ -84,7 +84,7 @@ pub struct Progress {
     pub task: String,
     /// The number of parts of the computation that are done.
     pub done: u64,
-    /// The number of all parts of the computation.
+    /// The total number of parts of the computation.
     pub total: u64,
 }
 
@@ -122,7 +122,7 @@ impl Runner {
         Self { shared, thread }
     }
 
-    /// Replaces the waiting request and cancels the current run.
+    /// Requests a run: replaces the request that is waiting, if any, and cancels the current run.
     pub(crate) fn request(&self, request: Request) {
         let mut state = self.shared.lock();
         state.cancel.store(true, Ordering::Relaxed);
@@ -138,12 +138,12 @@ impl Runner {
         state.request.take().is_some()
     }
 
-    /// Removes and returns the events.
+    /// Returns the events that have not been returned before.
     pub(crate) fn events(&self) -> Vec<Event> {
         std::mem::take(&mut self.shared.lock().events)
     }
 
-    /// Waits for events, at most for the given time.
+    /// Waits until there are events, or until the given time has passed.
     pub(crate) fn wait(&self, time: Duration) {
         let state = self.shared.lock();
         if state.events.is_empty() {
@@ -157,7 +157,7 @@ impl Runner {
         (*of == number).then(|| progress.clone())
     }
 
-    /// Sets the files whose changes are reported. Each has the stamp that the editor has seen.
+    /// Sets the files whose changes are reported. Each file has the stamp that the editor has seen last.
     pub(crate) fn watch(&self, files: Vec<(PathBuf, String)>) {
         self.shared.lock().watched = files;
     }
@@ -205,7 +205,7 @@ fn serve(shared: &Shared, registry: &Registry, store: &Arc<dyn Store>) {
     }
 }
 
-/// Waits for a request, and watches files until it comes. `None` if the thread must end.
+/// Waits for a request, and watches the files while it waits. `None` if the thread must end.
 fn next_request(shared: &Shared, store: &dyn Store) -> Option<(Request, Arc<AtomicBool>)> {
     let mut state = shared.lock();
     loop {

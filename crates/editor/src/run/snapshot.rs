@@ -1,4 +1,4 @@
-//! A cache of the scenes after steps, indexed by the keys of the steps.
+//! A cache in memory that maps the key of each step to the scene after the step.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -13,14 +13,15 @@ use super::state::Verdict;
 pub struct Snapshot {
     /// The scene after the step.
     pub scene: Arc<Scene>,
-    /// The report, the counts and the time of the step.
+    /// The report of the step, the counts of elements after it, and the time that it took.
     pub done: Arc<StepDone>,
 }
 
-/// The maximum number of digests, and of results of expectations, that are kept.
+/// The maximum number of digests that are kept, and the maximum number of results of expectations. If there are more
+/// digests or more results than this, all digests or all results are removed.
 const MAX_RESULTS: usize = 100_000;
 
-/// The known results. Scenes share their unchanged meshes.
+/// The known results. If a step does not change a mesh, the scenes before and after the step share the mesh.
 #[derive(Default)]
 pub(super) struct Snapshots {
     of_steps: HashMap<StepKey, (Snapshot, u64)>,
@@ -32,7 +33,7 @@ pub(super) struct Snapshots {
 }
 
 impl Snapshots {
-    /// Begins a run: snapshots that are used from now on count as newer.
+    /// Begins a run. Snapshots that are used from now on count as newer than all others.
     pub(super) fn tick(&mut self) {
         self.clock += 1;
     }
@@ -47,15 +48,16 @@ impl Snapshots {
         self.of_steps.insert(key, (snapshot, self.clock));
     }
 
-    /// Removes the snapshots that were used least recently until the rest fits into `memory` bytes. Snapshots that the
-    /// last run used stay.
+    /// Removes the least recently used snapshots until the remaining snapshots fit into `memory` bytes. Snapshots that
+    /// the last run has used are never removed.
     pub(super) fn trim(&mut self, memory: u64) {
         let mut by_age: Vec<(u64, StepKey)> = self
             .of_steps
             .iter()
             .map(|(key, (_, used))| (*used, *key))
             .collect();
-        // The newest come first. The keys decide between equal ages, so that the order is always the same.
+        // The newest come first. Snapshots of equal age are ordered by their keys, so that the order is always the
+        // same.
         by_age.sort_unstable_by(|a, b| b.cmp(a));
         let mut total = SceneMemory::default();
         for (used, key) in by_age {

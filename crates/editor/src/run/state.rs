@@ -1,4 +1,4 @@
-//! What is known about the current run: its steps, expectations, diagnostics and progress.
+//! The state of the current run: the results of its steps and expectations, its diagnostics and its progress.
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -15,11 +15,11 @@ use super::{Progress, Snapshot};
 pub struct RunState {
     /// The texts that diagnostics refer to: first the recipe, then the recipes that it calls.
     pub sources: Vec<Source>,
-    /// The errors and warnings from reading and checking, in the order of the text.
+    /// The errors and warnings that were found while the recipe was read and checked, in the order of the text.
     pub diagnostics: Vec<Diagnostic>,
     /// The failures of the run: a failed step, and expectations that do not hold.
     pub failures: Vec<FailureState>,
-    /// The steps, after calls and repetitions were replaced by their steps.
+    /// The steps of the run. Calls and repetitions are replaced by the steps that they contain.
     pub steps: Vec<StepState>,
     /// The expectations, in the order in which they are checked.
     pub expectations: Vec<ExpectationState>,
@@ -27,15 +27,16 @@ pub struct RunState {
     pub parameters: Vec<Parameter>,
     /// The files that the recipe reads.
     pub inputs: Vec<PathBuf>,
-    /// The files besides the recipe that the result depends on, with their stamps when the recipe was read.
+    /// The files, other than the recipe, on which the result depends. Each file has the stamp that it had when the
+    /// recipe was read.
     pub(crate) watched: Vec<(PathBuf, String)>,
-    /// The files that the run wrote. Empty unless outputs were requested.
+    /// The files that the run wrote. The list is empty if the request did not ask for outputs.
     pub written: Vec<PathBuf>,
-    /// The digest of the final scene, once the run has ended.
+    /// The digest of the final scene. The digest is known only after the run has ended.
     pub digest: Option<Digest>,
-    /// How long the last run took, including reading and checking.
+    /// The time that the last run took, including the time for reading and checking the recipe.
     pub time: Duration,
-    /// The number of steps that ran. The results of the other steps were known.
+    /// The number of steps that ran. The other steps did not run, because their results were known.
     pub ran: usize,
     /// Whether the run is in progress.
     pub status: Status,
@@ -46,7 +47,7 @@ pub struct RunState {
 pub enum Status {
     /// The run is in progress.
     Running(Progress),
-    /// The run has ended, or no run was requested. Failures and diagnostics are in the [`RunState`].
+    /// The run has ended, or no run was requested. The [`RunState`] has its failures and diagnostics.
     #[default]
     Done,
     /// The run was canceled.
@@ -56,16 +57,17 @@ pub enum Status {
 /// A step of the run.
 #[derive(Clone, Debug)]
 pub struct StepState {
-    /// The label: the id or, if the step has no id, the name of the operation, with the calls and repetitions around
-    /// it.
+    /// The label of the step. The label consists of the calls and repetitions around the step, and the id of the step
+    /// or, if it has no id, the name of its operation.
     pub label: String,
     /// The name of the operation.
     pub name: String,
-    /// The index of the step in the list `steps` of the text. All steps of a call or repetition have the same index.
+    /// The index, in the list `steps` of the recipe's text, of the entry from which the step comes. All steps inside
+    /// the same call or repetition have the same index.
     pub item: usize,
     /// The index in [`RunState::sources`] of the text that `span` refers to.
     pub source: usize,
-    /// The span of the name of the operation.
+    /// The range of the text in which the name of the operation is written.
     pub span: Span,
     /// The forecast of the counts and the memory after the step.
     pub forecast: Option<StepForecast>,
@@ -80,9 +82,9 @@ pub struct ExpectationState {
     pub source: usize,
     /// The span of the expectation.
     pub span: Span,
-    /// The index of the step after which the expectation is checked; `None` for the end.
+    /// The index of the step after which the expectation is checked. `None` if it is checked at the end of the run.
     pub after: Option<usize>,
-    /// The result; `None` if it is not known yet.
+    /// The result of the expectation. `None` if it is not known yet.
     pub verdict: Option<Verdict>,
 }
 
@@ -93,7 +95,7 @@ pub enum Verdict {
     Holds,
     /// The expectation does not hold.
     Fails {
-        /// The reason, with the actual value.
+        /// The reason why the expectation does not hold, with the actual value.
         message: String,
         /// The places in the scene that violate the expectation.
         places: Vec<ErrorLocation>,
@@ -105,10 +107,11 @@ pub enum Verdict {
 pub struct FailureState {
     /// The error with its span.
     pub diagnostic: Diagnostic,
-    /// The places in the scene that the failure is about. For a failed step, these are places in the scene before the
-    /// step.
+    /// The places in the scene that the failure is about. If a step has failed, these are places in the scene before
+    /// the step.
     pub places: Vec<ErrorLocation>,
-    /// The index of the step that failed, or after which an expectation does not hold. `None` for the end.
+    /// The index of the step that has failed, or of the step after which an expectation does not hold. `None` for the
+    /// end.
     pub step: Option<usize>,
 }
 
@@ -118,7 +121,7 @@ impl RunState {
         !self.failures.is_empty() || self.has_errors()
     }
 
-    /// Whether the recipe has errors that were found before it ran.
+    /// Whether errors were found in the recipe before it ran.
     pub(crate) fn has_errors(&self) -> bool {
         self.diagnostics.iter().any(Diagnostic::is_error)
     }
@@ -128,15 +131,16 @@ impl RunState {
         matches!(self.status, Status::Running(_))
     }
 
-    /// Returns the steps of an item of the list `steps`, as a range of indices. Empty if the item has no steps, such as
-    /// a disabled step.
+    /// Returns the range of indices of the steps that come from one entry of the list `steps` of the text. The range is
+    /// empty if no steps come from the entry, for example because it is disabled.
     pub fn steps_of(&self, item: usize) -> std::ops::Range<usize> {
         let start = self.steps.partition_point(|step| step.item < item);
         start..self.steps.partition_point(|step| step.item <= item)
     }
 
-    /// Returns the last known result among the steps of the first `n` items, and whether it is the result of the last
-    /// of these steps. `None` if no step has a result.
+    /// Returns the last known result among the steps that come from the first `n` entries of the list `steps`. Also
+    /// returns whether the results of all steps from the first `n` entries are known. The result is `None` if the
+    /// result of the first step is not known.
     pub(crate) fn result_after(&self, n: usize) -> (Option<&Snapshot>, bool) {
         let end = self.steps.partition_point(|step| step.item < n);
         let steps = &self.steps[..end];
@@ -173,7 +177,7 @@ pub(crate) enum Event {
 pub(crate) struct End {
     pub(crate) canceled: bool,
     pub(crate) failures: Vec<FailureState>,
-    /// The results of the expectations, by index.
+    /// The results of the expectations, in the order of the expectations.
     pub(crate) verdicts: Vec<Option<Verdict>>,
     pub(crate) digest: Option<Digest>,
     pub(crate) written: Vec<PathBuf>,
@@ -182,7 +186,7 @@ pub(crate) struct End {
 }
 
 impl Event {
-    /// Returns the number of the request that the event is about, if it is about a request.
+    /// If the event is about a request, returns the number of this request.
     pub(crate) fn number(&self) -> Option<u64> {
         match self {
             Self::FilesChanged => None,

@@ -1,4 +1,4 @@
-//! Changes of the picked elements: grow, shrink, pick all elements, and pick by a typed selection.
+//! Changes the picked elements: grows or shrinks them, picks all elements, or picks the elements of a typed selection.
 
 use mesh::{Domain, Mesh, VertexId};
 use op::{ElementKind, Selected};
@@ -9,7 +9,7 @@ use scene::Scene;
 use super::Picked;
 
 impl Picked {
-    /// Returns all elements of a kind.
+    /// Returns all elements of a mesh that have the given kind.
     pub fn all(object: &str, mesh: &Mesh, kind: ElementKind) -> Self {
         let elements = match kind {
             ElementKind::Vertices => Selected::Vertices(mesh.vertices().collect()),
@@ -23,8 +23,8 @@ impl Picked {
     ///
     /// # Errors
     ///
-    /// The errors of the text with their spans, or an error without a span if the selection is refused or the object is
-    /// not a mesh.
+    /// Returns the errors of the text with their spans. If the selection is refused or the object is not a mesh,
+    /// returns an error without a span.
     pub fn by_text(
         scene: &Scene,
         object: &str,
@@ -43,8 +43,8 @@ impl Picked {
         Ok(Self::new(object, elements))
     }
 
-    /// Returns the picked elements and the elements that share a vertex (for vertices: an edge) with them, like the
-    /// selection `Grow`.
+    /// Returns the picked elements and their neighbors, as the selection `Grow` does. Edges or faces are neighbors if
+    /// they share a vertex. Vertices are neighbors if an edge joins them.
     #[must_use]
     pub fn grown(&self, mesh: &Mesh) -> Self {
         let mut marks = vertices(mesh, &self.elements);
@@ -61,8 +61,9 @@ impl Picked {
         }
     }
 
-    /// Returns the picked elements without those that share a vertex (for vertices: an edge) with elements that are not
-    /// picked, like the selection `Shrink`.
+    /// Returns the picked elements without the elements that have a neighbor that is not picked, as the selection
+    /// `Shrink` does. Edges or faces are neighbors if they share a vertex. Vertices are neighbors if an edge joins
+    /// them.
     #[must_use]
     pub fn shrunk(&self, mesh: &Mesh) -> Self {
         let outside = Self {
@@ -78,7 +79,7 @@ impl Picked {
     }
 }
 
-/// Marks the vertices of elements.
+/// Returns, for each vertex of the mesh, whether it is a vertex of one of the elements.
 fn vertices(mesh: &Mesh, elements: &Selected) -> Vec<bool> {
     let mut marks = vec![false; mesh.domain_len(Domain::Vertex)];
     let mut mark = |v: VertexId| marks[v.index()] = true;
@@ -116,7 +117,7 @@ fn touching(mesh: &Mesh, kind: ElementKind, is_marked: impl Fn(VertexId) -> bool
     }
 }
 
-/// Returns the elements that are not in a set.
+/// Returns the elements of the mesh, of the same kind, that are not in the given set.
 fn complement(mesh: &Mesh, elements: &Selected) -> Selected {
     match elements {
         Selected::Vertices(list) => Selected::Vertices(

@@ -1,4 +1,4 @@
-//! Sets of picked elements of one object.
+//! A set of picked elements of one object.
 
 use mesh::{EdgeId, Element, FaceId, HalfEdgeId, Mesh, VertexId};
 use op::{ElementKind, Selected};
@@ -15,7 +15,7 @@ pub struct Picked {
 }
 
 impl Picked {
-    /// Creates a set of elements without a half-edge.
+    /// Creates a set of elements, in which no half-edge is chosen.
     pub fn new(object: &str, elements: Selected) -> Self {
         Self {
             object: object.to_owned(),
@@ -24,7 +24,7 @@ impl Picked {
         }
     }
 
-    /// Creates a set of one element. A half-edge stands for its edge.
+    /// Creates a set of one element. If the element is a half-edge, the set contains its edge.
     pub fn one(object: &str, element: Element) -> Self {
         let (elements, half_edge) = match element {
             Element::Vertex(v) => (Selected::Vertices(vec![v]), None),
@@ -69,7 +69,7 @@ impl Picked {
         }
     }
 
-    /// Adds the elements of another set. A set of another object or kind replaces this one.
+    /// Adds the elements of another set. If the other set is of another object or kind, it replaces this set.
     pub fn add(&mut self, other: &Self) {
         if self.object != other.object || self.kind() != other.kind() {
             self.clone_from(other);
@@ -84,8 +84,8 @@ impl Picked {
         self.half_edge = other.half_edge.or(self.half_edge);
     }
 
-    /// Adds the elements of another set, or removes them if all of them are in this set, as a click with Shift does. A
-    /// set of another object or kind replaces this one.
+    /// If all elements of another set are already in this set, removes them. If not all of them are in this set, adds
+    /// them. A click with Shift has this effect. If the other set is of another object or kind, it replaces this set.
     pub fn toggle(&mut self, other: &Self) {
         let before = self.clone();
         self.add(other);
@@ -112,7 +112,7 @@ impl Picked {
             .filter(|&h| self.contains(Element::HalfEdge(h)));
     }
 
-    /// Returns the elements that still exist in a mesh.
+    /// Returns the elements of the set that exist in a mesh.
     #[must_use]
     pub fn existing(&self, mesh: &Mesh) -> Self {
         let elements = match &self.elements {

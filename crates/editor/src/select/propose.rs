@@ -1,9 +1,9 @@
 //! Finds the selections of recipes that describe the picked elements.
 //!
-//! A selection describes the picked elements if it selects exactly these elements. Candidates are tried in this order,
-//! the most meaningful first: tags, the boundary, materials, loops and paths, components, thresholds, numbers. For a
-//! single element, its number comes first. Each candidate is resolved on the mesh and kept if it selects exactly the
-//! picked elements.
+//! A selection describes the picked elements if it selects exactly these elements. The most meaningful candidates are
+//! tried first. The order is tags, the boundary, materials, loops and paths, components, thresholds, and numbers. If a
+//! single element is picked, its number is tried first. Each candidate is evaluated on the mesh, and is kept if it
+//! selects exactly the picked elements.
 
 use mesh::{Domain, EdgeId, FaceId, Id, MATERIAL, Mesh, Values, VertexId};
 use op::{ElementKind, Selected};
@@ -14,7 +14,7 @@ use scene::{Object, Scene};
 use super::Picked;
 use crate::panel::number;
 
-/// The maximum number of elements that are written as a list of numbers.
+/// The maximum number of picked elements that are described by a list of their numbers.
 const MAX_LISTED: usize = 8;
 
 /// A selection that selects exactly the picked elements.
@@ -22,16 +22,16 @@ const MAX_LISTED: usize = 8;
 pub struct Proposal {
     /// The selection as RON.
     pub text: String,
-    /// A step that must come first because the selection uses its tag.
+    /// A step that must be inserted before the selection is used, because it adds the tag that the selection uses.
     pub before: Option<String>,
 }
 
-/// Returns the selections that select exactly the picked elements of an object, the best first. All except lists of
-/// numbers and `All` are written as `Expect(count: .., of: ..)`, so that a replay fails if the number of elements
-/// changes.
+/// Returns the selections that select exactly the picked elements of an object. The best selection is the first. The
+/// selections are written as `Expect(count: .., of: ..)`, so that a later run fails if the number of elements has
+/// changed. Lists of numbers and `All` are written without `Expect`.
 ///
-/// `stream` is the label of the step, which seeds random choices. Empty if nothing is picked or the object is not a
-/// mesh.
+/// `stream` is the label of the step, which seeds random choices. The list is empty if nothing is picked, or if the
+/// object is not a mesh.
 pub fn propose(scene: &Scene, picked: &Picked, stream: &str) -> Vec<Proposal> {
     let Some(object) = scene.object(&picked.object) else {
         return Vec::new();
@@ -61,8 +61,8 @@ pub fn propose(scene: &Scene, picked: &Picked, stream: &str) -> Vec<Proposal> {
     proposals
 }
 
-/// Returns the first of the selections that [`propose`] returns for one picked element. Visits no other elements of the
-/// mesh, because a visit of all elements takes long in a large mesh. `None` if several elements are picked.
+/// If one element is picked, returns the first selection that [`propose`] would return. The other elements of the mesh
+/// are not visited, because this would take long in a large mesh. Returns `None` if several elements are picked.
 pub(crate) fn propose_one(scene: &Scene, picked: &Picked) -> Option<Proposal> {
     let object = scene.object(&picked.object)?;
     let mesh = object.as_mesh()?;
@@ -83,11 +83,11 @@ fn means(text: &str, scene: &Scene, object: &Object, picked: &Picked, stream: &s
     found.is_ok_and(|found| found == picked.elements)
 }
 
-/// A selection that may select exactly the picked elements.
+/// A candidate: a selection of which it is not yet known whether it selects exactly the picked elements.
 struct Candidate {
     text: String,
-    /// Whether the selection needs no `Expect`, because it fails by itself if its elements do not exist, or because it
-    /// selects all elements.
+    /// Whether the selection is written without `Expect`. A selection needs no `Expect` if it selects all elements, or
+    /// if it fails anyway when its elements do not exist.
     is_closed: bool,
 }
 
@@ -122,7 +122,7 @@ fn candidates(object: &Object, mesh: &Mesh, elements: &Selected) -> Vec<Candidat
         text,
         is_closed: true,
     });
-    // For a single element, its number comes first.
+    // If a single element is picked, its number is tried first.
     if elements.len() == 1 {
         all.clear();
         all.extend(listed);
@@ -211,12 +211,12 @@ fn of_faces(object: &Object, mesh: &Mesh, list: &[FaceId], open: &mut Vec<String
     }
 }
 
-/// Returns the numbers of a few elements as a selection.
+/// Returns a selection that lists the numbers of the elements, if there are only a few elements.
 fn listed(mesh: &Mesh, elements: &Selected) -> Option<String> {
     (elements.len() <= MAX_LISTED).then(|| by_number(mesh, elements))
 }
 
-/// Returns the numbers of elements as a selection.
+/// Returns a selection that lists the numbers of the elements.
 fn by_number(mesh: &Mesh, elements: &Selected) -> String {
     match elements {
         Selected::Vertices(list) => format!("Vertices([{}])", joined(list)),
@@ -230,7 +230,7 @@ fn joined<I: Id>(list: &[I]) -> String {
     numbers.join(", ")
 }
 
-/// Returns the ends of edges, in the order of their numbers.
+/// Returns the end vertices of edges, in the order of the numbers of the vertices.
 fn ends(mesh: &Mesh, list: &[EdgeId]) -> Vec<VertexId> {
     let mut ends: Vec<VertexId> = list.iter().flat_map(|&e| mesh.edge_vertices(e)).collect();
     ends.sort_unstable();
@@ -238,7 +238,7 @@ fn ends(mesh: &Mesh, list: &[EdgeId]) -> Vec<VertexId> {
     ends
 }
 
-/// Whether the edges are all edges between their ends.
+/// Whether the list contains every edge of the mesh whose two ends are both ends of listed edges.
 fn are_all_within(mesh: &Mesh, list: &[EdgeId], ends: &[VertexId]) -> bool {
     let mut marks = vec![false; mesh.domain_len(Domain::Vertex)];
     for v in ends {
@@ -248,7 +248,7 @@ fn are_all_within(mesh: &Mesh, list: &[EdgeId], ends: &[VertexId]) -> bool {
     mesh.edges().filter(is_within).count() == list.len()
 }
 
-/// Returns a list of edges, each given by its ends.
+/// Returns the text of a list of edges, in which each edge is given by its two ends.
 fn edges_by_ends(mesh: &Mesh, list: &[EdgeId]) -> String {
     match list {
         [one] => between(mesh, *one),
@@ -264,7 +264,7 @@ fn between(mesh: &Mesh, e: EdgeId) -> String {
     format!("Between({}, {})", v.min(w), v.max(w))
 }
 
-/// Returns the step that tags the elements by their numbers, and the selection by this tag.
+/// Returns a selection that uses a new tag, and the step that gives this tag to the elements by their numbers.
 fn by_new_tag(mesh: &Mesh, picked: &Picked) -> Proposal {
     let (operation, field, domain) = match picked.kind() {
         ElementKind::Vertices => ("TagVertices", "vertices", Domain::Vertex),
@@ -278,7 +278,7 @@ fn by_new_tag(mesh: &Mesh, picked: &Picked) -> Proposal {
         .expect("a mesh has finitely many tags");
     let name = string_literal(&name);
     let numbers = match &picked.elements {
-        // For many edges, the list of their ends is shorter than the list of the edges.
+        // To select many edges, the list of their end vertices is shorter than the list of the edges.
         Selected::Edges(list) => {
             let ends = ends(mesh, list);
             if are_all_within(mesh, list, &ends) {
@@ -295,8 +295,8 @@ fn by_new_tag(mesh: &Mesh, picked: &Picked) -> Proposal {
     }
 }
 
-/// Returns the ends of a path of edges: the two vertices at which exactly one of the edges ends. `None` if the edges
-/// are not one path.
+/// Returns the two ends of a path of edges. An end is a vertex at which exactly one of the edges ends. Returns `None`
+/// if the edges do not form one path.
 fn path_ends(mesh: &Mesh, list: &[EdgeId]) -> Option<(usize, usize)> {
     let mut ends: Vec<usize> = list
         .iter()
@@ -319,8 +319,9 @@ fn path_ends(mesh: &Mesh, list: &[EdgeId]) -> Option<(usize, usize)> {
     }
 }
 
-/// Returns a limit below all picked values and above all others, with as few digits as the gap between them allows.
-/// `None` if no limit separates them, or if the gap is as small as a rounding error.
+/// Returns a limit that is less than all values of picked elements and greater than all values of other elements. The
+/// limit has as few digits as possible. Returns `None` if no limit separates the picked elements from the other
+/// elements, or if the gap between their values is as small as a rounding error.
 fn threshold(values: impl Iterator<Item = (f64, bool)>) -> Option<String> {
     let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
     for (value, is_picked) in values {
@@ -343,7 +344,7 @@ fn threshold(values: impl Iterator<Item = (f64, bool)>) -> Option<String> {
     (high - low > 1e-6 * scale).then(|| short_between(low, high))
 }
 
-/// Returns the number with the fewest digits in the middle half of the interval between two numbers.
+/// Returns a number between `low` and `high` that has few digits and lies in the middle half of the interval.
 fn short_between(low: f64, high: f64) -> String {
     let (a, b) = (low + (high - low) * 0.25, high - (high - low) * 0.25);
     let middle = f64::midpoint(low, high);
@@ -359,8 +360,9 @@ fn short_between(low: f64, high: f64) -> String {
     number(middle)
 }
 
-/// Returns an angle for `Expand` from the first picked face: above all angles between picked neighbors and below all
-/// angles at the border of the picked faces.
+/// Returns an angle with which `Expand`, starting at the first picked face, can select the picked faces. The angle is
+/// greater than all angles between neighboring picked faces, and less than all angles at the border of the picked
+/// faces.
 fn spread_angle(mesh: &Mesh, picked: &[bool]) -> Option<String> {
     let (mut inside, mut border) = (0.0_f64, f64::INFINITY);
     for e in mesh.edges() {
@@ -379,7 +381,7 @@ fn spread_angle(mesh: &Mesh, picked: &[bool]) -> Option<String> {
     (border.is_finite() && border - inside > 1e-3).then(|| short_between(inside, border))
 }
 
-/// Returns `Facing` with the mean normal of the picked faces.
+/// Returns the selection `Facing` with the mean normal of the picked faces as its direction.
 fn facing(mesh: &Mesh, picked: &[bool]) -> Option<String> {
     let mut mean = mesh::DVec3::ZERO;
     for f in mesh.faces().filter(|f| picked[f.index()]) {

@@ -1,4 +1,4 @@
-//! Inserts and removes entries of a list, struct or map, in the layout of the entries around them.
+//! Inserts and removes entries of a list, struct or map. New entries get the layout of the entries around them.
 //!
 //! ```text
 //! steps: [
@@ -11,20 +11,20 @@ use ron_tree::{Lexer, Span, TokenKind};
 
 use super::Edits;
 
-/// The indentation of a new level.
+/// The additional indentation of the entries of a container.
 const INDENT: &str = "    ";
 
-/// What follows an entry in its line.
+/// The part of a line after an entry.
 pub(super) struct Tail {
-    /// The offset after the comma of the entry, if the entry has a comma.
+    /// The offset in the text directly after the comma of the entry, if the entry has a comma.
     pub(super) comma: Option<usize>,
-    /// The offset after the entry, its comma, and the comments at the end of its line.
+    /// The offset in the text directly after the entry, its comma, and the comments at the end of its line.
     pub(super) end: usize,
     /// Whether the line ends there.
     pub(super) ends_line: bool,
 }
 
-/// Returns what follows the entry that ends at `from`.
+/// Returns the part of the line after the entry that ends at the offset `from`.
 pub(super) fn tail(text: &str, from: usize) -> Tail {
     let (mut comma, mut after_comma, mut after_comment) = (None, from, from);
     let found = |comma, end, ends_line| Tail {
@@ -59,7 +59,7 @@ fn next_is_comma(text: &str) -> bool {
     next.is_some_and(|token| token.kind == TokenKind::Comma)
 }
 
-/// Returns the start of the line that contains `offset`.
+/// Returns the offset at which the line that contains `offset` starts.
 pub(super) fn line_start(text: &str, offset: usize) -> usize {
     text[..offset].rfind('\n').map_or(0, |feed| feed + 1)
 }
@@ -70,13 +70,13 @@ pub(super) fn indent(text: &str, offset: usize) -> &str {
     &line[..line.len() - line.trim_start_matches([' ', '\t']).len()]
 }
 
-/// Whether only spaces precede `offset` in its line.
+/// Whether the part of the line before `offset` consists only of spaces.
 pub(super) fn starts_line(text: &str, offset: usize) -> bool {
     text[line_start(text, offset)..offset].trim().is_empty()
 }
 
-/// Inserts an entry so that it has the index `at` among the entries of a container: a list, struct or map, with its
-/// brackets.
+/// Inserts an entry into a container, which is a list, struct or map. The new entry has the index `at`. The span of the
+/// container includes its brackets.
 pub(crate) fn insert_entry(
     text: &str,
     container: Span,
@@ -116,7 +116,7 @@ pub(crate) fn insert_entry(
     edits
 }
 
-/// Inserts an entry before all others.
+/// Inserts an entry before all other entries of the container.
 fn insert_first(text: &str, container: Span, first: Option<Span>, entry: &str) -> Edits {
     let open = container.start + 1;
     let close = container.end.saturating_sub(1).max(open);
@@ -155,7 +155,8 @@ fn insert_first(text: &str, container: Span, first: Option<Span>, entry: &str) -
     vec![(Span::new(first.start, first.start), format!("{entry}, "))]
 }
 
-/// Removes an entry with its comma and the comment at the end of its line. Comments in the lines above stay.
+/// Removes an entry, its comma, and the comment at the end of its line. Comments in the lines above the entry are not
+/// removed.
 pub(super) fn remove_entry(text: &str, entries: &[Span], at: usize) -> Edits {
     let entry = entries[at];
     let tail = tail(text, entry.end);
@@ -164,7 +165,8 @@ pub(super) fn remove_entry(text: &str, entries: &[Span], at: usize) -> Edits {
         return vec![(Span::new(line - 1, tail.end), String::new())];
     }
     if let Some(before) = at.checked_sub(1).filter(|_| at + 1 == entries.len()) {
-        // The comma before the last entry goes too, unless the entry has a comma of its own.
+        // If the last entry is removed, the comma before it is removed too. If the last entry has a comma of its own,
+        // the comma before it stays.
         let comma = super::entries::tail(text, entries[before].end).comma;
         let start = if tail.comma.is_some() {
             comma

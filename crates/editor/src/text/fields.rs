@@ -1,11 +1,12 @@
-//! Sets and removes fields of a value that are given by their paths.
+//! Sets and removes fields of a value. A field is given by its path.
 
 use ron_tree::{Span, Value, ValueKind};
 
 use super::entries::{insert_entry, remove_entry};
 use super::{Edits, TextError};
 
-/// Returns the value at a path, as in [`set_field`]; `None` if the text does not have it.
+/// Returns the value at a path, which has the form described at [`set_field`]. Returns `None` if the text has no value
+/// at this path.
 pub(crate) fn field_value<'v>(value: &'v Value, path: &[String]) -> Option<&'v Value> {
     let mut place = Place::of(value);
     for item in path {
@@ -14,14 +15,15 @@ pub(crate) fn field_value<'v>(value: &'v Value, path: &[String]) -> Option<&'v V
     Some(place.value)
 }
 
-/// Sets the value at a path to `new`, or removes the field if `new` is `None`, so that it gets its default.
+/// Sets the value at a path to `new`. If `new` is `None`, removes the field, so that it has its default value.
 ///
-/// The path has the names of fields, variants and keys, and the indices of items: `["edges", "Random", "count"]`. A
-/// field that the text does not have yet is added, and so are the missing fields that contain it.
+/// A path is a list of names of fields, variants and keys, and of indices of items, such as
+/// `["edges", "Random", "count"]`. If the text does not have the field yet, the field is added, together with the
+/// missing fields that contain it.
 ///
 /// # Errors
 ///
-/// [`TextError::NoPlace`] if the path leads into a value that has no fields, or to an item that does not exist.
+/// Returns [`TextError::NoPlace`] if the path leads into a value that has no fields, or to an item that does not exist.
 pub(crate) fn set_field(
     text: &str,
     value: &Value,
@@ -50,7 +52,7 @@ pub(crate) fn set_field(
     }
 }
 
-/// A value on the path, and whether the path has used the name of its variant.
+/// A value on the path. Also says whether the name of the value's variant was already used as a part of the path.
 #[derive(Clone, Copy)]
 struct Place<'v> {
     value: &'v Value,
@@ -114,7 +116,8 @@ impl<'v> Place<'v> {
     }
 }
 
-/// Returns the entry for the rest of a path: `["style", "wireframe"]` becomes `style: (wireframe: new)`.
+/// Returns the text of a new entry for the rest of a path. For example, `["style", "wireframe"]` becomes
+/// `style: (wireframe: new)`.
 fn written(path: &[String], new: &str) -> Option<String> {
     let mut text = new.to_owned();
     for (i, item) in path.iter().enumerate().rev() {
@@ -132,7 +135,7 @@ fn written(path: &[String], new: &str) -> Option<String> {
     Some(text)
 }
 
-/// Adds a field at the end of the fields of a value. `None` if the value cannot have fields.
+/// Adds a field after the last field of a value. Returns `None` if the value cannot have fields.
 fn add_field(text: &str, value: &Value, entry: &str) -> Option<Edits> {
     let spans = entry_spans(value);
     match &value.kind {
@@ -155,7 +158,7 @@ fn remove_field(text: &str, parent: &Value, name: &str) -> Option<Edits> {
     Some(remove_entry(text, &entry_spans(parent), at))
 }
 
-/// Returns the spans of the fields of a value. A field is written `name: value`.
+/// Returns the spans of the fields of a value. The span of a field contains both its name and its value: `name: value`.
 pub(super) fn entry_spans(value: &Value) -> Vec<Span> {
     let fields = value.fields().iter();
     fields

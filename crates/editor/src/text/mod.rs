@@ -19,14 +19,16 @@ pub(crate) use steps::{
     set_envelope_field, unused_id,
 };
 
-/// Edits of a text: spans with the texts that replace them.
+/// Edits of a text: each pair has a span and the text that replaces it.
 pub(crate) type Edits = Vec<(Span, String)>;
 
 /// Why a text could not be edited.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum TextError {
     /// The text has no list `steps`, for example because of a syntax error.
-    #[error("the recipe has no list `steps: [..]` that could be read; correct its text first")]
+    #[error(
+        "the list `steps: [..]` of the recipe is missing or cannot be read; correct the text of the recipe first"
+    )]
     NoSteps,
     /// The step does not exist.
     #[error("step {0} does not exist (number of steps: {1})")]

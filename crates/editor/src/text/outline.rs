@@ -2,7 +2,7 @@
 
 use ron_tree::{Diagnostic, Span, Value, ValueKind, parse};
 
-/// The outline of a recipe's text. A text with errors has the parts that could be read.
+/// The outline of a recipe's text. If the text has errors, the outline has only the parts that could be read.
 #[derive(Clone, Debug)]
 pub struct Outline {
     /// The steps of the list `steps`, in the order of the text.
@@ -31,7 +31,7 @@ pub struct StepText {
     pub note: Option<String>,
     /// Whether the step runs: false if it has `enabled: false`.
     pub enabled: bool,
-    /// The names in `on`, if the step has it.
+    /// The names in the field `on`, if the step has this field.
     pub on: Option<Vec<String>>,
     /// The steps inside `Repeat` and `If`.
     pub inner: Vec<StepText>,
@@ -42,9 +42,9 @@ pub struct StepText {
 pub struct ParameterText {
     /// The name.
     pub name: String,
-    /// The declaration. `None` if it could not be read.
+    /// The declaration. `None` if the declaration could not be read.
     pub param: Option<recipe::Param>,
-    /// The span of the default, if it is written.
+    /// The span of the default value, if the parameter has one in the text.
     pub default: Option<Span>,
     /// The span of the declaration.
     pub span: Span,

@@ -92,8 +92,7 @@ pub(crate) fn unused_id(outline: &Outline, id: &str) -> String {
         .expect("a text has finitely many ids")
 }
 
-/// Moves a step, so that it has the index `to`. The comments directly above the step and at the end of its line move
-/// with it.
+/// Moves a step to the index `to`. The comments directly above the step and at the end of its line move with it.
 pub(crate) fn move_step(
     text: &str,
     outline: &Outline,
@@ -118,7 +117,8 @@ pub(crate) fn move_step(
     let comment = &text[end.comma.unwrap_or(step.end)..end.end];
     let block = format!("{}{}", &text[start..step.end], ",");
     let removed = Span::new(start.saturating_sub(1), end.end);
-    // The new place is after the line of the step before it, or before the comments of the first step.
+    // The step moves to the line after the step that will precede it. If it becomes the first step, it moves to before
+    // the comments of the current first step.
     let mut edits = vec![(removed, String::new())];
     if let Some(before) = target.checked_sub(1) {
         let before_tail = tail(text, entries[before].end);
@@ -137,7 +137,8 @@ pub(crate) fn move_step(
     Ok(edits)
 }
 
-/// Returns the start of the line of an entry, or of the comment lines directly above it.
+/// Returns the start of the comment lines directly above an entry, or the start of its line if there are no such
+/// comments.
 fn block_start(text: &str, entry: usize) -> usize {
     let mut start = line_start(text, entry);
     while start > 0 {
@@ -181,7 +182,8 @@ pub(crate) fn set_enabled(
     set_envelope_field(text, outline, step, "enabled", None)
 }
 
-/// Sets a field around the operation of a step, such as `id` or `on`, or removes it if `new` is `None`.
+/// Sets or removes a field around the operation of a step, such as `id` or `on`. The field is removed if `new` is
+/// `None`.
 pub(crate) fn set_envelope_field(
     text: &str,
     outline: &Outline,

@@ -14,8 +14,8 @@ use mesh::{DVec3, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 
 use super::values::{Blend, blended};
 
-/// The lower limit of the sines that determine where an edge is cut. Smaller sines are replaced by this value, because
-/// an edge that is almost parallel to a beveled edge would otherwise be cut far from its end.
+/// The lower limit of the sine of the angle between a beveled edge and an edge that is cut. A smaller sine is replaced
+/// by this limit. Otherwise, an edge that is almost parallel to a beveled edge would be cut far from its end.
 const LEAST_SINE: f64 = 0.25;
 
 /// Why an edge cannot be beveled.
@@ -34,7 +34,7 @@ pub enum BevelRefusal {
 /// The result of [`bevel_edges`].
 #[derive(Clone, Debug)]
 pub struct Beveled {
-    /// The mesh with bevels. It is [dense](mesh::Mesh::is_dense).
+    /// The mesh with bevels. This mesh is [dense](mesh::Mesh::is_dense).
     pub mesh: Mesh,
     /// The given edges that were not beveled, in ascending order.
     pub refused: Vec<(EdgeId, BevelRefusal)>,
@@ -42,17 +42,18 @@ pub struct Beveled {
 
 /// Replaces edges by faces of constant width.
 ///
-/// In each of its two faces, a beveled edge is replaced by a new edge at the distance `width`, in scene units. Edges
-/// that meet at a vertex are beveled together, so the result does not depend on their order. The result has the
-/// symmetries that the mesh and the set of edges have in common. The other edges at the ends of beveled edges are cut.
-/// An edge that shares a face corner with a beveled edge is cut where its distance from the beveled edge is `width`.
-/// Any other edge is cut at the distance `width` from its end. A cut is at most four times the width away from the end
-/// of its edge. The bevel is therefore narrower next to an edge that forms a small angle with the beveled edge.
+/// A beveled edge is replaced by two new edges, one in each of its two faces. Each new edge is at the distance `width`,
+/// in scene units, from the old edge. Edges that meet at a vertex are beveled together, so the result does not depend
+/// on their order. The result has the symmetries that the mesh and the set of edges have in common. An edge that is not
+/// beveled is shortened if it ends at a vertex of a beveled edge. An edge that shares a face corner with a beveled edge
+/// is cut where its distance from the beveled edge is `width`. Any other edge is cut at the distance `width` from its
+/// end. The distance between a cut and the end of its edge is at most four times the width. The bevel is therefore
+/// narrower next to an edge that forms a small angle with the beveled edge.
 ///
 /// The ends of beveled edges are removed. In the result, the remaining vertices come first, in their old order,
-/// followed by the new vertices. Faces keep their ids. They are followed by the new faces of edges, in the order of the
-/// edges, and then by the new faces of vertices, in the order of the vertices. All edges get new ids; edges that remain
-/// keep their values.
+/// followed by the new vertices. Faces keep their ids. The new faces of edges come after the old faces, in the order of
+/// the edges. The new faces of vertices come last, in the order of the vertices. All edges get new ids; edges that
+/// remain keep their values.
 ///
 /// Values of new vertices and corners are interpolated in the old faces, at the positions of the new vertices. Values
 /// that cannot be averaged are copied from one corner. The new face of an edge has the values of the face of the edge's
@@ -111,7 +112,7 @@ pub fn shortest_edge_at(mesh: &Mesh, edges: &[EdgeId]) -> f64 {
 #[derive(Clone, Copy)]
 struct Corner {
     vertex: u32,
-    /// The old corners whose values are mixed. All of them are corners of one face.
+    /// The old corners whose values are mixed. All of these corners belong to one face.
     values: Blend<HalfEdgeId>,
 }
 
@@ -121,7 +122,7 @@ struct Point {
     position: DVec3,
     /// The weight of the target of the half-edge, for the interpolation of values.
     along: f64,
-    /// The weight of the origin of the half-edge before it in the face.
+    /// The weight of the origin of the previous half-edge of the face.
     before: f64,
 }
 

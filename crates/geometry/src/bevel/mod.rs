@@ -7,8 +7,9 @@ use mesh::{EdgeId, FaceId, Mesh};
 
 pub use edges::{BevelRefusal, Beveled, bevel_edges, shortest_edge_at};
 
-/// The remaining lengths of edges that are cut by several bevels. A fraction of the original length of an edge is
-/// converted to a fraction of its current length, so the result does not depend on which end of an edge is cut first.
+/// The remaining lengths of edges that are cut by several bevels. A position that is given as a fraction of the
+/// original length of an edge is converted to a fraction of its current length. Therefore the result does not depend on
+/// which end of an edge is cut first.
 ///
 /// ```text
 ///    a---+---------------+---b      both cuts at a quarter of a-b: the second cut is at a third

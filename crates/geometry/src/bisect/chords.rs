@@ -32,13 +32,13 @@ impl Corner {
 /// Returns chords that cut the polygon so that no part has corners on both sides of the line. The polygon must have
 /// corners on both sides of the line. `normal` is the normal of the polygon.
 ///
-/// If the intervals between the corners on the line do not give such chords, each part to the left of the line is cut
-/// off separately.
+/// If the chords inside the polygon cannot be determined, or do not separate the two sides, each part to the left of
+/// the line is cut off separately.
 pub(super) fn chords_along_line(corners: &[Corner], normal: DVec3) -> Vec<[u32; 2]> {
     let n = corners.len();
     let is_good = |chords: &[[u32; 2]]| {
         let is_one_sided = |part: &Vec<usize>| {
-            // A half-edge h below n is the side of the polygon that starts at corner h.
+            // A half-edge with an index h below n is a side of the polygon: the side that starts at corner h.
             let sides = part.iter().filter(|&&h| h < n);
             let heights = sides.flat_map(|&i| [corners[i].height, corners[(i + 1) % n].height]);
             let (low, high) = heights.fold((0.0_f64, 0.0_f64), |(low, high), h| {
@@ -56,7 +56,8 @@ pub(super) fn chords_along_line(corners: &[Corner], normal: DVec3) -> Vec<[u32; 
     left_chords(corners)
 }
 
-/// Returns the chords inside the polygon; `None` if the corners do not give consistent inside intervals.
+/// Returns the chords inside the polygon; `None` if the corners contradict each other about which parts of the line are
+/// inside.
 fn inside_chords(corners: &[Corner], normal: DVec3) -> Option<Vec<[u32; 2]>> {
     let n = corners.len();
     let mut on_line: Vec<usize> = (0..n).filter(|&i| corners[i].height == 0.0).collect();
@@ -140,7 +141,7 @@ fn left_chords(corners: &[Corner]) -> Vec<[u32; 2]> {
     let mut chords: Vec<[u32; 2]> = (0..n)
         .filter(|&i| !is_left(i) && is_left(i + 1))
         .map(|i| {
-            // The polygon also has corners to the right, so each chain ends.
+            // The polygon also has corners that are not to the left of the line, so each chain of left corners ends.
             let end = (i + 1..=i + n)
                 .find(|&j| !is_left(j))
                 .expect("a chain ends")
@@ -214,8 +215,8 @@ mod tests {
             (-1., -1.),
             (-1., 0.),
         ];
-        // An edge crosses the line at (-2, 0). The test inserts a corner at the crossing, as the caller of
-        // `chords_along_line` does.
+        // An edge crosses the line at (-2, 0). The caller of `chords_along_line` inserts a corner where an edge crosses
+        // the line, so the test does so too.
         let mut crossed = zigzag.to_vec();
         crossed.insert(7, (-2., 0.));
         assert_eq!(cut(&crossed), [[7, 10]]);

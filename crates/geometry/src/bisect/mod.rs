@@ -25,7 +25,7 @@ pub struct Bisection {
     pub edges: Vec<EdgeId>,
     /// The faces on the side that the normal points to, in order of their ids.
     pub front: Vec<FaceId>,
-    /// The faces on the other side, in order of their ids.
+    /// The faces on the side that the normal points away from, in order of their ids.
     pub back: Vec<FaceId>,
 }
 
@@ -41,33 +41,34 @@ pub struct Bisection {
 ///
 /// Every edge that crosses the plane gets a vertex at the crossing point. Every face that crosses the plane is cut
 /// along the plane; a concave face can be cut several times. The parts remain connected. A vertex counts as on the
-/// plane if its distance is at most 1e-9 times the largest extent of the mesh or 1e-14 times the largest absolute
-/// coordinate of the mesh and `point`. A vertex on the plane is not moved, and an edge that ends at such a vertex is
-/// not split. The side of a vertex is determined once, and is the same for all its edges and faces. A crossing point
-/// does not depend on the direction of its edge.
+/// plane if its distance from the plane is at most the larger of two tolerances. One tolerance is 1e-9 times the
+/// largest extent of the mesh. The other tolerance is 1e-14 times the largest absolute coordinate of the mesh and
+/// `point`. A vertex on the plane is not moved, and an edge that ends at such a vertex is not split. The side of a
+/// vertex is determined once, and is the same for all its edges and faces. A crossing point does not depend on the
+/// direction of its edge.
 ///
 /// Ids change as follows. When an edge is split, the part at the origin of its first half-edge keeps the id of the
-/// edge. The other parts and the crossing points are new, and numbered in the order of the edges. The new edges on the
-/// plane are numbered after the parts of the split edges, face by face. When a face is cut, the part with its first
-/// corner keeps the id of the face; the other parts are new.
+/// edge. The other parts of split edges and the crossing points get new ids, in the order of the edges. The new edges
+/// on the plane are numbered after the parts of the split edges, face by face. When a face is cut, the part with its
+/// first corner keeps the id of the face; the other parts are new.
 ///
-/// Values are interpolated at crossing points. Corner values are interpolated within their face, so that seams
-/// are preserved. Parts of an edge or a face copy its values, and new edges on the plane have zero values.
+/// Values are interpolated at crossing points. Corner values are interpolated within their face, so that seams are
+/// preserved. The parts of a split edge or of a cut face copy its values. New edges on the plane have zero values.
 ///
-/// The plane meets a flat face in a line. This line crosses the sides of the face an even number of times, and
-/// the intervals between crossings are alternately inside and outside of the face. On a face that is twisted or
-/// intersects itself, the intervals can be inconsistent; then each part of the face in front of the plane is
-/// cut off separately. If two faces share both edges that the plane crosses, each face gets a separate edge
-/// between the same two crossing points.
+/// The plane meets a flat face in a line. The line in which the plane meets a face crosses the sides of the face an
+/// even number of times. The intervals between these crossings are alternately inside and outside of the face. If a
+/// face is twisted or intersects itself, the intervals can be inconsistent. Each part of such a face in front of the
+/// plane is then cut off separately. If two faces share both edges that the plane crosses, each face gets a separate
+/// edge between the same two crossing points.
 ///
-/// A face that lies in the plane counts as in front of the plane if its normal points to the back, because the solid
-/// that the face bounds then lies in front of the plane. Otherwise the face counts as behind.
+/// A face that lies in the plane counts as in front of the plane if its normal points to the back. In this case, the
+/// solid that the face bounds lies in front of the plane. Any other face in the plane counts as behind the plane.
 ///
 /// # Errors
 ///
-/// Returns [`EditError::BadNumber`] if the normal is zero, if a coordinate is not finite, or if the mesh is so
-/// large that distances are not finite; [`EditError::Pinch`] if a face contains a vertex twice and would be
-/// cut from that vertex to itself; or [`EditError::Full`]. The mesh is unchanged.
+/// Returns [`EditError::BadNumber`] if the normal is zero, if a coordinate is not finite, or if the mesh is so large
+/// that distances are not finite. Returns [`EditError::Pinch`] if a face contains a vertex twice and would be cut from
+/// that vertex to itself. Returns [`EditError::Full`] if the mesh could have too many elements. The mesh is unchanged.
 ///
 /// # Examples
 ///
@@ -118,7 +119,8 @@ fn heights(mesh: &Mesh, point: DVec3, normal: DVec3) -> Result<Vec<f64>, EditErr
     (0..mesh.positions().len()).map(height).collect()
 }
 
-/// Inserts a vertex on every edge whose ends lie on different sides, and appends its height, 0, to `heights`.
+/// Inserts a vertex on every edge whose ends lie on different sides of the plane. For each new vertex, appends its
+/// height 0 to `heights`.
 fn split_across(mesh: &mut Mesh, heights: &mut Vec<f64>) -> Result<(), EditError> {
     let crossing: Vec<EdgeId> = mesh
         .edges()
@@ -152,7 +154,8 @@ fn cut_across(mesh: &mut Mesh, f: FaceId, normal: DVec3, heights: &[f64]) -> Res
         return Ok(());
     }
     let sides: Vec<HalfEdgeId> = around.collect();
-    // The direction of the line in which the plane meets the face, with the front to its left.
+    // The direction of the line in which the plane meets the face. The front side of the plane is to the left of this
+    // direction.
     let along = normal.cross(mesh.face_normal(f));
     let first = mesh.position(mesh.origin(sides[0]));
     let corners: Vec<Corner> = sides

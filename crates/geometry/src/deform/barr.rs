@@ -4,9 +4,9 @@ use mesh::DVec3;
 
 use crate::sin_cos_degrees;
 
-/// The coordinates of a deformation: an origin and three orthogonal unit vectors, which form a right-handed
-/// system. The third vector is the axis, along which heights are measured. The deformation changes from the
-/// height `from` to the height `to`. Below `from` and above `to`, points move rigidly or, for [`Taper`], are
+/// The coordinates of a deformation: an origin and three orthogonal unit vectors, which form a right-handed system. The
+/// third vector is the axis, along which heights are measured. The amount of the deformation changes only between the
+/// heights `from` and `to`. Points below the height `from` or above the height `to` move rigidly or, for [`Taper`], are
 /// scaled by a constant factor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
@@ -104,8 +104,9 @@ impl Taper {
 ///                                              angle in radians.
 /// ```
 ///
-/// Points at `from` or below do not move. Between `from` and `to`, volumes change by the factor 1 - k x. The center of
-/// the circle is at x = 1 / k; beyond the center, the factor is negative and the result is inside out.
+/// Points at `from` or below do not move. Between the heights `from` and `to`, volumes are multiplied by 1 - k x, where
+/// k is the curvature. The center of the circle is at x = 1 / k. Beyond the center, the factor 1 - k x is negative, and
+/// the result is inside out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bend {
     /// The coordinates.

@@ -25,9 +25,9 @@ pub fn falloff(points: &[DVec3], is_selected: &[bool], radius: f64) -> Vec<f64> 
 /// The largest number of points in a part of the tree that is searched point by point.
 const LEAF: usize = 16;
 
-/// Sorts points as a balanced tree (Bentley, "Multidimensional Binary Search Trees Used for Associative
-/// Searching", 1975): the middle point divides each part in two halves along `axis`, and the halves are divided
-/// along the next axis.
+/// Sorts points as a balanced tree. The middle point divides each part in two halves along `axis`, and the halves are
+/// divided along the next axis. Source: Bentley, "Multidimensional Binary Search Trees Used for Associative
+/// Searching", 1975.
 fn sort(points: &mut [DVec3], axis: usize) {
     if points.len() > LEAF {
         let middle = points.len() / 2;

@@ -39,8 +39,8 @@ pub fn gradient(seed: u64, p: DVec3) -> f64 {
     sum
 }
 
-/// Returns the dot product of the offset from a corner of the lattice and the gradient at this corner. The
-/// gradient is one of the twelve vectors from the center of a cube to the midpoints of its edges.
+/// Returns the dot product of two vectors: the offset from a corner of the lattice, and the gradient at this corner.
+/// The gradient is one of the twelve vectors from the center of a cube to the midpoints of its edges.
 fn slope(seed: u64, corner: DVec3, offset: DVec3) -> f64 {
     // Adding 0 turns -0 into 0, because both must give the same gradient.
     let cell = corner.to_array().map(|x| (x + 0.0).to_bits());

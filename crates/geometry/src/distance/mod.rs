@@ -12,11 +12,11 @@
 //!  a-----b        a--m--b     the furthest corner of the piece. This gives a bound for all points.
 //! ```
 //!
-//! Only pieces whose bound exceeds the largest distance found so far by more than the tolerance are cut. Sources:
-//! Aspert, Santa-Cruz, Ebrahimi, "MESH: Measuring Errors between Surfaces using the Hausdorff Distance", 2002, for the
-//! measures; Tang, Lee, Kim, "Interactive Hausdorff Distance Computation for General Polygonal Models", 2009, for the
-//! bounds and the cutting. Pieces are cut in rounds, and the largest distance is updated after each round, so that the
-//! result is the same for any number of threads.
+//! A piece is cut only if its bound exceeds the largest distance found so far by more than the tolerance. Source of the
+//! measures: Aspert, Santa-Cruz, Ebrahimi, "MESH: Measuring Errors between Surfaces using the Hausdorff
+//! Distance", 2002. Source of the bounds and of the cutting: Tang, Lee, Kim, "Interactive Hausdorff Distance
+//! Computation for General Polygonal Models", 2009. Pieces are cut in rounds. The largest distance is updated only
+//! after each round, so that the result is the same for any number of threads.
 
 mod piece;
 
@@ -43,9 +43,10 @@ pub struct Distance {
 #[derive(Clone, Debug, PartialEq)]
 pub struct OneSided {
     /// The largest distance found, exact up to rounding. If very many triangles are almost equally near to a point, the
-    /// search for the nearest triangle stops early, and this value is only a lower bound.
+    /// search for the nearest triangle stops early. In this case, the value is only a lower bound of the largest
+    /// distance.
     pub largest: f64,
-    /// An upper bound of the distances of all points of this surface.
+    /// An upper bound of the distances from all points of this surface to the other surface.
     pub at_most: f64,
     /// The distance averaged over the area of this surface, computed from samples at the corners and inside the
     /// triangles. If the area of the surface is zero, this value is the mean over the vertices.
@@ -166,14 +167,15 @@ impl std::fmt::Display for SurfacePoint {
 /// The approximate number of samples for the mean distance of a surface that has only a few large triangles.
 const SAMPLES: f64 = 50_000.0;
 
-/// The number of faces in a block. One thread measures the faces of a block. The number does not depend on the number
-/// of threads, so that the sums do not depend on it either.
+/// The number of faces in a block. One thread measures the faces of a block. The number of faces in a block is
+/// constant, so that the sums are the same for any number of threads.
 const BLOCK: usize = 1024;
 
 /// The result of measuring one block of faces.
 #[derive(Default)]
 struct Block {
-    /// The pieces whose bound exceeds the largest distance of a vertex by more than the tolerance.
+    /// The pieces that may have to be cut: their bounds exceed the largest distance of a vertex by more than the
+    /// tolerance.
     pieces: Vec<Piece>,
     /// An upper bound of the distances of all points that are not in one of the `pieces`.
     ceiling: f64,
@@ -303,8 +305,8 @@ impl Block {
         Ok(())
     }
 
-    /// Divides a triangle into `rows` rows of smaller triangles. Returns the mean of the distances at the centers
-    /// of these triangles.
+    /// Divides a triangle into `rows` rows of smaller triangles. Returns the mean of the distances at the centers of
+    /// the smaller triangles.
     fn mean_over(
         &mut self,
         piece: &Piece,

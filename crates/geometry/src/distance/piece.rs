@@ -33,7 +33,8 @@ pub(super) struct Farthest {
 /// The number of pieces that one thread cuts at a time.
 const BLOCK: usize = 64;
 
-/// The maximum number of pieces in a round. If there are more pieces, those with the largest bounds are kept.
+/// The maximum number of pieces that are cut in one round. If there are more pieces, those with the largest bounds are
+/// kept.
 const MAX_PIECES: usize = 1 << 18;
 
 /// The search stops after it has visited this number of nodes in the tree of the other surface. This takes a few
@@ -74,18 +75,18 @@ impl Piece {
         piece
     }
 
-    /// Returns an upper bound of the distances from all points of the piece to the other surface. The result is
-    /// the minimum of these bounds:
+    /// Returns an upper bound of the distances from all points of the piece to the other surface. The result is the
+    /// minimum of these bounds:
     ///
-    /// 1. The largest distance from a corner of the piece to one triangle of the other surface. The distance
-    ///    to a triangle is a convex function, so its maximum over the piece is at a corner.
-    /// 2. d + e, if the nearest points of the three corners lie on two triangles with a common edge. d is the
-    ///    largest distance from a corner to its nearest point. So no point of the piece is further than d from
-    ///    the triangle that the three nearest points span. Two sides of this spanned triangle lead from one of
-    ///    the two triangles to the other. e is the larger of the distances of these two sides from the common
-    ///    edge. So no point of the spanned triangle is further than e from the two triangles.
-    /// 3. The largest distance of a corner, plus 1/√3 times the longest side. No point of the piece is further
-    ///    than 1/√3 times the longest side from the nearest corner.
+    /// 1. The largest distance from a corner of the piece to one triangle of the other surface. The distance to a
+    ///    triangle is a convex function of the point, so its maximum over the piece is at a corner.
+    /// 2. d + e, if the nearest points of the three corners lie on two triangles with a common edge. The length d is
+    ///    the largest distance from a corner to its nearest point. Therefore no point of the piece is further than d
+    ///    from the triangle that the three nearest points span. Two sides of this spanned triangle lead from one of the
+    ///    two triangles to the other. The length e is the larger of the distances of these two sides from the common
+    ///    edge. Therefore no point of the spanned triangle is further than e from the two triangles.
+    /// 3. The largest distance from a corner to its nearest point, plus 1/√3 times the longest side. No point of the
+    ///    piece is further than 1/√3 times the longest side from the nearest corner.
     fn bound(&self, to: &SurfaceIndex) -> f64 {
         let [a, b, c] = self.corners;
         let far = self.corners.iter().fold(0.0, |d, s| s.hit.distance.max(d));
@@ -187,9 +188,9 @@ impl Piece {
     }
 }
 
-/// Cuts pieces until no piece can be further away than the furthest sample by more than `tolerance`, or until
+/// Cuts pieces until no piece can be more than `tolerance` further away than the furthest sample, or until
 /// [`MAX_VISITS`] nodes were visited. Pieces that cutting cannot improve are not cut. If a round has too many pieces,
-/// those with the smallest bounds are not cut either. Returns the furthest sample and an upper bound of the distances
+/// the pieces with the smallest bounds are left uncut. Returns the furthest sample and an upper bound of the distances
 /// of all points of the surface, including the points of pieces that were not cut. `ceiling` is an upper bound for the
 /// points that are not in one of the `pieces`.
 pub(super) fn refine(
@@ -248,8 +249,8 @@ pub(super) fn refine(
     }
 }
 
-/// Cuts pieces in two. Returns the halves, the furthest sample among `farthest` and the new samples, and the number of
-/// visited nodes.
+/// Cuts pieces in two. Returns three results: the halves; the furthest sample, chosen from `farthest` and the new
+/// samples; and the number of visited nodes.
 fn cut_all(
     pieces: &[Piece],
     mut farthest: Farthest,

@@ -1,4 +1,4 @@
-//! A triangulation that is defined only by the side lengths of its triangles, and flips of its edges.
+//! A triangulation that is defined only by the side lengths of its triangles. Its edges can be flipped.
 //!
 //! ```text
 //!          k                    k
@@ -19,8 +19,8 @@ use crate::triangulate::Cutter;
 
 /// Marks a side that is not glued to another side.
 const NONE: u32 = u32::MAX;
-/// All sides are lengthened by the same length if necessary, so that in every triangle the sum of two sides exceeds the
-/// third side by at least this fraction of the mean length of a side.
+/// In every triangle, the sum of two sides must exceed the third side by at least this fraction of the mean length of a
+/// side. If necessary, all sides are lengthened by the same length.
 const SLACK: f64 = 1e-5;
 /// The largest number of flips, divided by the number of sides of all triangles.
 const MAX_FLIPS: usize = 100;
@@ -144,8 +144,8 @@ impl Intrinsic {
         Ok(())
     }
 
-    /// Flips the edge of a side if the edge is not Delaunay. Returns the other sides of the two triangles; `None` if
-    /// the edge was not flipped.
+    /// Flips the edge of a side if the edge is not Delaunay. Returns the four other sides of the two triangles at the
+    /// edge; `None` if the edge was not flipped.
     fn flip_if_not_delaunay(&mut self, side: u32) -> Option<[u32; 4]> {
         let (t, k) = place(side);
         let other = self.glued[t][k];

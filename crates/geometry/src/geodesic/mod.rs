@@ -6,9 +6,9 @@
 //!          . : # : .                   <- <- o -> ->                        2 1 0 1 2
 //! ```
 //!
-//! Sources: Crane, Weischedel, Wardetzky, "Geodesics in Heat", 2013, and Sharp, Crane, "A Laplacian for Nonmanifold
-//! Triangle Meshes", 2020, for the Laplacian of the intrinsic Delaunay triangulation, which is accurate even if
-//! triangles are very thin.
+//! Source of the heat method: Crane, Weischedel, Wardetzky, "Geodesics in Heat", 2013. The method uses the Laplacian of
+//! the intrinsic Delaunay triangulation, which is accurate even if triangles are very thin. Source of this Laplacian:
+//! Sharp, Crane, "A Laplacian for Nonmanifold Triangle Meshes", 2020.
 
 mod intrinsic;
 #[cfg(test)]
@@ -22,7 +22,7 @@ use crate::laplacian::exponent;
 use crate::sparse::{Factor, SolveError, SymmetricMatrix};
 use intrinsic::{Intrinsic, area, cotangent, scaled_points};
 
-/// The smallest heat at which directions are accurate. It is well above the smallest positive `f64`.
+/// The smallest heat at which directions are accurate. This heat is well above the smallest positive `f64`.
 const LEAST_HEAT: f64 = 1e-280;
 
 /// Returns the distance along the surface from each vertex to the nearest source, by vertex index, in scene units.
@@ -102,11 +102,11 @@ fn laplacian(surface: &Intrinsic, n: usize) -> (SymmetricMatrix, Vec<f64>) {
     (SymmetricMatrix::from_entries(n, entries), areas)
 }
 
-/// Returns the heat of the vertices after a short time. During this time, the pinned vertices keep the heat that they
-/// have in `start`. All sources are therefore equally hot, even at the ends of a line of sources.
+/// Returns the heat of the vertices after a short time. The pinned vertices keep the heat that they have in `start`.
+/// All sources are therefore equally hot, even at the ends of a line of sources.
 ///
-/// The time is the square of the mean length of an edge. If a vertex is so far away that no heat arrives, the time is
-/// increased.
+/// The heat flows for a time equal to the square of the mean length of an edge. If a vertex is so far from all sources
+/// that no heat arrives, the heat flows for a longer time.
 fn heat(
     surface: &Intrinsic,
     stiffness: &SymmetricMatrix,
@@ -123,8 +123,8 @@ fn heat(
         let mut heat = start.to_vec();
         Factor::with_pins(&matrix, is_pinned, progress)?.solve(&none, &mut heat)?;
         let arrives = |(heat, is_pinned): (&f64, &bool)| *is_pinned || *heat > LEAST_HEAT;
-        // The square root of this time is as long as 1e8 edges of mean length, which is longer than any path in
-        // practice.
+        // At this limit, the square root of the time is 1e8 times the mean length of an edge. No path in practice is
+        // that long.
         let is_longest = time > length * length * 1e16;
         if is_longest || heat.iter().zip(is_pinned).all(arrives) {
             return Ok(heat);

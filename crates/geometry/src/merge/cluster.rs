@@ -9,10 +9,10 @@
 //!    +-----+        +---+      otherwise: compare the halves of the box with more points
 //! ```
 //!
-//! A grid of cells as wide as the distance would be simpler, but its cell indices overflow for tiny distances,
-//! and a million points in one cell would need about 10^12 comparisons. In the tree, a box of equal or very
-//! close points becomes a cluster immediately, for any number of points. Only differences of coordinates are
-//! computed, which neither overflow nor lose precision for nearby points.
+//! A grid of cells as wide as the distance would be simpler. However, its cell indices overflow for tiny distances, and
+//! a million points in one cell would need about 10^12 comparisons. In the tree, a box of equal or very close points
+//! becomes a cluster immediately, for any number of points. Only differences of coordinates are computed, which neither
+//! overflow nor lose precision for nearby points.
 
 use mesh::DVec3;
 use progress::{Cancelled, Meter, Progress};
@@ -139,7 +139,7 @@ impl<'p> Tree<'p> {
     }
 }
 
-/// The test whether the difference of two positions is at most one step.
+/// Tests whether the difference of two positions is at most one step long.
 #[derive(Clone, Copy)]
 struct Reach {
     /// A power of two that scales the distance to near 1, so that squares neither overflow nor underflow.
@@ -159,8 +159,8 @@ impl Reach {
         }
     }
 
-    /// Whether the length of the difference is at most the distance. If so, this also holds for every difference with
-    /// smaller absolute coordinates.
+    /// Whether the length of the difference is at most the distance. If the result is true for a difference, it is also
+    /// true for every difference whose coordinates have smaller absolute values.
     fn covers(&self, difference: DVec3) -> bool {
         if self.squared == 0.0 {
             // Squares are not compared, because the square of a tiny difference is also 0.
@@ -201,7 +201,7 @@ impl Search<'_> {
         self.meter.add(tree.points.len())
     }
 
-    /// Joins the sets of every two points, one in each box, that are at most one step apart.
+    /// For every pair of a point of `a` and a point of `b`, joins their sets if the points are at most one step apart.
     fn join_between(&self, a: &Tree, b: &Tree) {
         let gap = (b.min - a.max).max(a.min - b.max).max(DVec3::ZERO);
         if !self.reach.covers(gap) {
@@ -348,7 +348,7 @@ mod tests {
     #[test]
     fn clusters_are_the_same_for_any_number_of_threads() {
         let points = noise(100_000);
-        // Near one of these distances, most points of this cloud become connected.
+        // At one of these distances or near it, most points of this cloud merge into one cluster.
         for distance in [0.005, 0.015, 0.02] {
             let with = |threads| {
                 let pool = rayon::ThreadPoolBuilder::new()
@@ -390,7 +390,7 @@ mod tests {
             let a = DVec3::from_array(at) + offset;
             for (factor, near) in [(0.9, true), (1.1, false)] {
                 let mut points = vec![a, a + factor * distance * direction];
-                // The points far away only make the tree deeper.
+                // The other points are far away from the first two points. They only make the tree deeper.
                 points.extend(noise(others).iter().map(|&p| a + 1e4 * (p + 1.0)));
                 // Skips cases in which rounding of the sum could move a point too far.
                 prop_assume!(offset.abs() * 1e-15 < 0.01 * distance);

@@ -29,7 +29,7 @@ pub struct Merged {
     pub vertices: usize,
     /// The number of faces that lost corners but kept at least three.
     pub smaller_faces: usize,
-    /// The changes that made the result a manifold. The `dropped_faces` of the report are the faces that
+    /// The changes that made the result a manifold. The field `dropped_faces` of the report lists the faces that
     /// disappeared.
     pub report: BuildReport,
 }
@@ -98,16 +98,16 @@ pub fn merge_vertices(
 /// Merges each cluster of vertices into one vertex. `lowest[v]` is the lowest vertex index in the cluster of vertex
 /// `v`, as returned by [`clusters`]. The mesh must be [dense](mesh::Mesh::is_dense).
 ///
-/// The merged vertex has the position and the values of the lowest vertex. The other vertices are removed, and ids are
-/// renumbered without gaps. Edges between the same two vertices become one edge, which has the values of the edge with
-/// the lowest id. Faces keep their order and values, and corners keep their values, so that seams are preserved.
-/// Columns with [`Rule::Drop`](mesh::Rule::Drop) are removed.
+/// The merged vertex has the position and the values of the vertex with the lowest index in the cluster. All vertices
+/// of a cluster except the lowest are removed. Ids are renumbered without gaps. Edges between the same two vertices
+/// become one edge, which has the values of the edge with the lowest id. Faces keep their order and values, and corners
+/// keep their values, so that seams are preserved. Columns with [`Rule::Drop`](mesh::Rule::Drop) are removed.
 ///
-/// A face loses each corner that merges with the next corner of the face. The face is dropped if fewer than three
-/// corners are left or if it would contain a vertex twice. After this, connected faces can have opposite orientations.
-/// If all orientations can be made to agree, [`build()`] reverses the smaller group of faces, and normals are dropped.
-/// If the result is still not a manifold, `build` splits edges and vertices. For example, the third face at an edge
-/// gets a copy of the edge.
+/// A face loses each corner that merges with the next corner of the face. A face is dropped if fewer than three of its
+/// corners are left, or if it would contain a vertex twice. After the merge, connected faces can have opposite
+/// orientations. If all orientations can be made to agree, [`build()`] reverses the smaller group of faces, and normals
+/// are dropped. If the result is still not a manifold, `build` splits edges and vertices. For example, if three faces
+/// share an edge, the third face gets a copy of the edge.
 ///
 /// # Errors
 ///
@@ -141,7 +141,7 @@ pub fn merge_clusters(mesh: &mut Mesh, lowest: &[u32]) -> Result<Merged, BuildEr
     Ok(merged)
 }
 
-/// The faces of a mesh over the vertices that remain after merging.
+/// The faces of a mesh, with the vertices that remain after merging.
 struct Polygons {
     /// The old ids of the vertices that remain.
     kept: Vec<VertexId>,

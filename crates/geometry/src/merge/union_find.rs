@@ -19,7 +19,7 @@ impl UnionFind {
         }
     }
 
-    /// Returns the root of the set of `v`. It is the lowest number of the set once all joins are finished.
+    /// Returns the root of the set of `v`. After all joins are finished, the root is the lowest number of the set.
     pub(crate) fn root(&self, mut v: u32) -> u32 {
         loop {
             let parent = self.parent[v as usize].load(Relaxed);

@@ -15,21 +15,22 @@ use crate::distance::Distance;
 use crate::surface_index::SurfaceIndex;
 use crate::surface_index::triangle::nearest_on_triangle;
 
-/// The distance of samples may be at most this fraction of the limit. The rest of the limit is left for the
-/// points between the samples.
+/// The largest allowed distance of a sample, as a fraction of the limit. The rest of the limit is left for the points
+/// between the samples.
 const SHARE: f64 = 0.7;
 
 /// The largest distance of samples of a new triangle from the original surface, as a fraction of the target length.
-/// This bound also applies if there is no error limit. It keeps edges from crossing ridges that are not features.
+/// This bound also applies if there is no error limit. This bound keeps edges from crossing ridges that are not
+/// features.
 const SOFT: f64 = 0.1;
 
 /// The tolerance of the measured distance, as a fraction of the limit.
 const TOLERANCE: f64 = 0.01;
 
 impl Work<'_> {
-    /// Whether a step that replaces triangles could move the surface further than the limit allows, or further than
-    /// [`SOFT`] times the target length. `new` are the new triangles, each with an existing face of the chart in which
-    /// the triangle lies. `gone` are points of the old triangles.
+    /// Whether a step that replaces triangles could move the surface too far: further than the limit allows, or further
+    /// than [`SOFT`] times the target length. `new` lists the new triangles, each with an existing face of the same
+    /// chart. `gone` are points of the old triangles.
     pub(super) fn is_far(&self, new: &[(FaceId, [DVec3; 3])], gone: &[DVec3]) -> bool {
         let sizes = new.iter().flat_map(|&(f, _)| self.mesh.face_vertices(f));
         let size = sizes.fold(f64::INFINITY, |size, v| size.min(self.sizes[v.index()]));
@@ -53,8 +54,8 @@ impl Work<'_> {
     }
 }
 
-/// Measures the distance between the original and the result. If an upper bound of this distance is above the limit,
-/// returns the bound; otherwise `None`.
+/// Measures the distance between the original and the result. If an upper bound of the distance is above the limit,
+/// returns this bound; otherwise `None`.
 pub(super) fn excess(
     source: &Mesh,
     result: &Mesh,

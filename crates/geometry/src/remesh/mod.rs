@@ -1,9 +1,9 @@
 //! Remeshing: nearly equilateral triangles of a given size for the same surface.
 //!
 //! Each pass splits long edges, collapses short edges, flips edges so that vertices have six edges, and moves vertices
-//! along the surface: Botsch, Kobbelt, "A Remeshing Approach to Multiresolution Modeling", 2004. Each movement ends at
-//! a point of the original chart or line of the vertex, so the vertices lie on the original surface. The only
-//! exceptions are new vertices whose movements are all refused.
+//! along the surface. Source: Botsch, Kobbelt, "A Remeshing Approach to Multiresolution Modeling", 2004. Each movement
+//! of a vertex ends on the original surface, at a point of the chart or line to which the vertex belongs. A vertex of
+//! the result is off the original surface only if it is new and all of its movements were refused.
 //!
 //! ```text
 //!     +---+-----------+            +-----+-----+
@@ -15,8 +15,8 @@
 //!     +-+----------+--+            +-----+-----+
 //! ```
 //!
-//! The target length is the same everywhere, or it follows the curvature: Dunyach, Vanderhaeghe, Barthe, Botsch,
-//! "Adaptive Remeshing for Real-Time Mesh Deformation", 2013.
+//! The target length is the same everywhere, or it follows the curvature. Source for lengths that follow the curvature:
+//! Dunyach, Vanderhaeghe, Barthe, Botsch, "Adaptive Remeshing for Real-Time Mesh Deformation", 2013.
 
 mod collapse;
 mod flip;
@@ -68,10 +68,11 @@ pub struct Options<'a> {
     /// The target length of edges.
     pub length: Length,
     /// The largest allowed Hausdorff distance between the original and the new surface, in scene units; `None` sets no
-    /// limit. With a limit, target lengths are reduced where edges of the given length could exceed the limit, and
-    /// steps that seem to exceed the limit are refused. At the end, the distance is measured in both directions with a
-    /// guaranteed bound. If the bound is above the limit, remeshing starts again with shorter edges where the distance
-    /// is too large. If the bound is still above the limit after four attempts, remeshing fails.
+    /// limit. With a limit, target lengths are reduced where edges of the given length could deviate from the surface
+    /// by more than the limit. Steps that seem to exceed the limit are refused. At the end, the distance is measured in
+    /// both directions with a guaranteed bound. If the bound is above the limit, remeshing starts again with shorter
+    /// edges where the distance is too large. If the bound is still above the limit after four attempts, remeshing
+    /// fails.
     pub error: Option<f64>,
     /// Edges that are preserved as lines. These edges are always preserved: boundaries, seams, edges between faces with
     /// different tags, materials or other whole numbers, tagged edges, and creases.
@@ -87,7 +88,7 @@ pub struct Options<'a> {
 /// The result of [`remesh`].
 #[derive(Clone, Debug)]
 pub struct Remeshed {
-    /// The new mesh. It is [dense](mesh::Mesh::is_dense).
+    /// The new mesh. This mesh is [dense](mesh::Mesh::is_dense).
     pub mesh: Mesh,
     /// The numbers of steps.
     pub counts: Counts,
@@ -98,7 +99,7 @@ pub struct Remeshed {
 pub struct Counts {
     /// The number of passes.
     pub passes: u64,
-    /// The number of passes that were allowed.
+    /// The maximum number of passes.
     max_passes: u64,
     /// The number of edges that were split.
     pub split: usize,
@@ -184,7 +185,7 @@ pub enum RemeshError {
     },
     /// The result would be too far from the original.
     #[error(
-        "the distance between the surfaces could be {}, which is above the allowed error {}",
+        "the distance between the original and the new surface could be {}, which is above the allowed error {}",
         readable(*.reached), readable(*.limit)
     )]
     TooFar {
@@ -211,11 +212,13 @@ pub enum RemeshError {
 ///   both of its neighbors on the line have the tag too.
 ///
 /// Attributes are taken from the same location on the original surface, and never from the other side of a line. Vertex
-/// and corner attributes are interpolated at this location. A new vertex has a tag if all original vertices around its
-/// location have the tag; integers are taken from the nearest of these vertices. A new face gets the values of the
-/// original face at its center. A new edge on a line gets the values of the original edge of the line that contains its
-/// midpoint. Any other new edge gets its values from the original triangle at its midpoint: from the edge of this
-/// triangle that is nearest to the midpoint and not on a line. If the triangle has no such edge, the values are zero.
+/// and corner attributes are interpolated at their location on the original surface. A new vertex has a tag if all
+/// original vertices around its location have the tag. The integers of a new vertex are copied from the nearest of
+/// these original vertices. A new face gets the values of the original face at its center. A new edge on a line gets
+/// the values of the original edge that contains the midpoint of the new edge. Any other new edge gets its values from
+/// the original triangle at the midpoint of the new edge. The values are those of the edge of this triangle that is
+/// nearest to the midpoint and not on a line. If all edges of the original triangle are on lines, the values of the new
+/// edge are zero.
 ///
 /// All elements get new ids.
 ///
@@ -306,7 +309,8 @@ fn run(
     Ok((work.finish(progress)?, counts))
 }
 
-/// Splitting stops at this multiple of the estimated number of faces, so that the splitting ends for every input.
+/// Edges are no longer split when the number of faces reaches this multiple of its estimate, so that the splitting ends
+/// for every input.
 const ENOUGH: f64 = 4.0;
 
 /// The largest number of faces during remeshing. All half-edges must have ids, including those that are removed during

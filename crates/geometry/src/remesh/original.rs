@@ -16,18 +16,18 @@ use super::Options;
 use crate::lines::{Kind, inverse_power_of_two, kinds, labels, lines};
 use crate::surface_index::SurfaceIndex;
 
-/// The chart of a face whose chart is not known yet.
+/// Marks a face whose chart is not known yet.
 const NONE: u32 = u32::MAX;
 
-/// The cosine of the angle by which a line may turn at a vertex that is not a corner: 40°.
+/// The cosine of 40°, the largest angle by which a line may turn at a vertex that is not a corner.
 const STRAIGHT: f64 = 0.766_044_443_118_978;
 
 /// The original surface.
 pub(super) struct Original<'a> {
-    /// The original mesh. It is [dense](mesh::Mesh::is_dense).
+    /// The original mesh. This mesh is [dense](mesh::Mesh::is_dense).
     pub(super) source: &'a Mesh,
-    /// The same mesh without attributes, in coordinates relative to `center`, scaled by a power of two. Very small and
-    /// very large meshes then give the same result.
+    /// The same mesh without attributes, in coordinates relative to `center`, scaled by a power of two. In these
+    /// coordinates, very small and very large meshes give the same result.
     pub(super) mesh: Mesh,
     center: DVec3,
     pub(super) scale: f64,
@@ -51,10 +51,10 @@ pub(super) struct Original<'a> {
 pub(super) enum Place {
     /// At this vertex. The location never changes.
     Corner(VertexId),
-    /// On a chain, at this arc length from its start.
+    /// On the line `chain`, at the arc length `at` from the start of the line.
     Line { chain: u32, at: f64 },
-    /// Inside a chart, at the point of the chart that is nearest to the vertex. The triangle with this index is near
-    /// that point.
+    /// Inside a chart, at the point of the chart that is nearest to the vertex. The value is the index of a triangle
+    /// near this point of the chart.
     Inside(u32),
 }
 
@@ -92,7 +92,7 @@ impl Chain {
     }
 
     /// Returns the arc length from one parameter to another, in the direction of the chain. For equal parameters, the
-    /// result is 0, and never the full length of a closed chain: no edge goes all the way around a closed chain,
+    /// result is 0, and never the full length of a closed chain. No edge goes all the way around a closed chain,
     /// because the chain has at least three vertices.
     pub(super) fn way(&self, from: f64, to: f64) -> f64 {
         if self.is_closed && to < from {
@@ -299,7 +299,8 @@ impl<'a> Original<'a> {
 fn kinds_to_places(mesh: &Mesh, kinds: &[Kind]) -> Vec<Place> {
     let place = |v: VertexId| match kinds[v.index()] {
         Kind::Inside if mesh.vertex_half_edge(v).is_some() => Place::Inside(0),
-        // Locations on chains are set after the chains are built.
+        // A vertex on a chain also gets the place `Corner` here. Its location on the chain is set after the chains are
+        // built.
         _ => Place::Corner(v),
     };
     mesh.vertices().map(place).collect()

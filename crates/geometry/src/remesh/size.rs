@@ -16,7 +16,7 @@ pub(super) const LONG: f64 = 4.0 / 3.0;
 pub(super) const SHORT: f64 = 4.0 / 5.0;
 
 /// How fast target lengths may grow along an edge, as a fraction of the length of the edge. The target lengths of
-/// neighboring triangles then differ by at most about this fraction.
+/// neighboring triangles differ by at most about this fraction.
 const GROWTH: f64 = 0.5;
 
 /// The target length at each point of the original surface, in its scaled coordinates.
@@ -28,8 +28,9 @@ pub(super) enum Sizes {
 
 impl Sizes {
     /// Computes the target lengths from the requested `length`. `error` is the largest allowed distance between the
-    /// surfaces, if there is one. Where edges of the target length would exceed this distance, the target length is
-    /// reduced, but not below `min` or, for a uniform length, below `error`.
+    /// surfaces, if there is one. Where edges of the target length would deviate from the surface by more than this
+    /// distance, the target length is reduced. The reduced length is not below `min` or, for a uniform length, not
+    /// below `error`.
     pub(super) fn new(original: &Original, length: Length, error: Option<f64>) -> Self {
         let (error, min, max) = match (length, error) {
             (Length::Uniform(length), None) => return Self::Uniform(length * original.scale),
@@ -59,8 +60,8 @@ impl Sizes {
     }
 
     /// Returns an estimate of the largest number of faces during remeshing. The estimate is a sum over the original
-    /// faces. The term of a face is 1 + 2 (m + s), where m is the number of triangles of the target length that cover
-    /// its area, and s is the number of splits along its longest side.
+    /// faces. Each face adds 1 + 2 (m + s) to the sum. Here m is the number of triangles of the target length that
+    /// cover the area of the face, and s is the number of splits along its longest side.
     pub(super) fn n_faces(&self, original: &Original) -> f64 {
         let mesh = &original.mesh;
         mesh::parallel::sum(mesh.n_faces(), |f| {
@@ -110,9 +111,9 @@ impl Sizes {
     }
 }
 
-/// Returns the side length of an equilateral triangle whose corners lie on a sphere of curvature k, and whose center is
-/// at the distance e, the `error`, from the sphere: √(6 e / k - 3 e²). Source: Dunyach, Vanderhaeghe, Barthe, Botsch,
-/// "Adaptive Remeshing for Real-Time Mesh Deformation", 2013, §2.
+/// Returns √(6 e / k - 3 e²), the side length of an equilateral triangle whose corners lie on a sphere of curvature k.
+/// The center of this triangle is at the distance e, the `error`, from the sphere. Source: Dunyach, Vanderhaeghe,
+/// Barthe, Botsch, "Adaptive Remeshing for Real-Time Mesh Deformation", 2013, §2.
 fn chord(curvature: f64, error: f64) -> f64 {
     let squared = 6.0 * error / curvature - 3.0 * error * error;
     if squared > 0.0 { squared.sqrt() } else { 0.0 }
@@ -120,8 +121,8 @@ fn chord(curvature: f64, error: f64) -> f64 {
 
 /// Returns the largest absolute normal curvature at each vertex of the original surface: |H| + √(H² - K). Each value is
 /// averaged once with the values of the neighbors. The curvature of the surface is not used at vertices on lines,
-/// because the surface bends sharply at many lines. A vertex on a line gets the mean of the values of its neighbors
-/// inside charts, or the curvature of the line, whichever is larger.
+/// because the surface bends sharply at many lines. A vertex on a line gets the larger of two values: the mean of the
+/// values of its neighbors inside charts, and the curvature of the line.
 fn curvatures(original: &Original) -> Vec<f64> {
     let mesh = &original.mesh;
     let (gaussian, mean) = (gaussian_curvatures(mesh), mean_curvatures(mesh));

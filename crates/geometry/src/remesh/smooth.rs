@@ -40,10 +40,10 @@ fn fill<T: Send>(
 
 impl Work<'_> {
     /// Moves all vertices once. A vertex inside a chart first moves within its tangent plane, to the projection of the
-    /// weighted mean of the centers of the triangles around it. It then moves to the nearest point of the original
-    /// surface. A vertex on a line moves halfway towards the middle between its neighbors on the line. Movements that
-    /// turn a triangle too far or move the surface too far are undone. Returns the largest movement, as a fraction of
-    /// the target length.
+    /// weighted mean of the centers of the triangles around it. The vertex then moves from the tangent plane to the
+    /// nearest point of the original surface. A vertex on a line moves halfway towards the middle between its neighbors
+    /// on the line. Movements that turn a triangle too far or move the surface too far are undone. Returns the largest
+    /// movement, as a fraction of the target length.
     pub(super) fn smooth(&mut self, progress: &dyn Progress) -> Result<f64, Cancelled> {
         progress.report(WHAT, self.counts.passes, self.counts.max_passes)?;
         let n = self.places.len();
@@ -157,8 +157,8 @@ impl Work<'_> {
         for h in self.mesh.vertex_half_edges(v) {
             let [a, b, c] = self.triangle(h);
             let cross = cross([a, b, c]);
-            // A triangle attracts the vertex in proportion to its area times the sum of the target lengths at its other
-            // two corners.
+            // The pull of a triangle on one of its corners is proportional to two factors: its area, and the sum of the
+            // target lengths at the other two corners.
             let size = self.sizes[self.mesh.target(h).index()]
                 + self.sizes[self.mesh.target(self.mesh.next(h)).index()];
             let area = cross.length() * size;

@@ -45,7 +45,8 @@ impl Work<'_> {
     }
 
     /// Splits an edge at its midpoint. An edge on a line is split at the midpoint of its part of the line. Returns
-    /// false if this would turn a triangle too far, or if both triangles have the same opposite vertex.
+    /// false if the split would turn a triangle too far, or if the two triangles at the edge have the same opposite
+    /// vertex.
     fn split(&mut self, e: EdgeId) -> Result<bool, RemeshError> {
         let opposite = |h: HalfEdgeId| {
             let is_inner = self.mesh.face(h).is_some();
@@ -53,7 +54,8 @@ impl Work<'_> {
         };
         let [left, right] = e.half_edges().map(opposite);
         if left.is_some() && left == right {
-            // The new vertex would have two edges to the opposite vertex.
+            // If the faces on both sides of the edge have the same opposite vertex, the new vertex would have two edges
+            // to this vertex.
             self.counts.refuse(Refused::Topology);
             return Ok(false);
         }
@@ -88,7 +90,8 @@ impl Work<'_> {
             Place::Inside(hint) => Some(hint),
             _ => None,
         };
-        // The vertices around the edge that lie inside the same chart store a triangle near the edge.
+        // A vertex inside a chart stores a triangle of the original mesh that is near it. The new vertex takes this
+        // hint from a vertex around the edge.
         let [h, twin] = e.half_edges();
         let around = [h, twin, self.mesh.prev(h), self.mesh.prev(twin)];
         let hint = around.into_iter().find_map(hint).unwrap_or(0);
@@ -106,7 +109,7 @@ impl Work<'_> {
         self.sizes.push(size);
         self.valences.push(if is_boundary { 4 } else { 6 });
         self.is_off.push(track.is_none());
-        // The second part of the edge has the direction of the edge.
+        // The second part of the split edge has the same direction as the first part, so it gets the same track.
         self.tracks.push(track);
         for chart in charts.into_iter().flatten() {
             self.tracks.push(None::<Track>);

@@ -38,8 +38,8 @@ impl Blend {
     }
 }
 
-/// A distance of a vertex from its nearest point on the original surface is treated as a rounding error if it is at
-/// most this fraction of the target length.
+/// If a vertex is at most this fraction of the target length from its nearest point on the original surface, the
+/// distance is treated as a rounding error.
 const ROUNDING: f64 = 1e-9;
 
 impl Work<'_> {
@@ -128,7 +128,7 @@ impl Work<'_> {
                     source.position(v)
                 } else if nearest.distance <= ROUNDING * self.sizes[v.index()] {
                     let [a, b, c] = triangle.vertices.map(|v| source.position(v));
-                    // In this form, the position is exactly in the plane of the triangle if the plane is perpendicular
+                    // This formula gives a position exactly in the plane of the triangle if the plane is perpendicular
                     // to an axis.
                     a + weights[1] * (b - a) + weights[2] * (c - a)
                 } else {
@@ -185,7 +185,8 @@ impl Work<'_> {
                 weights: vertices[v.index()].1.weights,
             });
         }
-        // The corner lies in a sector between two lines. The loop turns clockwise to the first of these lines.
+        // The corner lies in a sector between two lines. The loop turns clockwise around the vertex until it finds the
+        // line that bounds this sector.
         let mut first = h;
         let track: Option<Track> = loop {
             if let Some(track) = self.track_of(first) {
@@ -213,8 +214,9 @@ impl Work<'_> {
             }
             (Place::Line { at, .. }, Some(track)) => {
                 let (g, t) = self.original.chains[track.chain as usize].locate(at);
-                // `g` is the half-edge of the source at this location. Blends the corners at its two ends, on the side
-                // of the chain on which the new corner `h` lies.
+                // `g` is the half-edge of the original mesh on which the new vertex lies. The result is a blend of the
+                // corners at the two ends of `g`. These corners are on the same side of the chain as the new corner
+                // `h`.
                 let (near, far, t) = if track.is_along {
                     (g, source.next(g), t)
                 } else {
@@ -229,10 +231,10 @@ impl Work<'_> {
         }
     }
 
-    /// Returns the edge of the source from which a new edge gets its values. For a new edge on a line, this is an edge
-    /// of the line. For any other new edge, it is an edge of the source triangle at the midpoint of the new edge: of
-    /// the edges that are not on a line, the edge nearest to the midpoint. Returns `None` if all three edges of the
-    /// triangle are on lines.
+    /// Returns the edge of the source from which a new edge gets its values. For a new edge on a line, the result is an
+    /// edge of the line. For any other new edge, the result is an edge of the source triangle at the midpoint of the
+    /// new edge. Of the edges of this triangle that are not on a line, it is the edge nearest to the midpoint. Returns
+    /// `None` if all three edges of the triangle are on lines.
     fn edge(&self, e: EdgeId) -> Option<EdgeId> {
         if let Some(track) = self.tracks[e.index()] {
             let h = along(e, track);

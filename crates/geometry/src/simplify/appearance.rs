@@ -1,9 +1,10 @@
 //! Attributes in the cost of a collapse.
 //!
 //! Texture coordinates, normals, colors and other numbers are linear functions on each original triangle. The error of
-//! a value s at a point p is the mean squared difference between s and these functions at p, over the triangles that
-//! the vertex represents. For each p, one s has the least error, and this least error is a quadratic function of p, a
-//! quadric. Source: Hoppe, "New Quadric Metric for Simplifying Meshes with Appearance Attributes", 1999.
+//! a value s at a point p is the mean squared difference between s and the linear functions at p. The mean is taken
+//! over the triangles that the vertex represents. For each point p, one value s has the least error. This least error
+//! is a quadratic function of p, a quadric. Source: Hoppe, "New Quadric Metric for Simplifying Meshes with Appearance
+//! Attributes", 1999.
 //!
 //! ```text
 //!           \   w0  /
@@ -29,20 +30,21 @@ const TEXTURE: f64 = 0.5;
 
 /// The weight of the difference of two unit normals, relative to the size of the mesh. The weight is small, because
 /// normals follow from the surface. For example, if a model of a rocker arm is simplified with five times this weight,
-/// the mean distance between the original and the simplified surface doubles. For the same reason, normals do not
-/// affect the positions of vertices. If they did, the largest distance for this model would be 3.9e-3 of the diagonal
-/// of the bounding box instead of 3.3e-3.
+/// the mean distance between the original and the simplified surface doubles. Normals do not affect the positions of
+/// vertices, because normals follow from the surface. If normals affected the positions, the largest distance for the
+/// rocker arm would be 3.9e-3 of the diagonal of the bounding box instead of 3.3e-3.
 const NORMAL: f64 = 0.002;
 
-/// The weight of all attributes except texture coordinates and normals. An error as large as the difference between the
-/// lowest and the highest value of the attribute counts as a distance of this fraction of the size of the mesh.
+/// The weight of all attributes except texture coordinates and normals. If the error of an attribute equals the
+/// difference between its lowest and its highest value, the error counts as a distance of this fraction of the size of
+/// the mesh.
 const OTHER: f64 = 0.02;
 
 /// A column whose values are stored in [`Appearance`], one for each wedge, instead of in the mesh.
 struct Taken {
     domain: Domain,
     column: Column,
-    /// A power of two, so that scaled values can be scaled back exactly.
+    /// The weight of the column: a power of two, so that scaled values can be scaled back exactly.
     weight: f64,
     /// The index of the first component of the column among the components of all columns.
     first: usize,
@@ -61,7 +63,7 @@ pub(super) struct Appearance {
     taken: Vec<Taken>,
     /// The names of the columns of vertices and corners, in their original order.
     order: Vec<(Domain, String)>,
-    /// The number of components of all columns together. The components of normals are the last.
+    /// The number of components of all columns together. The components of normals come last.
     n: usize,
     /// The number of components of columns that are not normals.
     n_placing: usize,
@@ -88,8 +90,8 @@ pub(super) type Pair = [u32; 2];
 pub(super) struct Around(Vec<(FaceId, [(VertexId, u32); 3])>);
 
 impl Appearance {
-    /// Takes the interpolated numbers of vertices and corners out of a mesh. Returns `None` if there are none. `place`
-    /// returns the scaled position of a vertex.
+    /// Takes the interpolated numbers of vertices and corners out of a mesh. Returns `None` if the mesh has no
+    /// interpolated numbers. `place` returns the scaled position of a vertex.
     pub(super) fn take(
         mesh: &mut Mesh,
         lines: &[bool],
@@ -215,8 +217,8 @@ impl Appearance {
         &self.values[first..first + self.n]
     }
 
-    /// Returns, for each side of an edge, the two wedges that the edge joins. If the edge is not on a line, these are
-    /// the same two wedges on both sides, and they are returned once.
+    /// Returns, for each side of an edge, the two wedges that the edge joins. For an edge that is not on a line, both
+    /// sides have the same two wedges, which are returned only once.
     pub(super) fn pairs(&self, mesh: &Mesh, e: EdgeId, is_line: bool) -> [Option<Pair>; 2] {
         let [h, twin] = e.half_edges();
         let at = |h: HalfEdgeId| self.wedges[h.index()];
@@ -234,8 +236,8 @@ impl Appearance {
     }
 
     /// Returns a weighted sum of the linear functions of a component on the triangles of two wedges. The weight of a
-    /// triangle is the area that it contributes to its wedge. The sum is also a linear function of the point. The first
-    /// three numbers are its gradient, and the fourth is its offset.
+    /// triangle is the area that it contributes to its wedge. The weighted sum is also a linear function of the point.
+    /// The first three numbers of the result are the gradient of this function, and the fourth number is its offset.
     fn fit(&self, [a, b]: Pair, i: usize) -> DVec4 {
         self.fits[self.n * a as usize + i] + self.fits[self.n * b as usize + i]
     }
@@ -302,7 +304,8 @@ impl Appearance {
         values
     }
 
-    /// Returns the values with the least error at a point, within the range of the values of the wedges around it.
+    /// Returns the values with the least error at a point, limited to the range of the values of the wedges in
+    /// `around`.
     pub(super) fn best(&self, pair: Pair, around: &Around, point: DVec3) -> Vec<f64> {
         let area = self.area(pair);
         if area.is_nan() || area <= 0.0 {

@@ -16,8 +16,9 @@ use super::collapse::Collapser;
 use super::target::Target;
 
 impl Collapser<'_> {
-    /// If there is an error limit, returns the faces that remain around an edge after its collapse, each with a
-    /// bound on its distance to the original surface, in the scaled coordinates of the [`Collapser`].
+    /// Returns the faces that remain around an edge after its collapse, each with a bound on its distance to the
+    /// original surface. The bounds are in the scaled coordinates of the [`Collapser`]. If there is no error limit,
+    /// returns an empty list.
     pub(super) fn errors_after(
         &self,
         e: EdgeId,
@@ -59,8 +60,8 @@ impl Collapser<'_> {
         Ok(faces.into_iter().zip(bounds).collect())
     }
 
-    /// If `e` is a boundary edge, returns the position of the end that the collapse removes, and the positions
-    /// of the two vertices beside it on the boundary after the collapse.
+    /// If `e` is a boundary edge, returns three positions: the end that the collapse removes, and the two ends of the
+    /// boundary edge that lies beside it after the collapse.
     fn cut(&self, e: EdgeId, target: &Target) -> Option<(DVec3, [DVec3; 2])> {
         let h = e
             .half_edges()
@@ -85,12 +86,12 @@ struct Patch {
     old: Vec<([DVec3; 3], f64)>,
     /// The triangles after the collapse. The first corner of each triangle is the new vertex.
     new: Vec<[DVec3; 3]>,
-    /// For a boundary edge, the position of the removed end, and of the two vertices beside it on the new
-    /// boundary.
+    /// For a boundary edge, the position of the removed end, and the positions of the two ends of the new boundary edge
+    /// beside it.
     cut: Option<(DVec3, [DVec3; 2])>,
 }
 
-/// The fraction of a bound that is added to the bound for rounding errors.
+/// Each bound is increased by this fraction of itself to allow for rounding errors.
 const SLACK: f64 = 1e-9;
 
 impl Patch {
@@ -125,8 +126,8 @@ impl Patch {
         if !all().all(faces_ahead) || n_turns(&new) > 1 {
             return None;
         }
-        // Between the old and the new boundary, a point has no partner on the other triangles, but it is near
-        // the boundary.
+        // A point between the old and the new boundary is covered by only one of the two surfaces. Its distance from
+        // the other surface is at most its distance from the boundary of that surface.
         let beyond = self.cut.map_or(0.0, |(removed, [p, q])| {
             let largest = self
                 .old
@@ -146,13 +147,14 @@ impl Patch {
 
 /// Returns the number of turns that the triangles make around their common first corner, rounded up or down.
 fn n_turns(triangles: &[[DVec3; 3]]) -> usize {
-    // In each turn, exactly one triangle crosses the half-line from the corner in the direction of x.
+    // In each full turn around the corner, exactly one triangle crosses the half-line that starts at the corner in the
+    // direction of the x axis.
     let crosses = |&&[p, a, b]: &&[DVec3; 3]| a.y < p.y && b.y >= p.y;
     triangles.iter().filter(crosses).count()
 }
 
-/// Returns the largest difference of the heights of two triangles in the region that they share. Returns `None`
-/// if there is no such region.
+/// Returns the largest difference of the heights of two triangles in the region that they share. Returns `None` if the
+/// triangles share no region.
 fn cell_gap(old: &[DVec3; 3], new: &[DVec3; 3]) -> Option<f64> {
     // Clips the old triangle by the side lines of the new triangle. Each cut adds at most one corner.
     let (mut cell, mut n) = ([DVec3::ZERO; 6], 3);

@@ -7,8 +7,8 @@
 //! 1. The cost of an edge is computed again if one of its ends has changed.
 //! 2. An edge is chosen if its cost is low enough and no edge near it was chosen before in this pass.
 //! 3. For each chosen edge, the new position and values are computed, and the collapse is checked.
-//! 4. The chosen edges are collapsed. They are so far from each other that no collapse changes the results of the third
-//!    stage for another edge.
+//! 4. The chosen edges are collapsed. The chosen edges are so far from each other that no collapse changes the results
+//!    of the third stage for another chosen edge.
 
 use mesh::{DVec3, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId, parallel};
 use progress::{Cancelled, Meter, Progress};
@@ -60,8 +60,8 @@ pub(super) struct Collapser<'a> {
     n_faces: usize,
     /// The values of vertices and corners that are interpolated, if there are any.
     pub(super) appearance: Option<Appearance>,
-    /// The distances are computed in coordinates relative to `center`, scaled by a power of two, so that very small and
-    /// very large meshes give the same result.
+    /// Distances are computed in coordinates relative to `center`, which are scaled by a power of two. In these
+    /// coordinates, very small and very large meshes give the same result.
     center: DVec3,
     pub(super) scale: f64,
     /// The node of each vertex.
@@ -222,8 +222,8 @@ impl<'a> Collapser<'a> {
         if marks.iter().any(|mark| mark.touched == self.queue.pass()) {
             return Cost::Touched;
         }
-        // The cost of an edge on a line also depends on the neighbors of its ends along the line, so it is always
-        // computed again.
+        // The cost of an edge on a line also depends on the next vertex of the line at each end of the edge. Therefore
+        // this cost is always computed again.
         let is_line = self.lines[edge.index()];
         if !is_line && marks.iter().all(|mark| mark.changed < computed) {
             return Cost::Unchanged;
@@ -281,7 +281,7 @@ impl<'a> Collapser<'a> {
         };
     }
 
-    /// Checks whether an edge may be collapsed, except for the topology and for intersections.
+    /// Checks whether an edge may be collapsed. The topology and intersections are not checked here.
     fn plan(&self, e: EdgeId) -> Result<Plan, Blocked> {
         let target = self.target(e)?;
         self.check(e, &target)?;
@@ -401,8 +401,9 @@ fn nodes(
     })
 }
 
-/// Returns the squared distance to the plane that contains the side from `a` to `b` of a triangle and is perpendicular
-/// to the triangle, times the squared length of the side. This quadric keeps vertices near a line.
+/// Returns the squared distance to a plane, times the squared length of the side from `a` to `b` of a triangle. The
+/// plane contains this side and is perpendicular to the triangle. The returned quadric keeps the vertices of a line
+/// near the line.
 fn across_line([a, b, c]: [DVec3; 3]) -> Quadric {
     let along = b - a;
     let across = along.cross(c - a).cross(along).try_normalize();

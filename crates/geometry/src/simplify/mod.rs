@@ -1,21 +1,22 @@
 //! Simplification: fewer triangles for nearly the same surface.
 //!
-//! Edges are collapsed, the cheapest first. Each vertex represents a part of the original surface: before the first
-//! collapse, a third of the area of each triangle around the vertex; after a collapse, everything that the two ends of
-//! the edge represented. The main part of the cost of a collapse is the squared distance from the new vertex to the
-//! planes of the original triangles that it represents. This squared distance is integrated over the represented area,
-//! and divided by the square root of this area. Source of the squared distance: Garland, Heckbert, "Surface
-//! Simplification Using Quadric Error Metrics", 1997.
+//! Edges are collapsed, the cheapest first. Each vertex represents a part of the original surface. Before the first
+//! collapse, this part is a third of the area of each triangle around the vertex. After a collapse, the new vertex
+//! represents the parts of both ends of the edge. The main part of the cost of a collapse is the squared distance from
+//! the new vertex to the planes of the original triangles that it represents. The squared distance to the planes is
+//! integrated over the represented area, and divided by the square root of this area. Source of the squared distance:
+//! Garland, Heckbert, "Surface Simplification Using Quadric Error Metrics", 1997.
 //!
-//! The division balances large and small details. Without it, small details would count too little; with a division by
-//! the area instead of its square root, they would count too much. For example, a model of a rocker arm is reduced to a
-//! tenth of its 20,088 triangles. Without the division, the largest distance between the original and the simplified
-//! surface is 0.5 % of the diagonal of the bounding box. With a division by the area or by its square root, this
-//! distance is 0.3 %. The distance averaged over the surface is 5 % smaller with the square root than with the area.
+//! The division by the square root of the area balances large and small details. Without any division, small details
+//! would count too little. With a division by the area instead of its square root, small details would count too much.
+//! For example, a model of a rocker arm was reduced to a tenth of its 20,088 triangles. Without any division, the
+//! largest distance between the original and the simplified surface is 0.5 % of the diagonal of the bounding box. With
+//! a division by the area or by its square root, the largest distance is 0.3 %. With a division by the square root of
+//! the area, the mean distance is 5 % smaller than with a division by the area.
 //!
-//! A small part of the cost is the squared distance to the centers of the triangles instead of their planes. This part
-//! keeps triangles round, similar to Trettner, Kobbelt, "Fast and Robust QEM Simplification of Large Meshes Using
-//! Probabilistic Quadrics", 2020.
+//! A small part of the cost is the squared distance to the centers of the triangles instead of their planes. The
+//! distance to the centers keeps triangles round, similar to Trettner, Kobbelt, "Fast and Robust QEM Simplification of
+//! Large Meshes Using Probabilistic Quadrics", 2020.
 //!
 //! Errors of texture coordinates, normals, colors and other interpolated numbers are also a part of the cost; see
 //! `appearance.rs`.
@@ -49,11 +50,11 @@ pub struct Options<'a> {
     /// The number of faces at which simplification stops. The result has this number of faces, one fewer if the
     /// last collapse removed two faces, or more if no further edge may be collapsed.
     pub faces: usize,
-    /// The largest allowed Hausdorff distance between the original and the simplified surface, in scene units;
-    /// `None` sets no limit. The limit is guaranteed. Each triangle has a bound on its distance to the original.
-    /// A collapse moves the surface, and adds a bound on this movement to the bounds of the triangles around the
-    /// collapsed edge. These sums overestimate the distance: the true distance is usually between a third of the
-    /// limit and the limit.
+    /// The largest allowed Hausdorff distance between the original and the simplified surface, in scene units; `None`
+    /// sets no limit. The limit is guaranteed. Each triangle has a bound on its distance to the original. A collapse
+    /// moves the surface. A bound on this movement is added to the bounds of the triangles around the collapsed edge.
+    /// The added bounds overestimate the distance: the true distance is usually between a third of the limit and the
+    /// limit.
     pub error: Option<f64>,
     /// Edges that are preserved as lines. These edges are always preserved: boundaries, seams, edges between faces with
     /// different tags, materials or other whole numbers, tagged edges, and creases.
@@ -109,7 +110,9 @@ impl std::fmt::Display for Blocked {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
             Self::Error => "could exceed the allowed error",
-            Self::Lines => "would merge lines or move the end of a line",
+            Self::Lines => {
+                "would merge preserved lines, such as seams, or move the end of a preserved line"
+            }
             Self::Labels => "join vertices with different tags or sharpness",
             Self::Turned => "would turn a triangle over",
             Self::Topology => "would change the topology",
@@ -138,8 +141,8 @@ pub enum SimplifyError {
 ///
 /// Errors of interpolated attributes of vertices and corners, including normals, are a part of the cost of a collapse.
 /// A new vertex that is not on a line gets the values with the least error, within the range of the values around it. A
-/// new vertex on a line gets the values at the nearest point on the collapsed edge, on each side of a seam separately.
-/// Isolated vertices are preserved.
+/// new vertex on a line gets the values at the point of the collapsed edge that is nearest to the vertex. Each side of
+/// a seam gets its values separately. Isolated vertices are preserved.
 ///
 /// # Errors
 ///
@@ -170,8 +173,8 @@ pub fn simplify(
     if let Some(f) = mesh.faces().find(|&f| !mesh.is_triangle(f)) {
         return Err(SimplifyError::NotTriangle(f));
     }
-    // The whole simplification runs in a thread of the pool. From there, a parallel loop starts without waiting for
-    // another thread.
+    // The whole simplification runs in a thread of the pool. Such a thread can start a parallel loop without waiting
+    // for another thread.
     let collapser = rayon::scope(|_| {
         let mut collapser = Collapser::new(mesh.clone(), options, progress)?;
         collapser.run(progress).map(|()| collapser)

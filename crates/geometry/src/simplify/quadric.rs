@@ -49,16 +49,17 @@ impl Quadric {
         self.diagonal * p + mixed
     }
 
-    /// Returns the point with the lowest value. If many points have nearly this value, returns one of them where
-    /// `weak`, a quadric with small coefficients, is low. Returns `None` if many points have the lowest value of the
-    /// sum of both quadrics.
+    /// Returns the point with the lowest value. If many points have nearly the lowest value, returns one of them at
+    /// which `weak`, a quadric with small coefficients, is low. Returns `None` if the sum of this quadric and `weak`
+    /// has its lowest value at many points.
     pub(super) fn lowest(&self, weak: &Self) -> Option<DVec3> {
         let sum = *self + *weak;
         let inverse = sum.inverse()?;
         let solve = |p: DVec3| p.x * inverse[0] + p.y * inverse[1] + p.z * inverse[2];
         let lowest = -solve(sum.b);
-        // `weak` moves the point a little in all directions. A Newton step of this quadric with the matrix of the sum
-        // moves the point back, except in directions in which this quadric hardly changes.
+        // `weak` moves the point a little in all directions. One Newton step for this quadric, with the matrix of the
+        // sum, moves the point back. The point keeps its displacement only in directions in which this quadric hardly
+        // changes.
         Some(lowest - solve(self.times(lowest) + self.b))
     }
 
@@ -105,7 +106,7 @@ pub(super) struct Spread {
 }
 
 impl Spread {
-    /// Returns the spread of an area that is concentrated at one point.
+    /// Returns the [`Spread`] of an area that is concentrated at one point.
     pub(super) fn at_point(point: DVec3, area: f64) -> Self {
         Self {
             area,

@@ -20,8 +20,8 @@ pub(super) struct Queue {
     pass: u32,
 }
 
-/// The number of low bits of a cost, as a floating-point number, that are dropped to get its level. The
-/// exponent and 3 bits of the fraction remain, so costs within a level differ by at most 12.5 %.
+/// This number of low bits is dropped from a cost, which is a floating-point number, to get its level. The exponent and
+/// 3 bits of the fraction of the cost remain, so costs within a level differ by at most 12.5 %.
 const SHIFT: u32 = f64::MANTISSA_DIGITS - 1 - 3;
 
 impl Queue {

@@ -10,15 +10,15 @@ use super::appearance::Pair;
 use super::collapse::{Collapser, Values};
 use super::quadric::Quadric;
 
-/// The weight of the squared distance to the area of the original surface that a vertex represents. This weight
-/// is used to compare costs, where the squared distance to the planes of that area has the weight 1. Without this
-/// weight, triangles become thin where the surface is flat or curved in one direction. On a torus of 1,000,000
-/// triangles reduced to a tenth, one percent of the triangles have an angle below 9° with the weight 1e-6, and
-/// below 15° with 2e-5. The distance to the original is the same for both weights.
+/// The weight of the squared distance to the centers of the original triangles that a vertex represents. This weight is
+/// used to compare costs. The squared distance to the planes of these triangles has the weight 1. Without this weight,
+/// triangles become thin where the surface is flat or curved in one direction. As an example, a torus of 1,000,000
+/// triangles was reduced to a tenth. With the weight 1e-6, one percent of the triangles have an angle below 9°. With
+/// the weight 2e-5, one percent have an angle below 15°. The distance to the original is the same for both weights.
 const ROUNDNESS: f64 = 2e-5;
 
-/// The weight that replaces [`ROUNDNESS`] when the new position is chosen. This weight is so small that it
-/// matters only if many positions have the same distance to the planes.
+/// The weight that is used instead of [`ROUNDNESS`] when the new position of a vertex is chosen. This weight is so
+/// small that it matters only if many positions have the same distance to the planes.
 const FIRMNESS: f64 = 1e-8;
 
 /// The smallest cosine of the angle by which a collapse may turn a triangle.
@@ -74,7 +74,7 @@ impl Collapser<'_> {
         }
         let weak = spread.quadric(FIRMNESS);
         let points = [from.point, to.point];
-        // The bound on the distance needs a boundary vertex that is not moved.
+        // To bound the distance, a boundary edge must collapse to one of its ends.
         let end = end.or_else(|| {
             let is_bounded = self.options.error.is_some() && self.mesh.is_boundary_edge(e);
             let sum = placing + weak;
@@ -112,10 +112,11 @@ impl Collapser<'_> {
         })
     }
 
-    /// Returns the error of a line if `e`, an edge of the line, collapses to `point`. The error is the largest squared
-    /// distance from an end of `e` to the line after the collapse, times the sum of the squared lengths of the two
-    /// edges of the line that change. This term is needed if a short edge joins two long edges of different directions:
-    /// each end of the short edge could then leave one of the long edges without a cost in the quadrics.
+    /// Returns the error of the line of `e` after a collapse of `e` to `point`. The error is d times s. Here d is the
+    /// largest squared distance from an end of `e` to the line after the collapse, and s is the sum of the squared
+    /// lengths of the two edges of the line that change. This term of the cost is needed if a short edge joins two long
+    /// edges of different directions. Without this term, each end of the short edge could leave one of the long edges
+    /// at no cost.
     fn line_error(&self, e: EdgeId, point: DVec3) -> f64 {
         let ends = self.mesh.edge_vertices(e);
         let neighbors = ends.map(|v| {
@@ -220,7 +221,7 @@ impl Collapser<'_> {
     }
 }
 
-/// Returns the place on an edge that is nearest to `point`, from 0 to 1.
+/// Returns the place on an edge that is nearest to `point`, from 0 at the first end to 1 at the second end.
 fn along([a, b]: [DVec3; 2], point: DVec3) -> f64 {
     let t = (point - a).dot(b - a) / (b - a).length_squared();
     if t.is_nan() { 0.5 } else { t.clamp(0.0, 1.0) }

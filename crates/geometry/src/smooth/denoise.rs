@@ -6,8 +6,8 @@
 //!     x(v) <- x(v) + mean over the faces f of v of  n(f) (n(f) . (c(f) - x(v)))
 //! ```
 //!
-//! Here a, c and n are areas, centers and normals of faces. The length s is the mean distance between centers of
-//! adjacent faces, and t = sin(angle / 2) is half the distance between the ends of two unit normals that enclose
+//! Here a, c and n are areas, centers and normals of faces. The length s is the mean distance between the centers of
+//! adjacent faces. The number t = sin(angle / 2) is half the distance between the ends of two unit normals that enclose
 //! `angle`, the parameter of the method.
 
 use mesh::{DVec3, Domain, FaceId, Mesh, VertexId, parallel};
@@ -16,8 +16,8 @@ use progress::{Cancelled, Meter, Progress};
 use super::{SmoothError, Smoother};
 use crate::sin_cos_degrees;
 
-/// Two faces that share a vertex are neighbors. If the vertex has more edges than this number, only faces that also
-/// share an edge are neighbors, so that the work stays proportional to the number of faces.
+/// Two faces that share a vertex are neighbors. At a vertex with more edges than this number, two faces are neighbors
+/// only if they also share an edge. This rule keeps the work proportional to the number of faces.
 const MAX_FAN: u8 = 64;
 /// The number of faces between two checks for cancellation.
 const CHECK: usize = 1024;

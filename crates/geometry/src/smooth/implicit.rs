@@ -7,16 +7,16 @@ use super::{Role, SmoothError, Smoother};
 use crate::sparse::{Factor, SymmetricMatrix};
 use crate::{Laplacian, bounds};
 
-/// The longest time, in multiples of the squared diagonal of the bounding box. After this time, the shape has
-/// shrunk to less than a thousandth of its size, and the equations are still well conditioned.
+/// The longest time, in multiples of the squared diagonal of the bounding box. After this time, a shape has shrunk to
+/// less than a thousandth of its size. The equations are still well conditioned.
 const LONGEST: f64 = 1e3;
-/// The shortest length of a boundary edge in the equations, relative to the mean length. Shorter edges count as
-/// edges of this length.
+/// The shortest length of a boundary edge in the equations, relative to the mean length. A shorter boundary edge counts
+/// as an edge of this length.
 const SHORTEST: f64 = 1e-5;
 
 /// Solves (M + time L) x' = M x for the new positions x', where L is the Laplacian, and M is the diagonal matrix of the
-/// vertex areas. The solver computes the displacements d = x' - x from (M + time L) d = -time L x, so the result does
-/// not depend on the distance of the mesh from the origin.
+/// vertex areas. The solver computes the displacements d = x' - x from (M + time L) d = -time L x. Therefore the result
+/// does not depend on the distance of the mesh from the origin.
 pub(super) fn step(
     smoother: &Smoother,
     mesh: &mut Mesh,

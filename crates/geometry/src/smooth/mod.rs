@@ -8,8 +8,8 @@
 //! | [`Method::Denoise`] | filter the normals of the faces, then fit the vertices | `denoise.rs` |
 //!
 //! The result is identical bit for bit for any number of threads. The implicit method uses the solver of
-//! [`sparse`](crate::sparse), which guarantees this. In the other methods, each new position is computed by one thread,
-//! from the positions of the previous iteration only.
+//! [`sparse`](crate::sparse), whose results do not depend on the number of threads. In all methods except the implicit
+//! one, each new position is computed by one thread, from the positions of the previous iteration only.
 
 mod denoise;
 mod explicit;
@@ -40,8 +40,8 @@ pub enum Method {
     Taubin {
         /// The weights of the neighbors.
         weights: Weights,
-        /// The factor of the first step, from 0 to 1. With this factor and `pass_band`, the method must be
-        /// [stable](Method::is_stable).
+        /// The factor of the first step, from 0 to 1. The method must be [stable](Method::is_stable) with the chosen
+        /// `factor` and `pass_band`.
         factor: f64,
         /// The frequency below which the filter removes nothing, from 0 to 1. The frequencies of a mesh are
         /// between 0 and 2.
@@ -68,10 +68,10 @@ pub enum Method {
 }
 
 impl Method {
-    /// Whether the method is stable: no frequency above the pass band grows with each pass.
+    /// Whether the method is stable, which means that no frequency above the pass band grows from pass to pass.
     ///
     /// A Taubin pass multiplies the amplitude of the frequency k by (1 - factor k)(1 - μ k). At the highest frequency,
-    /// 2, the absolute value of this product must be at most 1.
+    /// k = 2, the absolute value of (1 - factor k)(1 - μ k) must be at most 1.
     pub fn is_stable(&self) -> bool {
         match *self {
             Self::Taubin {
@@ -138,7 +138,7 @@ pub enum SmoothError {
     Volume {
         /// The volume before smoothing.
         before: f64,
-        /// The volume found that is nearest to `before`.
+        /// The volume nearest to `before` that was found.
         after: f64,
     },
     /// The factors of [`Method::Taubin`] amplify the highest frequency.

@@ -41,7 +41,7 @@ pub struct Factor<'a> {
     symbolic: Symbolic,
     /// The entries of L of consecutive supernodes. The entries of a supernode are one slice, column by column.
     values: Vec<Vec<f64>>,
-    /// For each supernode, the index of the part of `values` that has its entries, and the start of these entries
+    /// For each supernode, the place of its entries: the index of a part of `values`, and the index of the first entry
     /// in that part.
     places: Vec<(usize, usize)>,
     diagonal: Vec<f64>,
@@ -63,8 +63,8 @@ impl<'a> Factor<'a> {
         Self::with_pins(matrix, &vec![false; matrix.len()], progress)
     }
 
-    /// Factors the part of a symmetric matrix that belongs to the unknowns that are not pinned. This part must be
-    /// positive definite.
+    /// Factors the part of a symmetric matrix that belongs to the unknowns that are not pinned. This part of the matrix
+    /// must be positive definite.
     ///
     /// # Errors
     ///
@@ -137,7 +137,8 @@ impl<'a> Factor<'a> {
         self.symbolic.n_entries()
     }
 
-    /// Computes the entries of L and D. Returns them in parts; each part belongs to consecutive supernodes.
+    /// Computes the entries of L and D. The entries are returned in parts, and each part belongs to consecutive
+    /// supernodes.
     #[expect(clippy::type_complexity, reason = "two lists of parts")]
     fn eliminate<I: Iterator<Item = (u32, f64)>>(
         &self,
@@ -200,9 +201,9 @@ impl<'a> Factor<'a> {
     ///
     /// # Errors
     ///
-    /// Returns [`SolveError::Residual`] if the residual is larger than 1e-9 times the size of the terms. The size of
-    /// the terms is the sum of the absolute values of the terms of an equation, for the equation with the largest sum.
-    /// `x` is then unspecified.
+    /// Returns [`SolveError::Residual`] if the residual is larger than 1e-9 times the size of the terms. To compute the
+    /// size of the terms, the absolute values of the terms of each equation are added up, and the largest of these sums
+    /// is taken. `x` is then unspecified.
     ///
     /// # Panics
     ///
@@ -242,8 +243,8 @@ impl<'a> Factor<'a> {
         }
     }
 
-    /// Returns b - A x for the free rows. Also returns the sum of the absolute values of the terms of a row, for the
-    /// row with the largest sum.
+    /// Returns b - A x for the free rows. Also adds up the absolute values of the terms of each row, and returns the
+    /// largest of these sums.
     fn residual<T: Entry>(&self, b: &[T], x: &[T]) -> (Vec<T>, f64) {
         let rows: Vec<(T, f64)> = parallel::collect(self.free.len(), |i| {
             let i = self.free[i] as usize;

@@ -93,7 +93,7 @@ pub enum SolveError {
     },
     /// The solution does not satisfy the equations.
     #[error(
-        "the solution is not accurate: the residual is {0:e} times the size of the terms, but at most 1e-9 is accepted"
+        "the solution is not accurate: the relative residual is {0:e}, but at most 1e-9 is accepted"
     )]
     Residual(f64),
     /// The factor would have more entries than are supported.

@@ -56,9 +56,9 @@ struct Quotient {
     buckets: Buckets,
     /// The eliminated variables, in order.
     pivots: Vec<u32>,
-    /// For each element, `stamp` times 2³² plus the weight of its members outside of the new element.
+    /// The weight of the members of each element that are not in the new element, plus 2³² times `stamp`.
     outside: Vec<u64>,
-    /// For each variable, the stamp of the last list that contained it.
+    /// For each variable and each element, the value that `stamp` had when this entry was last set.
     mark: Vec<u64>,
     stamp: u64,
     /// The hash and the variable of each member of the new element.
@@ -200,7 +200,7 @@ impl Quotient {
 
     /// Computes `outside` for all elements that are adjacent to the members.
     fn measure_elements(&mut self, members: &[u32]) {
-        // The stamp grows, so all new values are above all earlier values, and no old value has to be cleared.
+        // The stamp grows, so all new values are above all earlier values. Therefore no old value has to be cleared.
         let base = self.stamp << 32;
         for &i in members {
             for &e in &self.elements[i as usize] {
@@ -213,14 +213,15 @@ impl Quotient {
         }
     }
 
-    /// Removes from the lists of i the variables and elements that the new element p covers. Returns the degree of i
-    /// outside of p, as an upper bound, and a hash of the lists.
+    /// Removes from the lists of i the variables and elements that the new element p covers. Returns an upper bound of
+    /// the degree of i without the members of p, and a hash of the lists.
     fn update(&mut self, i: u32, p: u32) -> (u32, u64) {
         let base = self.stamp << 32;
         let (mut degree, mut hash) = (0_u64, u64::from(p));
         let (outside, list) = (&self.outside, &self.members);
         self.elements[i as usize].retain(|&e| {
-            // An element without members was absorbed. An element without members outside of p is covered by p.
+            // An element whose list of members is empty was absorbed by another element. An element whose members are
+            // all members of p is covered by p.
             let more = outside[e as usize].saturating_sub(base);
             let keep = !list[e as usize].is_empty() && more > 0;
             if keep {
@@ -269,8 +270,8 @@ impl Quotient {
         self.hashes = hashes;
     }
 
-    /// Whether the lists of `j` have the same lengths as those of `i`, and contain only marked entries.
-    /// No number is used for both a variable and an element.
+    /// Whether the lists of `j` have the same lengths as those of `i`, and contain only marked entries. A variable and
+    /// an element never have the same number.
     fn has_marked_lists_like(&self, j: u32, i: u32) -> bool {
         let [i, j] = [i as usize, j as usize];
         let lists = self.variables[j].iter().chain(&self.elements[j]);

@@ -1,8 +1,8 @@
 //! The pattern of the factor: elimination tree, supernodes and their rows.
 //!
 //! Source: Liu, "The Role of Elimination Trees in Sparse Factorization", 1990. A supernode is a range of columns that
-//! have entries in the same rows below their diagonal block. Small supernodes are merged with their parents although
-//! this stores some zeros (Ashcraft, Grimes, "The Influence of Relaxed Supernode Partitions on the Multifrontal
+//! have entries in the same rows below their diagonal block. Small supernodes are merged with their parents, although
+//! some zeros must then be stored (Ashcraft, Grimes, "The Influence of Relaxed Supernode Partitions on the Multifrontal
 //! Method", 1989).
 //!
 //! ```text
@@ -26,7 +26,7 @@ pub(super) struct Symbolic {
 /// A range of columns with the same pattern.
 pub(super) struct Supernode {
     pub(super) columns: Range<usize>,
-    /// All rows in ascending order. The first rows are the columns of the supernode.
+    /// All rows in ascending order. The list begins with the columns of the supernode.
     pub(super) rows: Vec<u32>,
     /// The parent in the elimination tree: the supernode that contains the first row after the columns.
     pub(super) parent: Option<usize>,
@@ -101,7 +101,8 @@ fn elimination_tree<I: Iterator<Item = u32>>(
 ) -> Vec<u32> {
     let position = inverse(order);
     let mut parent = vec![NONE; order.len()];
-    // For each column, the highest ancestor that is known so far. These ancestors shorten the paths to the root.
+    // For each column, its highest ancestor in the elimination tree that is known so far. These ancestors shorten the
+    // paths to the root.
     let mut ancestor = vec![NONE; order.len()];
     for (k, &row) in (0..).zip(order) {
         for i in neighbors(row as usize) {
@@ -155,8 +156,8 @@ fn counts<I: Iterator<Item = u32>>(parent: &[u32], row: impl Fn(usize) -> I) -> 
     for i in 0..n {
         let this = as_row(i);
         mark[i] = this;
-        // Row i of the factor has an entry in every column on the paths through the elimination tree from the columns
-        // of row i of the matrix up to i.
+        // Each column j < i with an entry in row i of the matrix starts a path that leads up through the elimination
+        // tree to column i. Row i of the factor has an entry in every column on these paths.
         for mut j in row(i).filter(|&j| j < this) {
             while mark[j as usize] != this {
                 mark[j as usize] = this;

@@ -24,11 +24,12 @@ const MANY_CORNERS: usize = 64;
 /// The number of triangles between two progress reports.
 const REPORT: usize = 16_384;
 
-/// Appends the triangles of a face. A face with at most four corners is triangulated as a fan. A larger face is
-/// triangulated by `cutter`, because the triangles of a fan could lie on top of each other. A point near the face would
-/// then be near all of these triangles, and searches would be slow. A flat convex face with many corners is cut in half
-/// recursively instead. For example, if its corners lie on a circle, the triangles of `cutter` are long and thin, and a
-/// point is inside the bounding boxes of many of them.
+/// Appends the triangles of a face. A face with at most four corners is triangulated as a fan. A face with more than
+/// four corners is triangulated by `cutter`, because the triangles of a fan could lie on top of each other. A point
+/// near a face would then be near all triangles of its fan, and searches would be slow. A flat convex face with many
+/// corners is an exception: it is cut in half recursively. For example, if the corners of a flat convex face lie on a
+/// circle, `cutter` makes long and thin triangles. A point is then inside the bounding boxes of many of these
+/// triangles.
 pub(crate) fn triangulate(
     mesh: &Mesh,
     face: FaceId,
@@ -62,7 +63,7 @@ pub(crate) fn triangulate(
 }
 
 /// Calls `triangle` with the corners of the triangles of a polygon. The first triangle separates the polygon into two
-/// halves, which are then divided in the same way, recursively.
+/// halves. Each half is then divided in the same way.
 fn halve(corners: &[HalfEdgeId], triangle: &mut impl FnMut([HalfEdgeId; 3])) {
     let [first, .., last] = *corners else { return };
     let middle = corners.len() / 2;
@@ -156,8 +157,8 @@ impl Subtree<'_> {
         let (min, max) = bounds(self.keys.iter().map(|key| key.0));
         let axis = (max - min).max_position();
         let middle = n / 2;
-        // Triangles whose centers have equal coordinates along the axis are ordered by their indices, so no two keys
-        // are equal, and the halves do not depend on the order of the keys.
+        // Triangles whose centers have the same coordinate along the axis are ordered by their indices. So no two keys
+        // are equal, and the two halves do not depend on the order of the keys.
         self.keys.select_nth_unstable_by(middle, |a, b| {
             a.0[axis].total_cmp(&b.0[axis]).then(a.1.cmp(&b.1))
         });

@@ -10,8 +10,8 @@ use super::{SurfaceIndex, unit_scale};
 use crate::predicates::{orient2d, orient3d};
 
 /// Returns the faces of a mesh that intersect another face of the mesh, in ascending order. Polygons are divided into
-/// triangles as in [`SurfaceIndex`], and the triangles are tested by [`triangles_intersect`]. Common corners and sides
-/// of neighbors do not count as intersections; corners at the same position count as common.
+/// triangles as in [`SurfaceIndex`], and the triangles are tested by [`triangles_intersect`]. Corners and sides that
+/// neighbors have in common do not count as intersections. Corners at the same position count as common corners.
 ///
 /// # Errors
 ///
@@ -48,7 +48,7 @@ pub fn self_intersecting_faces(
     Ok(numbers.map(FaceId::new).collect())
 }
 
-/// Whether two triangles intersect: whether they have a common point that is not on a common corner or side.
+/// Whether two triangles have a common point that is not on a common corner or side.
 ///
 /// Corners at the same position are common, and so are sides between two common corners. Neighbors in a mesh therefore
 /// intersect only if they have other common points. Two triangles with a common side intersect if they overlap in the

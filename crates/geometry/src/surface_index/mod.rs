@@ -148,8 +148,8 @@ impl SurfaceIndex {
 
     /// Calls `found` with the index of each triangle in the boxes that `enters` accepts. `enters` is called with the
     /// smallest and the largest corner of a box, and only for boxes inside accepted boxes. If an accepted box contains
-    /// no smaller boxes, `found` is called for all its triangles, even for triangles whose own bounding boxes `enters`
-    /// would not accept.
+    /// no smaller boxes, `found` is called for all its triangles. This includes triangles whose own bounding boxes
+    /// `enters` would not accept.
     pub fn visit_boxes(
         &self,
         enters: &mut dyn FnMut(DVec3, DVec3) -> bool,

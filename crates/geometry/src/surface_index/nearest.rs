@@ -14,8 +14,8 @@ use super::{Node, SurfaceIndex};
 pub struct Nearest {
     /// The distance, in scene units.
     pub distance: f64,
-    /// A lower bound of the distance. It equals `distance`, unless the search was stopped early because too many
-    /// triangles are almost equally near.
+    /// A lower bound of the distance. The lower bound equals `distance`, unless the search was stopped early because
+    /// too many triangles are almost equally near.
     pub lower: f64,
     /// The nearest point.
     pub point: DVec3,
@@ -26,10 +26,12 @@ pub struct Nearest {
 }
 
 /// After this number of visited nodes, a search for a nearest point visits the nearest nodes first. After three times
-/// this number, it accepts an inexact answer. A search usually visits at most a few hundred nodes.
+/// this number of visited nodes, the search accepts an inexact answer. A search usually visits at most a few hundred
+/// nodes.
 const MAX_NODES: u32 = 1000;
 
-/// After this number of visited nodes, slabs are used too. Most searches visit fewer nodes.
+/// After this number of visited nodes, a search uses the slabs of nodes in addition to their boxes. Most searches end
+/// before they have visited this number of nodes.
 const BOXES_ONLY: u32 = 64;
 
 /// The number of points in a block. One thread searches for all points of a block, and starts without a hint.
@@ -54,9 +56,9 @@ impl SurfaceIndex {
         best.found(lower, visits)
     }
 
-    /// Whether a triangle is at most `radius` away from `p`. `hint` is as for [`nearest`](Self::nearest); if a triangle
-    /// is found within `radius`, `hint` is set to its index. This is faster than the search for the nearest point,
-    /// because the first such triangle ends the search.
+    /// Whether a triangle is at most `radius` away from `p`. `hint` has the same meaning as for
+    /// [`nearest`](Self::nearest). If a triangle is found within `radius`, `hint` is set to its index. This test is
+    /// faster than the search for the nearest point, because the first triangle within `radius` ends it.
     pub(crate) fn is_within(&self, p: DVec3, radius: f64, hint: &mut u32) -> bool {
         let squared = radius * radius;
         let (best, ..) = self.nearest_below(p, *hint, squared.next_up(), squared);
@@ -68,9 +70,10 @@ impl SurfaceIndex {
     }
 
     /// Searches for the point of the surface nearest to `p` among the points whose squared distance is less than
-    /// `limit`. Stops as soon as a squared distance is at most `enough`. Returns the nearest point found, the number of
-    /// visited nodes, and, if the search was stopped early, the square of [`Nearest::lower`]. If no point is near
-    /// enough, the squared distance of the result is `limit`.
+    /// `limit`. Stops as soon as the squared distance of the nearest point found so far is at most `enough`. Returns
+    /// the nearest point found, the number of visited nodes, and, if the search was stopped early, the square of
+    /// [`Nearest::lower`]. If the squared distance of every point is at least `limit`, the squared distance of the
+    /// result is `limit`.
     fn nearest_below(
         &self,
         p: DVec3,
@@ -161,8 +164,7 @@ impl SurfaceIndex {
     }
 
     /// Returns the nearest point for each of the points `point(0)` to `point(n - 1)`; `None` where `point` returns
-    /// `None`. After every few points, calls `done` with the number of these points, and stops if `done` returns an
-    /// error.
+    /// `None`. After every few points, calls `done` with the number of these points. Stops if `done` returns an error.
     pub(crate) fn nearest_to_all(
         &self,
         n: usize,
@@ -251,7 +253,8 @@ struct Best {
 }
 
 impl Best {
-    /// Converts to the result. `lower` is the squared lower bound for the nodes that were not visited, if any.
+    /// Converts to the result. If some nodes were not visited, `lower` is a lower bound of the squared distances to the
+    /// triangles of these nodes.
     fn found(self, lower: Option<f64>, visits: u32) -> Nearest {
         Nearest {
             distance: self.squared.sqrt(),

@@ -8,8 +8,8 @@ use super::SurfaceIndex;
 /// The search is divided into about this number of tasks.
 const TASKS: usize = 1024;
 
-/// Two subtrees whose triangles are compared. If both are the same subtree of the same index, each pair is visited
-/// once.
+/// Two subtrees whose triangles are compared. If both subtrees are the same subtree of the same index, each pair of
+/// triangles is visited once.
 type Task = (usize, usize);
 
 impl SurfaceIndex {
@@ -94,7 +94,8 @@ struct Pairs<'a, K> {
 }
 
 impl<K: Fn(u32, u32) -> bool> Pairs<'_, K> {
-    /// Divides a task; `None` if both nodes are leaves. Parts whose boxes do not overlap are left out.
+    /// Divides a task, which is a pair of nodes, into pairs of their children. Returns `None` if both nodes are leaves.
+    /// Pairs of nodes whose boxes do not overlap are left out.
     fn parts(&self, (i, j): Task) -> Option<[Option<Task>; 3]> {
         let (a, b) = (&self.one.nodes[i], &self.two.nodes[j]);
         if self.is_self && i == j {

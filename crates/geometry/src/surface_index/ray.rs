@@ -184,7 +184,8 @@ impl Ray {
 
     fn meets(&self, t: &[DVec3; 3], triangle: u32) -> Option<RayHit> {
         let [x, y, z] = self.axes;
-        // Each corner is rounded in the same way in all of its triangles, so the moved surface is closed too.
+        // Each corner is rounded in the same way in all of its triangles, so a closed surface is still closed after the
+        // translation.
         let moved = t.map(|p| p - self.origin);
         let flat = moved.map(|p| DVec2::new(p[x], p[y]) - self.shear * p[z]);
         let turn = |i: usize| side_of_origin(flat[(i + 1) % 3], flat[(i + 2) % 3]);
@@ -205,8 +206,8 @@ impl Ray {
         };
         let depth = weights[0] * moved[0][z] + weights[1] * moved[1][z] + weights[2] * moved[2][z];
         let along = depth / self.direction[z];
-        // The order of the axes is right-handed. The front of a triangle with counter-clockwise corners therefore
-        // points in the positive direction of the last axis.
+        // The three axes, in this order, are right-handed. The front of a triangle with counter-clockwise corners
+        // therefore points in the positive direction of the last axis.
         let is_front = (side == Less) == (self.direction[z] > 0.0);
         (along >= 0.0).then(|| RayHit {
             t: along,
@@ -218,14 +219,15 @@ impl Ray {
     }
 }
 
-/// Returns the side of the line from `a` to `b` on which the origin lies. If the origin lies on the line, returns the
-/// side of the point (ε, ε²) with an infinitely small ε. Returns `None` if `a` and `b` are equal.
+/// Returns the side of the line from `a` to `b` on which the origin lies. If the origin lies on this line, returns the
+/// side on which the point (ε, ε²) lies, where ε is infinitely small. Returns `None` if `a` and `b` are equal.
 fn side_of_origin(a: DVec2, b: DVec2) -> Option<Ordering> {
     let side = orient2d(a, b, DVec2::ZERO);
     if side != Equal {
         return Some(side);
     }
-    // The area of a, b and (ε, ε²) is that of a, b and the origin plus ε (a.y − b.y) + ε² (b.x − a.x).
+    // Twice the area of the triangle a, b, (ε, ε²) is twice the area of the triangle a, b, (0, 0) plus ε (a.y − b.y) +
+    // ε² (b.x − a.x).
     let sides = [a.y.partial_cmp(&b.y), b.x.partial_cmp(&a.x)];
     sides.into_iter().flatten().find(|side| *side != Equal)
 }

@@ -21,7 +21,8 @@ const STEPS: usize = 3;
 /// All points of a node satisfy `low <= normal · point <= high`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Slab {
-    /// The direction of the sum, over the triangles, of normal times area. The length is 1 up to rounding.
+    /// The direction of the sum of the area vectors of the triangles. An area vector is the unit normal times the area.
+    /// The length of this vector is 1 up to rounding.
     normal: [f32; 3],
     low: f64,
     high: f64,
@@ -35,8 +36,8 @@ impl Slab {
         high: f64::INFINITY,
     };
 
-    /// Returns the slab of `n` triangles. `normal` is the sum, over the triangles, of normal times area, or a multiple
-    /// of this sum.
+    /// Returns the slab of `n` triangles. `normal` is the sum of the area vectors of the triangles, or a multiple of
+    /// this sum.
     pub(super) fn of<'a>(
         triangles: impl Iterator<Item = &'a [DVec3; 3]>,
         n: usize,
@@ -84,7 +85,7 @@ impl SurfaceIndex {
             let at = free.max(node.min).min(node.max);
             let (above, distance) = (normal.dot(at) - limit, p.distance_squared(at));
             let product = 2.0 * factor * above;
-            // The terms are rounded, and so are the heights.
+            // This margin covers the rounding errors of the terms and of the heights.
             let rounding = 1e-14
                 * (distance + product.abs() + factor * (limit.abs() + at.abs().element_sum()));
             bound = bound.max(distance + product - rounding);

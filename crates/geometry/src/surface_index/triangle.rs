@@ -77,9 +77,10 @@ pub fn nearest_on_triangle(p: DVec3, &[a, b, c]: &[DVec3; 3]) -> DVec3 {
     a + ab * (vb / sum) + ac * (vc / sum)
 }
 
-/// Returns the distance between two triangles, which is 0 if they have a common point. Otherwise, it is the smallest of
-/// these distances: from a corner to the other triangle, or between two sides. If a triangle has zero area, the
-/// distance can be too large where the triangle passes through the other one.
+/// Returns the distance between two triangles, which is 0 if they have a common point. If the triangles have no common
+/// point, the distance is the smallest of all distances from a corner to the other triangle, and from a side of one
+/// triangle to a side of the other. If a triangle has zero area, the distance can be too large where the triangle
+/// passes through the other one.
 pub fn triangle_distance(s: &[DVec3; 3], t: &[DVec3; 3]) -> f64 {
     if triangles_intersect(s, t) {
         return 0.0;
@@ -187,7 +188,7 @@ mod tests {
         let at = DVec3::new;
         for t in [
             [DVec3::ZERO, at(3.0, 0.5, 0.0), at(1.0, 2.0, 1.0)],
-            // A segment, a segment with a duplicate end, a point.
+            // Three degenerate triangles: a segment, a segment with a duplicate end, and a point.
             [DVec3::ZERO, at(2.0, 2.0, 0.0), at(1.0, 1.0, 0.0)],
             [DVec3::ZERO, DVec3::ZERO, at(2.0, 1.0, 1.0)],
             [at(1.0, 0.0, 1.0); 3],

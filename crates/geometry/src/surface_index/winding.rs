@@ -12,8 +12,8 @@ use super::{Node, SurfaceIndex, unit_scale};
 /// The winding number is the signed solid angle of the surface as seen from the point, divided by 4π. For a closed
 /// surface that faces outward, the winding number is 1 inside and 0 outside. For nested or overlapping parts, the
 /// winding numbers of the parts are added. For an open surface or a list of unconnected triangles, the winding number
-/// changes smoothly near the gaps, and 1/2 is a good boundary between inside and outside: Jacobson, Kavan,
-/// Sorkine-Hornung, "Robust Inside-Outside Segmentation using Generalized Winding Numbers", 2013.
+/// changes smoothly near the gaps. For such a surface, 1/2 is a good boundary between inside and outside: Jacobson,
+/// Kavan, Sorkine-Hornung, "Robust Inside-Outside Segmentation using Generalized Winding Numbers", 2013.
 ///
 /// Far parts of the surface are replaced by the first three terms of the Taylor series of their solid angle: Barill,
 /// Dickson, Schmidt, Levin, Jacobson, "Fast Winding Numbers for Soups and Clouds", 2018. A part is far if its distance
@@ -88,8 +88,8 @@ impl<'a> Winding<'a> {
         })
     }
 
-    /// Returns the winding number at `p`. On a face, it is the mean of the values on both sides, up to rounding.
-    /// Returns 0 if `p` is not finite or is extremely far away.
+    /// Returns the winding number at `p`. On a face, the winding number is the mean of the values on both sides of the
+    /// face, up to rounding. Returns 0 if `p` is not finite or is extremely far away.
     pub fn at(&self, p: DVec3) -> f64 {
         let p = p * self.scale;
         if p.is_nan() || p.abs().max_element() > 1e30 {
@@ -188,8 +188,8 @@ impl Moments {
             let square = (x.iter().map(|x| *x * *x).sum::<DVec3>() + 9.0 * g * g) / 12.0;
             let mixed =
                 (x.iter().map(|x| yzx(*x) * zxy(*x)).sum::<DVec3>() + 9.0 * yzx(g) * zxy(g)) / 12.0;
-            // The components of `mixed` are the integrals of yz, zx and xy. The coefficient of x x y sums T over the
-            // three orders of its indices.
+            // The components of `mixed` are the integrals of yz, zx and xy. The coefficient of x² y is the sum of the
+            // components of the tensor T over the three orders of the indices x, x and y.
             let [yz, zx, xy] = mixed.to_array();
             moments.second[0] += n * square;
             moments.second[1] += yzx(n) * square + 2.0 * n * DVec3::new(xy, yz, zx);

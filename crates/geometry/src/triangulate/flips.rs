@@ -20,7 +20,7 @@ use super::{Triangle, with_sorted_corners};
 const MAX_FLIPS: usize = 1024;
 /// The number of flips after which cancellation is checked again.
 const CHECK: usize = 1 << 16;
-/// In place of the mate of a side of the polygon, which has no other triangle.
+/// Marks a side of the polygon in the list of mates. Such a side belongs to only one triangle, so it has no mate.
 const NONE: u32 = u32::MAX;
 
 /// Improves triangulations one after another, and reuses its buffers.

@@ -56,7 +56,8 @@ pub(super) fn triangulate(
 
 struct Polygon<'a> {
     points: &'a [[f64; 2]],
-    /// The corners in the order in which the line reaches them. Of corners at the same height, the left one is first.
+    /// The corners in the order in which the sweep line reaches them. Of corners at the same height, the left one is
+    /// first.
     order: Vec<u32>,
     /// For each corner, its place in `order`.
     rank: Vec<u32>,
@@ -85,13 +86,13 @@ impl<'a> Polygon<'a> {
     }
 
     /// Returns the diagonals that cut the polygon into pieces. Each diagonal is a pair of corners, the lower index
-    /// first. The diagonals are in the order in which their brackets close.
+    /// first. The diagonals are nested like brackets, and are in the order of their closing brackets.
     fn diagonals(&self, is_cancelled: &dyn Fn() -> bool) -> Option<Vec<[u32; 2]>> {
         let n = u32::try_from(self.points.len()).expect("corners fit 32 bits");
-        // The sides that the line meets and that have the inside of the polygon on their right.
+        // The sides of the polygon that the sweep line meets and that have the inside of the polygon on their right.
         let mut sides: BTreeSet<Side> = BTreeSet::new();
-        // For each of these sides, indexed by the first corner of the side: the last corner that had this side as its
-        // left neighbor.
+        // For each side in `sides`: the last corner that had this side as its left neighbor. The index in `helpers` is
+        // the first corner of the side.
         let mut helpers = vec![0; self.points.len()];
         let mut is_join = vec![false; self.points.len()];
         let mut diagonals = Vec::new();
@@ -153,7 +154,8 @@ impl<'a> Polygon<'a> {
             triangles.push(triangle);
             (orient2d(a, b, c) != Less).then_some(())
         };
-        // The corners above `c` that no triangle has cut off. All of them except the first are on the same boundary.
+        // The corners above `c` that no triangle has cut off. All corners on the stack, except the first one, are on
+        // the same boundary.
         let mut stack: Vec<u32> = Vec::new();
         let mut stack_is_left = false;
         let &(_, last, _) = corners.last()?;
@@ -199,7 +201,7 @@ impl Side {
         }
     }
 
-    /// Returns `Less` if this side is on the left of another side, which does not begin above this side.
+    /// Returns `Less` if this side is on the left of the other side. The other side must not begin above this side.
     fn compare(&self, other: &Self) -> Ordering {
         let turn = |p: DVec2| orient2d(self.lower, self.upper, p);
         turn(other.upper).then_with(|| turn(other.lower))
@@ -337,7 +339,7 @@ mod tests {
             let size = 2.0 + 8.0 * next(&mut state);
             let mut coordinate = || (size * next(&mut state)).round() - (0.5 * size).floor();
             let mut points: Vec<[f64; 2]> = (0..30).map(|_| [coordinate(), coordinate()]).collect();
-            // Around the origin, with one corner in each direction.
+            // The corners go once around the origin. No two of them are in the same direction.
             points.retain(|p| *p != [0.0; 2]);
             points.sort_by(|[ax, ay], [bx, by]| {
                 libm::atan2(*ay, *ax).total_cmp(&libm::atan2(*by, *bx))
@@ -372,7 +374,7 @@ mod tests {
             let random: Vec<_> = (0..n)
                 .map(|_| [next(&mut state), next(&mut state)])
                 .collect();
-            // A few of these polygons have no crossing.
+            // A few of these random polygons have no crossing sides, so they are triangulated.
             if triangulate(&random, &|| false).is_some() {
                 assert_triangulates(&random);
             }

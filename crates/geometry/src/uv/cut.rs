@@ -20,8 +20,8 @@ const FLAT: f64 = 1.0 + 1e-6;
 const MIN_SHARED: f64 = 0.1;
 /// Two charts are not joined if the mean of `1 - cosine` of the angles at which they meet is above this number.
 const MAX_CREASE: f64 = 0.5;
-/// A chart whose area is less than this fraction of the area of the other chart is also joined if the angles are larger
-/// than [`MAX_CREASE`] allows.
+/// A chart whose area is less than this fraction of the area of its neighbor is joined to it even if the angles are
+/// larger than [`MAX_CREASE`] allows.
 const SMALL: f64 = 0.1;
 
 /// The limits of a chart.
@@ -42,8 +42,8 @@ struct Allowed {
     /// fraction `except` of the chart may have a larger aspect.
     aspect: f64,
     except: f64,
-    /// The largest allowed value of the mean, over the area, of the ratio between the area scale of a triangle and that
-    /// of the chart.
+    /// The largest allowed mean, weighted by area, of the ratio between the area scale of a triangle and that of the
+    /// chart.
     spread: f64,
 }
 
@@ -230,8 +230,8 @@ fn check(
 }
 
 /// Divides a connected set of faces into two connected sets. First, two faces are chosen: two faces that overlap, or
-/// two faces that are far from each other. Each face then goes to the set of the chosen face that is nearer to it along
-/// the surface.
+/// two faces that are far from each other. Then each face is put in the set of the nearer of the two chosen faces,
+/// measured along the surface.
 fn split(
     surface: &Surface,
     faces: &[u32],

@@ -51,15 +51,15 @@ impl Frame {
     }
 }
 
-/// Returns two maps into the plane: the result of the iterations, and the map at which they start. Both maps have the
-/// same area as the surface. The first map has less distortion, but the starting map can be free of overlaps even if
-/// the first map is not. Positions are in the order of the vertices of the part.
+/// Returns two maps into the plane: the result of the iterations, and the map at which they start. Both maps preserve
+/// the total area of the surface. The first map has less distortion, but the starting map can be free of overlaps even
+/// if the first map is not. Positions are in the order of the vertices of the part.
 ///
 /// The starting map is a least squares conformal map (Levy and others, 2002, with the matrix of Mullen, Tong, Alliez,
-/// Desbrun, "Spectral Conformal Parameterization", 2008). The iterations of the hybrid method improve it (Liu, Zhang,
-/// Xu, Gotsman, Gortler, "A Local/Global Approach to Mesh Parameterization", 2008). For each triangle, an iteration
-/// finds a similarity transformation with a scale near 1 that is close to the map of the triangle. It then solves
-/// linear equations for positions that fit these transformations. The matrix is factored once.
+/// Desbrun, "Spectral Conformal Parameterization", 2008). The iterations of the hybrid method improve this map (Liu,
+/// Zhang, Xu, Gotsman, Gortler, "A Local/Global Approach to Mesh Parameterization", 2008). For each triangle, an
+/// iteration finds a similarity transformation with a scale near 1 that is close to the map of the triangle. It then
+/// solves linear equations for positions that fit these transformations. The matrix is factored once.
 pub(super) fn flatten(part: &Part, progress: &dyn Progress) -> Result<[Vec<DVec2>; 2], SolveError> {
     let frames: Vec<Frame> = part
         .triangles
@@ -122,8 +122,8 @@ fn conformal(
 ) -> Result<Vec<DVec2>, SolveError> {
     let n = part.points.len();
     let start = project(part);
-    // The equations have one solution if the positions of two vertices are given. These are the two end vertices along
-    // the longer side of the bounding box of the projection.
+    // The equations have exactly one solution if the positions of two vertices are fixed. The two fixed vertices are
+    // the two extreme vertices of the projection along the longer side of its bounding box.
     let (low, high) = start
         .iter()
         .fold((DVec2::MAX, DVec2::MIN), |(low, high), &p| {
@@ -133,8 +133,8 @@ fn conformal(
     let at = |i: &usize| if is_wide { start[*i].x } else { start[*i].y };
     let first = (0..n).min_by(|i, j| at(i).total_cmp(&at(j))).unwrap_or(0);
     let last = (0..n).max_by(|i, j| at(i).total_cmp(&at(j))).unwrap_or(0);
-    // Twice the energy is the Dirichlet energy of both coordinates minus twice the area of the map. This area depends
-    // only on the border.
+    // Twice the energy is the Dirichlet energy of both coordinates minus twice the area of the map. The area of the map
+    // depends only on its border.
     let mut sides: Vec<(u32, u32, bool)> = part
         .triangles
         .iter()

@@ -25,7 +25,7 @@ const COPLANAR: f64 = 1.0 - 1e-5;
 const NONE: u32 = u32::MAX;
 
 /// How two regions or charts meet: the length of their common border, and the sum of `length * (1 - cosine)` over the
-/// edges of this border, for the angles between the faces at these edges.
+/// edges of this border. The cosine is that of the angle between the two faces at an edge.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Meeting {
     pub(super) length: f64,
@@ -52,8 +52,8 @@ impl Totals {
     }
 }
 
-/// Returns the totals of each of `n` sets of faces, and for each set the sets that it meets. `set_of` has the set of
-/// each face; [`u32::MAX`] means no set.
+/// Returns the totals of each of `n` sets of faces, and for each set the sets that it meets. `set_of` has the index of
+/// the set of each face, or [`u32::MAX`] for a face that is in no set.
 pub(super) fn meetings(
     surface: &Surface,
     smooth: &[DVec3],
@@ -206,7 +206,8 @@ impl Growth {
         (cost <= MAX_COST).then_some(cost)
     }
 
-    /// Grows the chart with the number `chart` from the region `seed`. Calls `ask` for each region that is added.
+    /// Grows the chart with the number `chart` from the region `seed`. Calls `ask`, which checks for cancellation, for
+    /// each region that is added.
     fn grow(
         &mut self,
         seed: u32,
@@ -226,8 +227,8 @@ impl Growth {
                     heap.push(Reverse(Candidate { cost, region }));
                 }
             }
-            // The chart may have changed since a cost was computed. If the cost is now higher, the region goes back to
-            // the queue.
+            // The chart may have changed since the cost of a region was computed. If the cost of a region is now
+            // higher, the region goes back to the queue.
             added = loop {
                 let Some(Reverse(candidate)) = heap.pop() else {
                     return Ok(());
@@ -251,8 +252,8 @@ impl Growth {
 }
 
 /// Divides the solid faces, which are the faces with a nonzero area, into connected charts. Returns the chart of each
-/// face, which is [`u32::MAX`] for other faces, and the number of charts. A region is added to a chart only if the
-/// cosine of the angle between its normal and the mean normal of the chart is at least `min_cosine` at that time.
+/// face, which is [`u32::MAX`] for other faces, and the number of charts. When a region is added to a chart, the cosine
+/// of the angle between its normal and the current mean normal of the chart must be at least `min_cosine`.
 pub(super) fn grow(
     surface: &Surface,
     smooth: &[DVec3],

@@ -11,8 +11,8 @@ use crate::tangent::triangles;
 /// texture. The aspect is the ratio of the longer to the shorter axis of the ellipse: 1 if angles are preserved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stretch {
-    /// The aspect that 95 % of the area of the surface does not exceed. Infinite if more than 5 % of the surface is
-    /// mapped to zero area in the texture.
+    /// The aspect that 95 % of the area of the surface does not exceed. The value is infinite if more than 5 % of the
+    /// surface is mapped to zero area in the texture.
     pub aspect: f64,
     /// The largest aspect.
     pub max_aspect: f64,
@@ -20,7 +20,7 @@ pub struct Stretch {
     pub n_mirrored: usize,
     /// The ratio of the largest to the smallest area scale. The area scale of a triangle is its area in the texture,
     /// divided by its area on the surface. The 2.5 % of the surface with the largest scales and the 2.5 % with the
-    /// smallest scales are excluded. The ratio is 1 if the texture has one scale.
+    /// smallest scales are excluded. The ratio is 1 if the scale is the same everywhere in the texture.
     pub scales: f64,
 }
 
@@ -63,8 +63,8 @@ pub fn aspects(mesh: &Mesh, uvs: &[DVec2]) -> impl Iterator<Item = ([HalfEdgeId;
     })
 }
 
-/// Sorts pairs of a value and a weight by value, and adds up the weights. Returns the first value at which the sum is
-/// at least `weight`.
+/// Sorts pairs of a value and a weight by value, and adds up the weights. Returns the first value at which the sum of
+/// the weights is at least `weight`.
 pub(super) fn percentile(values: &mut [(f64, f64)], weight: f64) -> f64 {
     values.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut sum = 0.0;

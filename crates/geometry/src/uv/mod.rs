@@ -97,7 +97,7 @@ pub fn charts(mesh: &Mesh, uvs: &[DVec2]) -> Charts {
     let mut n = 0;
     for f in mesh.faces() {
         let first = lowest[f.index()] as usize;
-        // The face with the lowest id in a set comes first.
+        // Each set is numbered when its face with the lowest id is visited, which is the first of its faces.
         if first == f.index() {
             of_face[first] = n;
             n += 1;

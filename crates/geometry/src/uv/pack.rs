@@ -17,9 +17,10 @@ pub struct Packed {
     pub uvs: Vec<DVec2>,
     /// The number of charts.
     pub n_charts: usize,
-    /// The number of charts with zero area on the surface or in the texture. All their coordinates become (0, 0).
+    /// The number of charts with zero area on the surface or in the texture. All texture coordinates of these charts
+    /// become (0, 0).
     pub n_flat: usize,
-    /// The number of charts that overlap themselves. They are packed by their convex hulls.
+    /// The number of charts that overlap themselves. A chart that overlaps itself is packed by its convex hull.
     pub n_overlapping: usize,
     /// The area of the charts, as a fraction of the page.
     pub coverage: f64,
@@ -29,17 +30,17 @@ pub struct Packed {
 const MIN_AREA: f64 = 1e-11;
 
 /// The shortest edge of a convex hull, as a fraction of the size of the hull. The crate `uvunwrap` leaves out triangles
-/// whose height is below 1e-6 times the diagonal. Without these triangles, the hull would fall into parts.
+/// whose height is below 1e-6 times the diagonal. A hull without these triangles could fall into parts.
 const MIN_EDGE: f64 = 4e-6;
 
 /// One chart before it is packed.
 struct Chart {
     /// The corners of its triangles.
     triangles: Vec<[HalfEdgeId; 3]>,
-    /// The factor by which its coordinates are multiplied, so that all charts have one scale. `None` for a zero-area
-    /// chart.
+    /// The factor by which the coordinates of the chart are multiplied, so that all charts have the same scale. `None`
+    /// for a zero-area chart.
     scale: Option<f64>,
-    /// The middle of its bounding box in the old texture.
+    /// The middle of the bounding box of the chart in the old texture.
     middle: DVec2,
     /// Its area on the surface.
     area: f64,
@@ -208,7 +209,7 @@ impl Shape {
         let total: f64 = all.clone().map(|t| area(t).abs()).sum();
         for points in all {
             // Rounding to 32-bit numbers can turn a thin triangle over. Such a triangle is left out of the shape of the
-            // chart. Its corners are also corners of triangles that stay.
+            // chart. The corners of a triangle that is left out are also corners of triangles that stay.
             let before = (points[1] - points[0]).perp_dot(points[2] - points[0]);
             if area(points) * before.signum() <= MIN_AREA * total {
                 continue;
@@ -227,7 +228,7 @@ impl Shape {
 
     #[expect(
         clippy::cast_possible_truncation,
-        reason = "packing uses 32-bit numbers; corners have 32-bit ids"
+        reason = "packing uses 32-bit indices, which suffice because the ids of corners have 32 bits"
     )]
     fn push(&mut self, p: DVec2) -> u32 {
         let [x, y] = p.as_vec2().to_array();

@@ -17,7 +17,7 @@ pub(super) type Node<'a> = roxmltree::Node<'a, 'a>;
 ///
 /// # Errors
 ///
-/// If the text has a byte order mark of UTF-16.
+/// Returns an error if the text has a byte order mark of UTF-16.
 pub(super) fn decoded(bytes: &[u8]) -> Result<Cow<'_, str>, Fault> {
     if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
         return Err(TextPosition::START.error("expected text in UTF-8, found UTF-16"));
@@ -33,7 +33,8 @@ pub(super) fn decoded(bytes: &[u8]) -> Result<Cow<'_, str>, Fault> {
 ///
 /// # Errors
 ///
-/// If the text is not XML, or if parsing it would take far more time or memory than is usual for its size.
+/// Returns an error if the text is not XML, or if parsing it would take far more time or memory than is usual for its
+/// size.
 pub(super) fn parsed(text: &str) -> Result<Xml<'_>, Fault> {
     check_size(text)?;
     let options = ParsingOptions {
@@ -137,7 +138,7 @@ pub(super) struct Document<'a> {
 impl<'a> Document<'a> {
     /// # Errors
     ///
-    /// If the root element is not `<COLLADA>`.
+    /// Returns an error if the root element is not `<COLLADA>`.
     pub(super) fn new(xml: &'a Xml<'a>) -> Result<Self, Fault> {
         let root = xml.root_element();
         if root.tag_name().name() != "COLLADA" {
@@ -174,7 +175,7 @@ impl<'a> Document<'a> {
 
     fn add(&self, kind: NoteKind, count: usize, node: Node, what: What) {
         if count > 0 {
-            // The line is determined only for the first node, because determining a line is slow.
+            // Determining the line of a node is slow, so a note has only the line of its first node.
             let mut all = self.tally.borrow_mut();
             let (sum, _) = all
                 .entry((kind, what.1, what.0))
@@ -194,7 +195,7 @@ impl<'a> Document<'a> {
     ///
     /// # Errors
     ///
-    /// If the budget is used up.
+    /// Returns an error if the budget is used up.
     pub(super) fn take(&self, node: Node, bytes: usize) -> Result<(), Fault> {
         let message = "the file repeats its content far more often than is usual for its size";
         let left = self.budget.get().checked_sub(bytes);
@@ -208,7 +209,7 @@ impl<'a> Document<'a> {
     ///
     /// # Errors
     ///
-    /// If the attribute is missing, or refers to an element that is missing or of a different kind.
+    /// Returns an error if the attribute is missing, or refers to an element that is missing or of a different kind.
     pub(super) fn follow(
         &self,
         node: Node<'a>,
@@ -227,12 +228,12 @@ impl<'a> Document<'a> {
         self.find(node, id, kind).map(Some)
     }
 
-    /// Finds the element with this id. The element must be of the given `kind`. `node` is the element that refers to
-    /// it. Errors have the position of `node`.
+    /// Finds the element with this id. The element must be of the given `kind`. `node` is the element that contains the
+    /// reference. Errors have the position of `node`.
     ///
     /// # Errors
     ///
-    /// If the element is missing or of a different kind.
+    /// Returns an error if the element is missing or of a different kind.
     pub(super) fn find(&self, node: Node<'a>, id: &str, kind: &[&str]) -> Result<Node<'a>, Fault> {
         let found = self.ids.get(id).copied();
         let is_wanted = |found: &Node| kind.iter().any(|kind| is(*found, kind));
@@ -299,7 +300,7 @@ pub(super) fn error_at(node: Node, message: impl Into<String>) -> Fault {
 ///
 /// # Errors
 ///
-/// If the attribute is missing.
+/// Returns an error if the attribute is missing.
 pub(super) fn required<'a>(node: Node<'a>, key: &str) -> Result<&'a str, Fault> {
     node.attribute(key)
         .ok_or_else(|| error_at(node, format!("expected an attribute `{key}`, found none")))
@@ -309,7 +310,7 @@ pub(super) fn required<'a>(node: Node<'a>, key: &str) -> Result<&'a str, Fault> 
 ///
 /// # Errors
 ///
-/// If the value is not a non-negative integer.
+/// Returns an error if the value is not a non-negative integer.
 pub(super) fn natural(node: Node, key: &str) -> Result<Option<usize>, Fault> {
     let Some(value) = node.attribute(key) else {
         return Ok(None);
@@ -352,7 +353,7 @@ pub(super) fn numbers(node: Node) -> Result<Vec<f64>, Fault> {
 ///
 /// # Errors
 ///
-/// If a word is not a number, or the number of words is not `N`.
+/// Returns an error if a word is not a number, or the number of words is not `N`.
 pub(super) fn exactly<const N: usize>(node: Node) -> Result<[f64; N], Fault> {
     numbers(node)?.try_into().map_err(|found: Vec<f64>| {
         error_at(node, format!("expected {N} numbers, found {}", found.len()))
@@ -363,7 +364,7 @@ pub(super) fn exactly<const N: usize>(node: Node) -> Result<[f64; N], Fault> {
 ///
 /// # Errors
 ///
-/// If a word is not an index or is too large.
+/// Returns an error if a word is not an index or is too large.
 pub(super) fn push_indices(node: Node, list: &mut Vec<u32>) -> Result<(), Fault> {
     for word in words(node) {
         let expected = |_| word_place(node, word).expected("an index", word.as_bytes());
@@ -382,7 +383,7 @@ fn word_place(node: Node, word: &str) -> TextPosition {
     }
 }
 
-/// Creates an error at the word with index `k` among all words of the `lists`.
+/// Creates an error at the position of a word. The index `k` counts all words of the `lists`.
 pub(super) fn word_error(lists: &[Node], mut k: usize, message: String) -> Fault {
     for &list in lists {
         for word in words(list) {

@@ -197,7 +197,7 @@ impl<'a, 'd> Geometries<'a, 'd> {
                 _ => {
                     let what = (
                         "inputs",
-                        "inputs left out: repeated, or not normals, colors or texture coordinates",
+                        "inputs left out: repeated, too many, or with a semantic that is not supported",
                     );
                     self.document.left_out(1, input, what);
                 }
@@ -225,7 +225,7 @@ impl<'a, 'd> Geometries<'a, 'd> {
         for &input in &of_vertices {
             add(input, vertex)?;
         }
-        // Each list of polygons reads the inputs of the vertices again, so their cost is counted for each list.
+        // Each list of polygons reads the inputs of the vertices again, so each list takes their cost from the budget.
         self.document.take(list, cost::NUMBER * of_vertices.len())?;
         Ok(Inputs {
             stride,

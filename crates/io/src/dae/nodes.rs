@@ -142,8 +142,8 @@ impl<'a, 'd> Walk<'a, 'd> {
         Ok(())
     }
 
-    /// Pushes the child nodes of `node`, including instances of other nodes, onto the stack `open`. Afterwards, the
-    /// first child is on top.
+    /// Pushes the child nodes of `node`, including instances of other nodes, onto the stack `open`. After the call, the
+    /// first child is on top of the stack.
     fn open_children(
         &mut self,
         node: Node<'a>,
@@ -185,7 +185,8 @@ impl<'a, 'd> Walk<'a, 'd> {
                 );
                 continue;
             };
-            // The budget includes the name of the object, because several copies of the name are stored.
+            // Several copies of the name of the object are stored, so the length of the name is also taken from the
+            // budget.
             let names = name(node).len() + name(geometry).len();
             self.document.take(instance, cost::OBJECT + 8 * names)?;
             let materials = self.bound_materials(instance)?;
@@ -287,8 +288,8 @@ fn matrix(node: Node) -> Result<DAffine3, Fault> {
 }
 
 /// Returns a rotation by Rodrigues' formula: R = c I + s \[n\] + (1 - c) n n^T. Here n is the unit axis, \[n\] is the
-/// matrix of the cross product with n, and c and s are the cosine and the sine of the angle. The angle is in degrees. A
-/// zero axis gives the identity.
+/// matrix of the cross product with n, and c and s are the cosine and the sine of the angle. The angle is in degrees.
+/// If the axis is zero, the rotation is the identity.
 fn rotation([x, y, z, degrees]: [f64; 4]) -> DMat3 {
     let axis = DVec3::new(x, y, z).normalize_or_zero();
     if axis == DVec3::ZERO {

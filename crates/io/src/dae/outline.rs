@@ -63,7 +63,8 @@ impl Shape {
     ) -> Result<Outline<'a>, Fault> {
         let mut outline = Outline::default();
         let mut holes = 0;
-        // For each element with indices, the index of its first corner. The total number of corners follows.
+        // For each element with indices, the index of its first corner. The last entry of `starts` is the total number
+        // of corners.
         let mut starts = vec![0];
         for part in elements(list) {
             let indices = if is(part, "p") {

@@ -36,12 +36,13 @@ impl Vectors {
 }
 
 /// Reads the vectors of a source. If the accessor has all `names`, the components of the vectors are in the order of
-/// `names`; otherwise, they are in the order of the accessor. Also returns the length of the array, which is read as
-/// a whole. This length can exceed the number of components of all vectors, because several sources can share an array.
+/// `names`; otherwise, they are in the order of the accessor. Also returns the length of the array, which is read as a
+/// whole. The length of the array can exceed the number of components of all vectors, because several sources can share
+/// an array.
 ///
 /// # Errors
 ///
-/// If the source is invalid or has fewer than `least` components.
+/// Returns an error if the source is invalid or has fewer than `least` components.
 pub(super) fn vectors(
     document: &Document,
     source: Node,

@@ -15,14 +15,14 @@ use crate::fault::Fault;
 use mesh::parallel;
 
 /// The number of elements that an accessor without a buffer view can always have, even in a tiny file. All elements of
-/// such an accessor are zero, except sparse ones.
+/// such an accessor are zero, unless sparse values replace them.
 const MIN_ZEROS: u64 = 1 << 16;
 impl Reader<'_> {
     /// The number of elements of an accessor.
     ///
     /// # Errors
     ///
-    /// If the accessor does not exist. `pointer` is the location that refers to the accessor.
+    /// Returns an error if the accessor does not exist. `pointer` is the location that refers to the accessor.
     pub(super) fn count(&self, index: usize, pointer: &str) -> Result<u64, Fault> {
         Ok(self.accessor(index, pointer)?.count.0)
     }
@@ -31,7 +31,7 @@ impl Reader<'_> {
     ///
     /// # Errors
     ///
-    /// If the accessor does not exist or the type is unknown.
+    /// Returns an error if the accessor does not exist or the type is unknown.
     pub(super) fn kind(&self, index: usize, pointer: &str) -> Result<Type, Fault> {
         let accessor = self.accessor(index, pointer)?;
         Ok(kinds(accessor, &format!("/accessors/{index}"))?.0)
@@ -45,7 +45,7 @@ impl Reader<'_> {
     ///
     /// # Errors
     ///
-    /// If the component type of the accessor is not one of them.
+    /// Returns an error if the component type is not allowed.
     pub(super) fn expect_components(
         &self,
         index: usize,
@@ -68,7 +68,7 @@ impl Reader<'_> {
     ///
     /// # Errors
     ///
-    /// The errors of [`vectors`](Self::vectors).
+    /// Returns an error in the same cases as [`vectors`](Self::vectors).
     pub(super) fn floats(
         &self,
         index: usize,
@@ -128,8 +128,8 @@ impl Reader<'_> {
     ///
     /// # Errors
     ///
-    /// If the type of the accessor is not in `types`, the accessor exceeds its buffer, or a value is not finite.
-    /// `pointer` is the location that refers to the accessor.
+    /// Returns an error if the type of the accessor is not in `types`, the accessor exceeds its buffer, or a value is
+    /// not finite. `pointer` is the location that refers to the accessor.
     pub(super) fn vectors<const N: usize, T: Value>(
         &self,
         index: usize,
@@ -147,7 +147,8 @@ impl Reader<'_> {
         }
         let used = kind.multiplicity().min(N);
         let size = component.size();
-        // The loop only records whether there is a non-finite value. A second loop locates the value.
+        // The first loop only records whether there is a non-finite value. If there is a non-finite value, a second
+        // loop locates it.
         let has_non_finite = AtomicBool::new(false);
         let general = |bytes: &[u8]| {
             let mut vector = [fill; N];
@@ -195,7 +196,7 @@ impl Reader<'_> {
     ///
     /// # Errors
     ///
-    /// The errors of [`vectors`](Self::vectors).
+    /// Returns an error in the same cases as [`vectors`](Self::vectors).
     pub(super) fn indices(&self, index: usize, pointer: &str) -> Result<Vec<u32>, Fault> {
         let accessor = self.accessor(index, pointer)?;
         let here = format!("/accessors/{index}");
@@ -219,7 +220,8 @@ impl Reader<'_> {
         }
     }
 
-    /// Reads all elements from the view. If there is no view, all elements are `zero`. Then applies the sparse values.
+    /// Reads all elements from the view. If there is no view, all elements are `zero`. Then sparse values replace some
+    /// of the elements.
     fn elements<T: Copy + Zeroable + Send>(
         &self,
         index: usize,

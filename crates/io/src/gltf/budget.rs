@@ -10,9 +10,9 @@ const BUDGET_FACTOR: u64 = 64;
 const MIN_BUDGET: u64 = 1 << 24;
 
 /// Each byte of a buffer with compressed views increases the budget as much as this number of bytes of uncompressed
-/// data. Compressed data needs a larger budget, because it gives a larger mesh than the same number of uncompressed
-/// bytes: a triangle with its share of the vertices takes two bytes in a compressed view, and at least twenty bytes in
-/// an uncompressed view.
+/// data. Compressed data needs a larger budget, because it gives a larger mesh than uncompressed data of the same size.
+/// A triangle with its share of the vertices takes two bytes in a compressed view, and at least twenty bytes in an
+/// uncompressed view.
 const COMPRESSED: u64 = 4;
 
 /// The memory that can still be used, in bytes.
@@ -50,7 +50,7 @@ impl Budget {
         self.left.set(self.left.get().saturating_add(more));
     }
 
-    /// Whether this number of bytes is left.
+    /// Whether this number of bytes is left in the budget.
     pub(super) fn has(&self, bytes: u64) -> bool {
         bytes <= self.left.get()
     }
@@ -59,7 +59,7 @@ impl Budget {
     ///
     /// # Errors
     ///
-    /// If the budget is used up. `pointer` is the location that needs the memory.
+    /// Returns an error if the budget is used up. `pointer` is the location that needs the memory.
     pub(super) fn spend(&self, bytes: u64, pointer: &str) -> Result<(), Fault> {
         let left = self.left.get().checked_sub(bytes).ok_or_else(|| {
             let message = format!(
@@ -77,7 +77,7 @@ impl Budget {
     ///
     /// # Errors
     ///
-    /// If the budget is used up. `pointer` is the location that needs the memory.
+    /// Returns an error if the budget is used up. `pointer` is the location that needs the memory.
     pub(super) fn inflate(&self, bytes: u64, pointer: &str) -> Result<usize, Fault> {
         self.spend(bytes, pointer)?;
         let left = self.inflation.get().checked_sub(bytes);

@@ -29,7 +29,7 @@ const MAX_JSON: u64 = 1 << 30;
 ///
 /// # Errors
 ///
-/// If the file cannot be read.
+/// Returns an error if the file cannot be read.
 pub(crate) fn document_of(store: &dyn Store, path: &Path) -> Result<Vec<u8>, ReadError> {
     // Reads only the header and the length of the first chunk.
     let head = store.read_up_to(path, HEAD as u64)?;
@@ -48,7 +48,7 @@ pub(crate) fn document_of(store: &dyn Store, path: &Path) -> Result<Vec<u8>, Rea
 ///
 /// # Errors
 ///
-/// If the header or the lengths are wrong.
+/// Returns an error if the header or the lengths are wrong.
 pub(super) fn container(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Fault> {
     if !bytes.starts_with(MAGIC) {
         return Ok((bytes, None));
@@ -96,13 +96,13 @@ pub(super) fn container(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Fault> {
 
 /// Loads the bytes of all buffers. `binary` is the binary chunk of a GLB file. The chunk is not copied. When a file
 /// next to the document is read for the first time, the budget grows with the number of bytes read. If another buffer
-/// refers to the same file, the length of this buffer is taken from the budget. Buffers that are marked in `fallbacks`
-/// are not read and stay empty.
+/// refers to a file that was read before, the length of this buffer is taken from the budget. Buffers that are marked
+/// in `fallbacks` are not read and stay empty.
 ///
 /// # Errors
 ///
-/// If a URI leads out of the folder of the document, if a data URI is not base64, if a file cannot be read, if there
-/// are fewer bytes than a buffer declares, or if the budget is used up.
+/// Returns an error if a URI leads out of the folder of the document, if a data URI is not base64, if a file cannot be
+/// read, if there are fewer bytes than a buffer declares, or if the budget is used up.
 pub(super) fn load<'a>(
     buffers: &[Buffer],
     fallbacks: &[bool],
@@ -121,7 +121,8 @@ pub(super) fn load<'a>(
         let mut bytes = match &buffer.uri {
             None => {
                 let chunk = if i == 0 { binary.take() } else { None };
-                // A buffer without data is treated as empty. If it declares bytes, it is refused below.
+                // A buffer without data is treated as empty. If a buffer without data declares a length other than 0,
+                // the buffer is refused below.
                 Cow::Borrowed(chunk.unwrap_or_default())
             }
             Some(uri) => {
@@ -169,7 +170,7 @@ pub(super) fn load<'a>(
 ///
 /// # Errors
 ///
-/// If the data is not marked as base64 or is not valid base64.
+/// Returns an error if the data is not marked as base64 or is not valid base64.
 pub(super) fn data_uri<'a>(data: &'a str, pointer: &str) -> Result<(&'a str, Vec<u8>), Fault> {
     let (kind, encoded) = data
         .split_once(";base64,")

@@ -40,8 +40,8 @@ impl Repairs {
 ///
 /// # Errors
 ///
-/// If an accessor is invalid, or refers to a joint that the skin does not have. `here` is the location of the
-/// primitive.
+/// Returns an error if an accessor is invalid, or refers to a joint that the skin does not have. `here` is the location
+/// of the primitive.
 pub(super) fn joints(
     reader: &Reader,
     primitive: &Primitive,
@@ -99,7 +99,7 @@ pub(super) fn joints(
         }
     }
     repairs.change(negative, || {
-        format!("negative weights of {weights_at} set to 0")
+        format!("negative weights in {weights_at}: set to 0")
     });
     let used: Vec<usize> = (0..used.len()).filter(|&joint| used[joint]).collect();
     let bytes = (used.len() as u64).saturating_mul(n as u64 * 8);
@@ -161,7 +161,7 @@ fn index(joint: f64) -> usize {
 ///
 /// # Errors
 ///
-/// If an accessor is invalid. `here` is the location of the primitive.
+/// Returns an error if an accessor is invalid. `here` is the location of the primitive.
 pub(super) fn morphs(
     reader: &Reader,
     primitive: &Primitive,
@@ -200,13 +200,13 @@ pub(super) fn morphs(
         });
     }
     if targets.len() < deformers.targets {
-        let what = || format!("morph targets that {here} does not have: set to 0");
+        let what = || format!("missing morph targets of {here}: set to 0");
         repairs.change(deformers.targets - targets.len(), what);
     }
     Ok(columns)
 }
 
-/// The normals or the tangents of a mesh that morph targets change.
+/// The normals or tangents of a mesh, and the morph targets that change them.
 pub(super) struct Directions {
     semantic: Semantic,
     /// Returns the accessor of the changes of a morph target.
@@ -243,7 +243,7 @@ impl Directions {
         tangents.of(primitives)
     }
 
-    /// Finds the morph targets. Changes of a primitive that does not have the directions are ignored.
+    /// Finds the morph targets. If a primitive has no normals or tangents itself, changes to them are ignored.
     fn of(mut self, primitives: &[Primitive]) -> Self {
         let semantic = Checked::Valid(self.semantic.clone());
         let primitives = primitives.iter();
@@ -261,13 +261,12 @@ impl Directions {
     }
 
     /// Reads the directions that each morph target gives with the weight 1, into one column of `n` values for each
-    /// target.
-    /// `own` are the directions of the primitive, with three or more numbers, of which morph targets change the first three.
-    /// Without them, the columns are zero.
+    /// target. `own` are the directions of the primitive. Each direction has three or more numbers, of which morph
+    /// targets change the first three. If the primitive has no directions, the columns are zero.
     ///
     /// # Errors
     ///
-    /// If an accessor is invalid. `here` is the location of the primitive.
+    /// Returns an error if an accessor is invalid. `here` is the location of the primitive.
     pub(super) fn read<T: Value + Pod>(
         &self,
         reader: &Reader,
@@ -316,7 +315,7 @@ impl Directions {
 
 /// # Errors
 ///
-/// If an accessor does not have an element for each position.
+/// Returns an error if an accessor does not have an element for each position.
 pub(super) fn expect_len(found: usize, n: usize, at: &str) -> Result<(), Fault> {
     if found == n {
         return Ok(());

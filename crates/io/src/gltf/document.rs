@@ -75,12 +75,13 @@ impl Document {
     ///
     /// # Errors
     ///
-    /// If a part is invalid. The error is about the first invalid part.
+    /// Returns an error if a part is invalid. The error is about the first invalid part.
     pub(super) fn new(json: &Value, budget: &Budget, notes: &mut Notes) -> Result<Self, Fault> {
         check_version(json)?;
         check_extensions(json, notes)?;
         let views: Vec<View> = pieces(json, "bufferViews", budget)?;
-        // The memory of the additional data that the reader stores for each view is also taken from the budget.
+        // The reader stores additional data for each buffer view. The memory of this data is also taken from the
+        // budget.
         let more = views.len() * size_of::<(Option<Compressed>, OnceCell<Vec<u8>>)>();
         budget.spend(more as u64, "/bufferViews")?;
         let compressed = meshopt::compressed(list(json, "bufferViews")?)?;
@@ -115,7 +116,7 @@ impl Document {
 ///
 /// # Errors
 ///
-/// If the index is out of range.
+/// Returns an error if the index is out of range.
 pub(super) fn get<'a, T>(
     pieces: &'a [T],
     index: usize,

@@ -138,7 +138,7 @@ impl Used {
     }
 }
 
-/// Sets a flag, and returns whether it exists and was not set before.
+/// Sets the flag with index `i`. Returns true if the flag exists and was not set before.
 fn mark(flags: &mut [bool], i: usize) -> bool {
     flags
         .get_mut(i)

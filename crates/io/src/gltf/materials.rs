@@ -37,7 +37,7 @@ impl<'a> Materials<'a> {
     ///
     /// # Errors
     ///
-    /// If the material refers to a missing texture or to missing bytes.
+    /// Returns an error if the material refers to a missing texture or to missing bytes.
     pub(super) fn get(&mut self, i: usize) -> Result<Material, Fault> {
         if let Some(known) = self.known.get(&i) {
             return Ok(known.clone());
@@ -251,6 +251,6 @@ fn unit(x: f64) -> f64 {
 )]
 pub(super) fn rounded(x: f64) -> f64 {
     let x = (x as f32).clamp(f32::MIN, f32::MAX);
-    // The conversion to text and back keeps, for example, 0.8 as 0.8.
+    // The shortest decimal form of the 32-bit number is parsed as a 64-bit number. So 0.8, for example, stays 0.8.
     x.to_string().parse().unwrap_or(f64::from(x))
 }

@@ -44,9 +44,9 @@
 //! applied to positions, normals and tangents, and there is no graph. Skinned meshes get the pose of their joints. If a
 //! transform is a reflection, the faces are reversed.
 //!
-//! Accessors can be interleaved or sparse. They can contain integers, including normalized integers. If an accessor has
-//! no view, all its values are zero, except sparse ones. Buffers are files inside the folder of the document, data
-//! URIs, or the second chunk of a GLB file.
+//! Accessors can be interleaved or sparse. The elements of an accessor can be integers, including normalized integers.
+//! If an accessor has no view, all its values are zero, unless sparse values replace them. Buffers are files inside the
+//! folder of the document, data URIs, or the second chunk of a GLB file.
 //!
 //! | extension | support |
 //! | --- | --- |
@@ -60,10 +60,10 @@
 //! | other required extensions | the file is refused |
 //! | other optional extensions | left out, with a note |
 //!
-//! The writer uses the first table in the other direction: from the scene to glTF. A glTF file has a separate vertex
-//! for each side of a seam. Therefore, the writer splits vertices whose corners differ, and the reader merges them
-//! again. There is one primitive for each material. Writing a scene and reading it again preserves the scene, with
-//! these exceptions:
+//! The writer uses the first table from right to left, to convert a scene to glTF. A glTF file has a separate vertex
+//! for each side of a seam. Therefore, the writer splits each vertex whose corners differ, and the reader merges the
+//! resulting vertices again. The writer creates one primitive for each material. Writing a scene and reading it again
+//! preserves the scene, with these exceptions:
 //!
 //! - numbers are rounded to 32 bits; if a position or the placement of a node exceeds the range of 32-bit numbers, the
 //!   scene is refused; texture coordinates, custom attributes and deltas of morph targets beyond this range become 0,
@@ -82,11 +82,11 @@
 //! Every loss is reported as a [`Loss`](crate::Loss), and content that the reader leaves out or changes is reported as
 //! a [`Note`](crate::Note).
 //!
-//! A file can repeat content, such as a mesh that several nodes reference, but the memory that a file can use is
+//! A file can repeat content, such as a mesh that several nodes reference. However, the memory that a file can use is
 //! limited to 64 times its size (more if it is compressed), or to 16 MiB if that is more.
 //!
-//! Each part of the JSON is deserialized separately into the types of `gltf_json`. Therefore an error has the JSON
-//! pointer of its part, and errors in parts that are not read are ignored.
+//! Each part of the JSON is deserialized separately into the types of `gltf_json`. Therefore, an error is reported with
+//! the JSON pointer of the part in which it occurs. Errors in parts that are not read are ignored.
 
 mod accessor;
 mod budget;

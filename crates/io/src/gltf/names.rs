@@ -5,8 +5,8 @@
 //! COLOR_0 <-> color    TANGENT <-> tangent   _any_name  <-> any_name
 //! ```
 //!
-//! If the rest of `_name` is a reserved name of a mesh, the reader keeps the underscore: `_uv` in a file becomes
-//! the attribute `_uv`. The writer writes this attribute as `__uv`, which is read as `_uv` again.
+//! If a name without its leading underscore is a reserved name of a mesh, the reader keeps the underscore: `_uv` in a
+//! file becomes the attribute `_uv`. The writer writes the attribute `_uv` as `__uv`, which is read as `_uv` again.
 
 use gltf_json::mesh::Semantic;
 

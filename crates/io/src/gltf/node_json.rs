@@ -9,7 +9,7 @@ use serde_json::Value;
 use super::document::LIGHTS;
 use crate::fault::Fault;
 
-/// A node. Its numbers are not rounded to 32 bits.
+/// A node. The numbers of the node are not rounded to 32 bits.
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
 pub(super) struct NodeJson {
@@ -32,7 +32,7 @@ impl NodeJson {
     ///
     /// # Errors
     ///
-    /// If the JSON of the light is not an index. `here` is the location of the node.
+    /// Returns an error if the JSON of the light is not an index. `here` is the location of the node.
     pub(super) fn light(&self, here: &str) -> Result<Option<usize>, Fault> {
         let Some(extension) = self.extensions.as_ref().and_then(|all| all.get(LIGHTS)) else {
             return Ok(None);
@@ -49,8 +49,8 @@ impl NodeJson {
     ///
     /// # Errors
     ///
-    /// If the matrix is not affine, or the length of the rotation is zero or not finite. `here` is the location of the
-    /// node.
+    /// Returns an error if the matrix is not affine, or the length of the rotation is zero or not finite. `here` is the
+    /// location of the node.
     pub(super) fn placement(&self, here: &str) -> Result<Placement, Fault> {
         if let Some(matrix) = &self.matrix {
             let last_row = [3, 7, 11, 15].map(|i| matrix[i].to_bits());

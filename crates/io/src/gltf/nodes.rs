@@ -20,7 +20,7 @@ pub(super) struct PlacedMesh {
     /// The name of the object.
     pub(super) name: String,
     pub(super) mesh: usize,
-    /// The transform that is applied to the points. It is the identity if nodes place the object.
+    /// The transform that is applied to the points. This transform is the identity if nodes place the object.
     pub(super) to_scene: DAffine3,
     /// The node of the file whose skin and morph weights are applied to the points.
     pub(super) posed_by: Option<usize>,
@@ -55,7 +55,7 @@ struct SceneNode {
 ///
 /// # Errors
 ///
-/// If a node is invalid or occurs twice in the scene, or if the budget is used up.
+/// Returns an error if a node is invalid or occurs twice in the scene, or if the budget is used up.
 pub(super) fn placed_meshes(
     document: &Document,
     placements: Placements,
@@ -223,8 +223,8 @@ fn shared(
     Ok(placed)
 }
 
-/// Returns the graph of the scene, and for each node of the file, its index in the graph. If the nodes equal the nodes
-/// that the writer would create for a graph without nodes, the returned graph has no nodes.
+/// Returns the graph of the scene, and for each node of the file, its index in the graph. The returned graph has no
+/// nodes if the nodes of the file equal those that the writer would create for a graph without nodes.
 fn graph(
     document: &Document,
     nodes: &[SceneNode],

@@ -32,7 +32,7 @@ use crate::peek::{PeekGeometry, PeekMesh, PeekObject};
 ///
 /// # Errors
 ///
-/// The errors of [`read`](super::read()) for the parts that are checked.
+/// Returns the same errors as [`read`](super::read()), but only for the parts that are checked.
 pub(crate) fn peek(
     json: &[u8],
     name: &str,

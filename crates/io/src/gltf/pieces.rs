@@ -36,7 +36,7 @@ pub(super) fn container_length(json: usize, binary: usize) -> usize {
 ///
 /// # Errors
 ///
-/// If the file would be longer than the format allows.
+/// Returns an error if the file would be longer than the format allows.
 pub(super) fn container(
     json: &[u8],
     binary: usize,

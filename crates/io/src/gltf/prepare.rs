@@ -33,7 +33,7 @@ impl<'a> PreparedObject<'a> {
     ///
     /// # Errors
     ///
-    /// If there are too many vertices, or if glTF cannot store the position of a vertex.
+    /// Returns an error if there are too many vertices, or if glTF cannot store the position of a vertex.
     pub(super) fn new(
         object: &'a Object,
         mesh: &'a Mesh,

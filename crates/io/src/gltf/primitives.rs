@@ -262,7 +262,7 @@ impl Triangles {
     ///
     /// # Errors
     ///
-    /// If the zeros need too much memory.
+    /// Returns an error if the missing values need too much memory.
     fn spend_missing(
         &self,
         reader: &Reader,
@@ -416,7 +416,8 @@ impl LeftOut {
             None,
             "primitives without positions left out",
         );
-        let what = "attributes that only some primitives of a mesh have: set to 0 in the others";
+        let what =
+            "attributes that only some primitives of a mesh have: set to 0 in the other primitives";
         notes.changed("attributes-partial", self.partial, None, what);
         for (what, count) in self.repairs.changed {
             notes.changed("joint-weights", count, None, what);

@@ -239,8 +239,8 @@ impl<'a> Quantizer<'a> {
         }
     }
 
-    /// Moves the meshes of quantized objects to grid nodes. `nodes` begins with the nodes of the graph. Each of the
-    /// other nodes references one object.
+    /// Moves the meshes of quantized objects to grid nodes. `nodes` begins with the nodes of the graph. After the nodes
+    /// of the graph, each node in `nodes` references one object.
     pub(super) fn place(&mut self, graph: &Graph, nodes: &mut Vec<Value>) {
         let identity = DAffine3::IDENTITY;
         let maps = graph.to_scene();
@@ -394,7 +394,7 @@ fn fractions(prepared: &PreparedObject, stream: &Stream, bits: Bits) -> (Integer
 fn octahedral(v: DVec3, bits: Bits) -> [i16; 3] {
     let length = v.x.abs() + v.y.abs() + v.z.abs();
     let v = if length > 0.0 { v / length } else { DVec3::Z };
-    // The lower half is folded over the edges of the upper half.
+    // In the octahedral encoding, the lower half of the sphere is folded over the edges of the upper half.
     let [x, y] = if v.z >= 0.0 {
         [v.x, v.y]
     } else {
@@ -408,8 +408,8 @@ fn octahedral(v: DVec3, bits: Bits) -> [i16; 3] {
 }
 
 /// Returns an upper bound for the factor by which a map stretches lengths. This factor is the square root of the
-/// largest eigenvalue of M^T M, where M is the matrix of the map. For each column of a matrix, take the sum of the
-/// absolute values: no eigenvalue exceeds the largest of these sums. The bound is exact if M scales along each axis and
+/// largest eigenvalue of M^T M, where M is the matrix of the map. No eigenvalue of a matrix exceeds the maximum, over
+/// the columns, of the sum of the absolute values in the column. The bound is exact if M scales along each axis and
 /// then rotates.
 fn stretch(map: &DAffine3) -> f64 {
     let m = map.matrix3;

@@ -128,7 +128,7 @@ fn objects(
 ///
 /// # Errors
 ///
-/// If the skin of the node is invalid.
+/// Returns an error if the skin of the node is invalid.
 fn pose(
     placed: &PlacedMesh,
     nodes: &PlacedNodes,
@@ -182,8 +182,8 @@ pub(super) fn parse(json: &[u8]) -> Result<Value, Fault> {
     })
 }
 
-/// Returns the materials that the triangles use, in the order of the document. Also returns, for each material of the
-/// document, its index in this list.
+/// Returns the materials that the triangles use, in the order of the document. Also returns a map from the index of a
+/// used material in the document to its index in the returned list.
 fn used_materials(
     materials: &mut Materials,
     triangles: &Triangles,
@@ -206,7 +206,7 @@ fn cost_of_material(material: &Material) -> usize {
 }
 
 /// Builds polygons from a mesh. Vertices along seams are merged. If the pose has joints, the joints place the polygons.
-/// Otherwise, `to_scene` places them.
+/// If the pose has no joints, `to_scene` places the polygons.
 fn polygons(
     triangles: Triangles,
     places: &BTreeMap<usize, i32>,

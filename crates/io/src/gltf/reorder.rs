@@ -3,8 +3,8 @@
 //!
 //! Source: Sander, Nehab, Barczak, "Fast Triangle Reordering for Vertex Locality and Reduced Overdraw", 2007. The order
 //! consists of fans: all remaining triangles around one vertex, then all remaining triangles around the next vertex,
-//! and so on. The center of the next fan is chosen from the vertices of the last fan. Vertices that will still count as
-//! recently used when their own fan is complete are preferred.
+//! and so on. The center of the next fan is chosen from the vertices of the last fan. A vertex is preferred if it will
+//! still count as recently used when its own fan is complete.
 
 use std::collections::BTreeMap;
 
@@ -73,8 +73,8 @@ fn triangles_in_fans(corners: &[u32], n_vertices: usize) -> Vec<u32> {
             if left[c] == 0 {
                 continue;
             }
-            // Chooses the oldest vertex that is still recent after its fan is complete. Each triangle of a fan adds
-            // about two vertices.
+            // Chooses the vertex that was used the longest time ago and that will still be recent when its fan is
+            // complete. Each triangle of a fan adds about two vertices.
             let age = time - last_use[c];
             let priority = if age + 2 * left[c] as usize <= RECENT {
                 age
@@ -115,7 +115,8 @@ impl Around {
             sum += *start;
             *start = sum;
         }
-        // Each list is filled from its end, so that its start moves from the end of the list to the beginning.
+        // Each list is filled from its end. Therefore its entry in `starts` moves from the end of the list to the
+        // beginning.
         let mut triangles = vec![0; corners.len()];
         for (i, &corner) in corners.iter().enumerate().rev() {
             let start = &mut starts[corner as usize];

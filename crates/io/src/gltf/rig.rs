@@ -16,7 +16,7 @@ use crate::note::Notes;
 ///
 /// # Errors
 ///
-/// If an index refers to a missing part, or a skin has no joints.
+/// Returns an error if an index refers to a missing part, or a skin has no joints.
 pub(super) fn check(document: &Document) -> Result<(), Fault> {
     for (i, skin) in document.skins.iter().enumerate() {
         let here = format!("/skins/{i}");
@@ -109,7 +109,7 @@ impl<'a, 'r> RigReader<'a, 'r> {
     ///
     /// # Errors
     ///
-    /// If an accessor is invalid.
+    /// Returns an error if an accessor is invalid.
     pub(super) fn fill(
         mut self,
         nodes: &PlacedNodes,
@@ -159,7 +159,7 @@ impl<'a, 'r> RigReader<'a, 'r> {
     ///
     /// # Errors
     ///
-    /// If there are fewer matrices than joints, or a matrix is not affine.
+    /// Returns an error if there are fewer matrices than joints, or a matrix is not affine.
     pub(super) fn matrices(&mut self, i: usize, skin: &SkinJson) -> Result<Option<usize>, Fault> {
         let Some(accessor) = skin.inverse_bind_matrices.filter(|_| self.has_numbers) else {
             return Ok(None);

@@ -54,8 +54,8 @@ pub(super) struct Deformers {
     pub(super) weight_sets: u32,
     /// The number of morph targets.
     pub(super) targets: usize,
-    /// The number of joints that vertices can refer to. If several skins deform the mesh, the smallest number of joints
-    /// of these skins. `None` if no node with the mesh has a skin.
+    /// The number of joints that vertices can refer to. If several skins deform the mesh, this is the smallest number
+    /// of joints that one of these skins has. `None` if no node with the mesh has a skin.
     pub(super) joints: Option<usize>,
 }
 

@@ -15,7 +15,7 @@ use mesh::parallel::{self, BLOCK};
 /// more distinct corners, equal corners can become different vertices.
 const MAX_COMPARED: usize = 64;
 
-/// The glTF vertices. By default, they are in the order of the vertices of the mesh.
+/// The glTF vertices. By default, the glTF vertices are in the order of the vertices of the mesh.
 pub(super) struct Split {
     /// The number of vertices.
     pub(super) n: usize,

@@ -28,10 +28,10 @@ pub(super) struct Stream<'a> {
 #[derive(Clone, Copy)]
 enum Meaning<'a> {
     Normal,
-    /// The difference from the normals in a column of this domain.
+    /// The difference from the normals of the mesh, which are in this column of this domain.
     NormalDelta(Domain, &'a Column),
     Tangent,
-    /// The difference from the tangents in a column of corners.
+    /// The difference from the tangents of the mesh, which are in this column of the corners.
     TangentDelta(&'a Column),
     Uv,
     Color,
@@ -205,12 +205,14 @@ impl Stream<'_> {
         match self.meaning {
             Meaning::Normal => "zero or not finite, so replaced by the normal of the face",
             Meaning::NormalDelta(..) => {
-                "zero or not finite, so the target does not change the normal"
+                "zero or not finite, so the morph target does not change the normal"
             }
             Meaning::TangentDelta(_) => {
-                "zero or not finite, so the target does not change the tangent"
+                "zero or not finite, so the morph target does not change the tangent"
             }
-            Meaning::Tangent => "zero, not finite, or with an invalid sign, so changed",
+            Meaning::Tangent => {
+                "zero, not finite, or with an invalid sign, so replaced by a valid tangent"
+            }
             Meaning::Color => "outside the range from 0 to 1, so clamped",
             Meaning::Uv | Meaning::Custom => "not finite when rounded to 32 bits, so written as 0",
         }
@@ -226,8 +228,9 @@ fn tangent([x, y, z, w]: [f64; 4]) -> ([f32; 4], bool) {
     narrow([tangent.x, tangent.y, tangent.z, sign], is_kept)
 }
 
-/// Returns the difference of the direction of a morph target from the direction that is written for the mesh, and
-/// whether the target is kept. A zero direction, or one that is not finite, becomes no difference.
+/// Returns the difference between two directions: the direction of a morph target, and the direction that is written
+/// for the mesh. Also returns whether the direction of the target is kept. If the direction of the target is zero or
+/// not finite, the difference is zero.
 fn delta(from: [f32; 4], [x, y, z, _]: [f64; 4]) -> ([f32; 4], bool) {
     let to = DVec3::new(x, y, z);
     if to == DVec3::ZERO || !to.is_finite() {
@@ -271,8 +274,9 @@ fn narrow(value: [f64; 4], good: bool) -> ([f32; 4], bool) {
     (narrow.map(|x| if x.is_finite() { x } else { 0.0 }), false)
 }
 
-/// Normalizes a vector. Returns `None` if it has no direction. A unit vector that was rounded to 32 bits is returned
-/// unchanged. Its length is not exactly 1, so normalizing would change the vector slightly each time it is written.
+/// Normalizes a vector. Returns `None` if the vector has no direction. A unit vector that was rounded to 32 bits is
+/// returned unchanged. Its length is not exactly 1, so normalizing would change the vector slightly each time it is
+/// written.
 fn unit(v: DVec3) -> Option<DVec3> {
     const ROUNDING: f64 = 1e-6;
     if (v.length_squared() - 1.0).abs() < ROUNDING {

@@ -38,7 +38,8 @@ impl Reader<'_> {
     ///
     /// # Errors
     ///
-    /// If the view does not exist or its buffer is too short. `pointer` is the location that refers to the view.
+    /// Returns an error if the view does not exist or its buffer is too short. `pointer` is the location that refers to
+    /// the view.
     pub(super) fn view(&self, index: usize, pointer: impl fmt::Display) -> Result<&[u8], Fault> {
         let at = format!("/bufferViews/{index}");
         let view = get(&self.document.views, index, pointer, "buffer view")?;

@@ -21,7 +21,7 @@ use crate::{Format, PackingReport, WriteOptions, Written, gzip};
 ///
 /// # Errors
 ///
-/// If an object is not a mesh, or if the scene exceeds the size limits of the format.
+/// Returns an error if an object is not a mesh, or if the scene exceeds the size limits of the format.
 pub(crate) fn write(
     path: &Path,
     binary: bool,

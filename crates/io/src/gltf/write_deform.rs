@@ -24,8 +24,8 @@ pub(super) struct Deformation<'a> {
 }
 
 impl<'a> Deformation<'a> {
-    /// Determines the content to write, and adds losses for the content that is not written. `sets`, if given, replaces
-    /// the number of sets in the original file of the object.
+    /// Determines the content to write, and adds losses for the content that is not written. If `sets` is given, it
+    /// replaces the number of sets in the original file of the object.
     pub(super) fn new(
         object: &Object,
         mesh: &'a Mesh,
@@ -53,7 +53,7 @@ impl<'a> Deformation<'a> {
             .into_iter()
             .partition(|(joint, _)| *joint < n_joints.min(1 << 16));
         let is_weighted = |v: usize| unknown.iter().any(|(_, weights)| weights[v] > 0.0);
-        let reason = "they refer to joints that the skin does not have";
+        let reason = "the weights refer to joints that the skin does not have";
         losses.add(
             Domain::Vertex,
             "joint weights",
@@ -213,8 +213,8 @@ impl Bound {
     }
 }
 
-/// Returns the morph targets of an object. Their number is the number of weights in the label of the object, or the
-/// number of targets of the mesh if that is greater.
+/// Returns the morph targets of an object. The number of morph targets is the larger of two numbers: the number of
+/// weights in the label of the object, and the number of targets of the mesh.
 fn morphs<'a>(
     object: &Object,
     mesh: &'a Mesh,
@@ -231,8 +231,8 @@ fn morphs<'a>(
         losses.add(None, "morph targets", in_file, reason);
         return Vec::new();
     };
-    // The number of targets is limited. Otherwise, a single attribute with a large number in its name would give many
-    // targets.
+    // The number of morph targets is limited. Without this limit, a single attribute with a large number in its name
+    // would give many targets.
     let n = last.max(in_file).min(columns.len().max(in_file));
     let mut morphs = vec![None; n];
     let mut unnumbered = 0;
@@ -242,10 +242,10 @@ fn morphs<'a>(
             None => unnumbered += 1,
         }
     }
-    let reason = "morph targets after a gap in their numbering";
+    let reason = "the numbers of the morph targets have gaps, so the last targets are not written";
     losses.add(Domain::Vertex, "morph targets", unnumbered, reason);
     let missing = morphs.iter().filter(|deltas| deltas.is_none()).count();
-    let reason = "the mesh has no deltas of the target, so zeros are written";
+    let reason = "the mesh has no deltas for the morph target, so zeros are written";
     losses.add(None, "morph targets", missing, reason);
     let is_lost = |v: usize| {
         morphs

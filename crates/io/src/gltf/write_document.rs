@@ -63,7 +63,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Returns the document and the parts of its buffer. The buffer is the file `uri`, or if `uri` is `None`, the chunk
+    /// Returns the document and the parts of its buffer. The buffer is the file `uri` or, if `uri` is `None`, the chunk
     /// after the document.
     pub(super) fn into_json(
         self,
@@ -132,7 +132,7 @@ impl<'a> Writer<'a> {
             };
             for (key, value) in members {
                 match (&mut part[&key], value) {
-                    // The provenance is added to the other extras.
+                    // If the part already has extras, the provenance is added to them.
                     (Value::Object(extras), Value::Object(more)) => extras.extend(more),
                     (place, value) => *place = value,
                 }
@@ -146,7 +146,7 @@ impl<'a> Writer<'a> {
     ///
     /// # Errors
     ///
-    /// If the extras of the mesh or of a material are not JSON.
+    /// Returns an error if the extras of the mesh or of a material are not JSON.
     pub(super) fn object(
         &mut self,
         prepared: &'a PreparedObject<'a>,
@@ -344,8 +344,8 @@ impl<'a> Writer<'a> {
 
     fn indices(&mut self, prepared: &'a PreparedObject<'a>, faces: &'a Faces) -> usize {
         let PreparedObject { mesh, split, .. } = prepared;
-        // The largest number of each type is not used as an index, because graphics cards interpret it as the start of
-        // a new primitive.
+        // The largest value of each integer type is not used as an index, because graphics cards interpret it as the
+        // start of a new primitive.
         let short = u16::try_from(split.n).is_ok();
         let component = if short {
             ComponentType::U16

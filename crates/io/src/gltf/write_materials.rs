@@ -37,7 +37,7 @@ impl MaterialWriter {
     ///
     /// # Errors
     ///
-    /// If the extras of the material are not JSON.
+    /// Returns an error if the extras of the material are not JSON.
     pub(super) fn index_of(
         &mut self,
         material: &Material,

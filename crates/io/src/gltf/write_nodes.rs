@@ -30,7 +30,7 @@ impl Writer<'_> {
     ///
     /// # Errors
     ///
-    /// If glTF cannot store the placement of a node, or if a part of the graph is not JSON.
+    /// Returns an error if glTF cannot store the placement of a node, or if a part of the graph is not JSON.
     pub(super) fn nodes(&mut self, scene: &Scene, losses: &mut Losses) -> Result<(), Unwritable> {
         let graph = scene.graph();
         let list = &mut self.nodes;

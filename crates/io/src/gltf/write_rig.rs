@@ -14,7 +14,7 @@ impl<'a> Writer<'a> {
     ///
     /// # Errors
     ///
-    /// If extras are not JSON.
+    /// Returns an error if extras are not JSON.
     pub(super) fn rig(&mut self, scene: &'a Scene, losses: &mut Losses) -> Result<(), Unwritable> {
         let graph = scene.graph();
         for skin in &graph.skins {

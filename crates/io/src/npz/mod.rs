@@ -30,7 +30,7 @@ use zip::Archive;
 ///
 /// # Errors
 ///
-/// If an object is not a mesh, or if the file would exceed a limit of zip archives, such as 4 GiB.
+/// Returns an error if an object is not a mesh, or if the file would exceed a limit of zip archives, such as 4 GiB.
 pub(crate) fn write(scene: &Scene) -> Result<SingleFile, Unwritable> {
     let joined = joined(scene, Format::Npz)?;
     let mesh = &*joined.mesh;

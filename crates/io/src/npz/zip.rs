@@ -79,7 +79,7 @@ fn push_header(out: &mut Vec<u8>, entry: &Entry) {
     out.extend_from_slice(&[length[0], length[1], 0, 0]);
 }
 
-/// Returns the lowest 32 bits of a number. `finish` refuses archives in which a number needs more bits.
+/// Returns the lowest 32 bits of a number. `finish` refuses archives in which a number needs more than 32 bits.
 fn low(x: u64) -> [u8; 4] {
     let [a, b, c, d, ..] = x.to_le_bytes();
     [a, b, c, d]

@@ -23,10 +23,10 @@ pub(super) enum Index {
 /// The range of valid indices.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Limits {
-    /// No limit: this is a part of a file, and the counts of the other parts are not known yet.
+    /// Indices have no limit, because this is a part of a file, and the counts of the other parts are not known yet.
     Part,
     /// The whole file is parsed, but the elements that later lines define are not known yet. A positive index can refer
-    /// to such an element, so only negative indices are checked.
+    /// to an element in a later line, so only negative indices are checked.
     Start,
     /// The whole file is parsed, and the numbers of elements that it defines are known.
     Whole(Counts),
@@ -46,11 +46,11 @@ fn counted(n: usize, (one, many): Noun) -> String {
 }
 
 /// Parses `v`, `v/vt`, `v//vn` or `v/vt/vn`. `now` has the numbers of elements that are defined before this corner.
-/// Negative indices count backward from these numbers.
+/// Negative indices count backward from the numbers in `now`.
 ///
 /// # Errors
 ///
-/// If the word is not a corner or refers to an element that does not exist.
+/// Returns an error if the word is not a corner or refers to an element that does not exist.
 pub(super) fn corner(
     place: TextPosition,
     word: &[u8],

@@ -84,7 +84,7 @@ fn starts(lengths: impl Iterator<Item = usize>) -> Vec<usize> {
     starts
 }
 
-/// Joins pieces into an array. `fill` writes a piece into the array. After that, the piece is freed.
+/// Joins pieces into an array. `fill` writes a piece into the array. Each piece is freed after it is written.
 fn filled<T, P>(
     pieces: Vec<P>,
     starts: &[usize],
@@ -145,7 +145,7 @@ fn column<'a>(
 /// of the last one.
 fn ends<'a>(pieces: impl Iterator<Item = &'a mut Vec<u32>>, corners: &[usize]) -> Vec<u32> {
     let mut pieces: Vec<Vec<u32>> = pieces.map(std::mem::take).collect();
-    // The first face or line begins at 0.
+    // The list starts with a 0, at which the first face or line begins.
     pieces.insert(0, vec![0]);
     let starts = starts(pieces.iter().map(Vec::len));
     filled(pieces, &starts, |i, room, piece| {

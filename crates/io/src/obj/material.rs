@@ -21,12 +21,13 @@ const MAX_NAMES: usize = 512;
 /// The largest length of a path in bytes.
 const MAX_PATH_BYTES: usize = 1024;
 
-/// Reads the materials of an OBJ file. The materials of its libraries come first, in order. They are followed by
-/// default materials for the names that no library defines.
+/// Reads the materials of an OBJ file. The materials of its libraries come first, in order. After the materials of the
+/// libraries come default materials for the names that no library defines.
 ///
 /// # Errors
 ///
-/// If the path of a library is not a path inside the folder of the file. A missing library becomes a note.
+/// Returns an error if the path of a library is not a path inside the folder of the file. A missing library becomes a
+/// note.
 pub(super) fn read_libraries(
     assets: &mut Assets,
     file: &ObjFile,
@@ -101,8 +102,8 @@ fn library_names(words: &str, most: usize, assets: &mut Assets) -> (Vec<String>,
     while !rest.is_empty() && names.len() < most {
         let quoted = rest.strip_prefix('"').and_then(|rest| rest.split_once('"'));
         let (name, behind) = quoted.unwrap_or_else(|| {
-            // The name is the longest prefix of the text that is the name of an existing file. If no prefix is the
-            // name of a file, the name is the first word.
+            // The name of a texture file can contain blanks. It is the longest prefix of the text that is the name of
+            // an existing file. If no prefix is the name of an existing file, the name is the first word of the text.
             let blanks = rest.rmatch_indices(char::is_whitespace).take(MAX_BLANKS);
             let ends = std::iter::once(rest.len()).chain(blanks.map(|(at, _)| at));
             let first = rest.find(char::is_whitespace).unwrap_or(rest.len());
@@ -138,7 +139,7 @@ fn read_library(bytes: &[u8], notes: &mut Notes) -> Vec<Material> {
     let mut ignored = Ignored::default();
     let materials = materials.into_iter().map(|m| converted(m, &mut ignored));
     let materials = materials.collect();
-    notes.left_out("material-values", ignored.0, None, "material values left out: only color (Kd), alpha (d, Tr), roughness (Pr), metalness (Pm), emission (Ke), textures of color and emission, normal maps (norm), and a texture shared by Pr and Pm are read");
+    notes.left_out("material-values", ignored.0, None, "material values left out: the supported values are Kd, d, Tr, Pr, Pm, Ke, map_Kd, map_Ke, norm, and a texture that map_Pr and map_Pm share");
     materials
 }
 
@@ -209,7 +210,8 @@ fn converted(from: tobj::Material, ignored: &mut Ignored) -> Material {
     let base_color_texture = ignored.plain(from.diffuse_texture);
     let emissive_texture = ignored.plain(unknown.remove("map_Ke"));
     let [rough, metal] = ["map_Pr", "map_Pm"].map(|key| ignored.plain(unknown.remove(key)));
-    // In the scene, as in glTF, one texture stores both roughness and metalness. In MTL, each has its own texture.
+    // In the scene, as in glTF, one texture stores both roughness and metalness. In MTL, roughness and metalness have
+    // separate textures.
     let metallic_roughness_texture = if rough == metal {
         rough
     } else {

@@ -17,8 +17,8 @@
 //! | `l` | a polyline, if the file has no faces; otherwise left out, with a note |
 //! | other statements | left out, with a note |
 //!
-//! The writer uses the same table in the other direction. Therefore, this content is preserved when a written file is
-//! read, and when a file that was read is written again.
+//! The writer uses this table from right to left. Therefore, the content in the table is preserved when a written file
+//! is read, and when a file is read and written again.
 //!
 //! Modules:
 //!

@@ -17,7 +17,7 @@ pub(super) const PART: usize = 256 << 10;
 ///
 /// # Errors
 ///
-/// If a line violates the format, or an index refers to a missing element.
+/// Returns an error if a line violates the format, or an index refers to a missing element.
 pub(super) fn parse(bytes: &[u8]) -> Result<ObjFile, Fault> {
     check_encoding(bytes)?;
     parse_in_parts(bytes, PART)
@@ -37,7 +37,7 @@ fn parse_in_parts(bytes: &[u8], size: usize) -> Result<ObjFile, Fault> {
     }
 }
 
-/// Parses a file as a whole. This is done if parsing in parts fails, usually to find the exact error.
+/// Parses a file as a whole. A file is parsed as a whole if parsing in parts fails, usually to find the exact error.
 fn parse_whole(bytes: &[u8]) -> Result<Part, Fault> {
     let part = read_whole(bytes, Limits::Start)?;
     if fits(std::slice::from_ref(&part)) {

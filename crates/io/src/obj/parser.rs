@@ -32,7 +32,7 @@ impl<'a> Parser<'a> {
         self.part.corners.each_ref().map(|column| column.len() > 0)
     }
 
-    /// Adds a face with all corners since the last face.
+    /// Adds a face with all corners that were added since the last face.
     pub(super) fn end_face(&mut self) {
         let run = PartRun {
             first_face: self.part.face_ends.len(),

@@ -28,9 +28,10 @@ pub(super) struct Part {
     pub(super) line_ends: Vec<u32>,
     /// The vertices of the corners of polylines.
     pub(super) line_corners: Indices,
-    /// The states of consecutive faces. If the part has faces, the first run begins with face 0.
+    /// The groups, object, material and smoothing group of each run of consecutive faces. If the part has faces, the
+    /// first run begins with face 0.
     pub(super) runs: Vec<PartRun>,
-    /// The state after the last statement.
+    /// The groups, object, material and smoothing group after the last statement.
     pub(super) last: PartRun,
     /// Sets of indices into `groups`.
     pub(super) group_sets: Vec<Vec<u32>>,
@@ -99,8 +100,8 @@ impl Part {
         }
     }
 
-    /// Removes the corners of faces, beginning with corner `n`. Columns for which `had` is false become empty, because
-    /// they had no values before these corners.
+    /// Removes the corners of faces, beginning with corner `n`. A column for which `had` is false had no values before
+    /// these corners, and becomes empty.
     pub(super) fn truncate_corners(&mut self, n: usize, had: [bool; 3]) {
         for (column, had) in self.corners.iter_mut().zip(had) {
             column.truncate(if had { n } else { 0 });
@@ -125,9 +126,9 @@ pub(super) struct PartRun {
 /// Indices, some of which are relative to the beginning of the part.
 #[derive(Debug, Default)]
 pub(super) struct Indices {
-    /// Absolute indices, and relative indices. Negative relative indices are stored modulo 2^32.
+    /// The absolute and the relative indices. Negative relative indices are stored modulo 2^32.
     pub(super) values: Vec<u32>,
-    /// The positions in `values` of relative indices.
+    /// The positions of the relative indices in `values`.
     pub(super) relative: Vec<u32>,
 }
 
@@ -199,7 +200,7 @@ impl Names {
     }
 }
 
-/// Converts a count to 32 bits. Files with larger counts are refused elsewhere.
+/// Converts a count to 32 bits. Files with counts that do not fit in 32 bits are refused elsewhere.
 pub(super) fn to_u32(count: usize) -> u32 {
     u32::try_from(count).unwrap_or(NONE)
 }

@@ -22,7 +22,7 @@ use mesh::parallel;
 /// The note about polylines in a file with faces.
 pub(super) const POLYLINES: &str = "polylines (`l`) left out: the object is a mesh";
 
-/// Reads an OBJ file from its bytes, and its material libraries.
+/// Reads an OBJ file, given as bytes, and its material libraries.
 ///
 /// # Errors
 ///
@@ -152,7 +152,7 @@ fn faces_of_run(file: &ObjFile, i: usize, n_faces: usize) -> Range<usize> {
     file.runs[i].first_face..next.map_or(n_faces, |next| next.first_face)
 }
 
-/// Returns the value of each face, which is the value of its run.
+/// Returns the value of each face: the value of the run that contains the face.
 fn on_faces<T: Copy + Default>(
     polygons: &Polygons,
     file: &ObjFile,
@@ -191,8 +191,8 @@ fn set_tags(polygons: &mut Polygons, file: &ObjFile, notes: &mut Notes) {
     for (i, run) in file.runs.iter().enumerate() {
         let groups = file.group_sets[run.groups].iter();
         let of_groups = groups.map(|&g| objects + g as usize);
-        // The indices in a set are sorted. Therefore, if one group is left out, all later groups of the set are also
-        // left out.
+        // The indices in a set of groups are sorted. Therefore, if one group is left out, all later groups of the set
+        // are also left out.
         let of_groups = of_groups.take_while(|&column| column < n_columns);
         for column in run.object.into_iter().chain(of_groups) {
             if let Some(marks) = columns.get_mut(column) {
@@ -248,7 +248,7 @@ pub(super) fn note_left_out(file: &ObjFile, notes: &mut Notes) {
                 ("unknown-statements", text)
             }
             LeftOut::OtherUnknown => {
-                let text = "lines with other unknown statements left out";
+                let text = "lines with further unknown statements left out";
                 ("unknown-statements", text.to_owned())
             }
             LeftOut::Points => ("points", "points (`p`) left out".to_owned()),

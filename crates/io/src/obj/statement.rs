@@ -116,7 +116,7 @@ impl Parser<'_> {
         if known.contains_key(&key) || listed.count() < MAX_LISTED_WORDS {
             Ok(key)
         } else if let Limits::Part = self.limits {
-            Err(place.error("too many unknown statements for a part"))
+            Err(place.error("too many different unknown statements in one part of the file"))
         } else {
             Ok(LeftOut::OtherUnknown)
         }

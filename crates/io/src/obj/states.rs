@@ -19,7 +19,7 @@ pub(super) struct FaceState<'a> {
 }
 
 /// The state at the end of the text written so far: the number of defined elements, the material and the smoothing
-/// group. No groups are set at this point.
+/// group. At the end of the text, no groups are set.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct TextState {
     pub(super) counts: Counts,
@@ -29,7 +29,7 @@ pub(super) struct TextState {
 
 /// The columns with the groups, objects, materials and smoothing groups of faces.
 pub(super) struct FaceStates<'a> {
-    /// The tags that represent objects. Each face has exactly one of these tags.
+    /// The tags that represent objects: each face has exactly one of them.
     objects: Vec<(&'a str, &'a [bool])>,
     groups: Vec<(&'a str, &'a [bool])>,
     materials: Option<&'a [i32]>,
@@ -61,8 +61,8 @@ impl<'a> FaceStates<'a> {
             let is_of = |(name, marks): &&(&str, &[bool])| is_object(name) && marks[f];
             groups.iter().filter(is_of).count() == 1
         };
-        // The statement `o` is written only if every face belongs to exactly one object. Otherwise, object tags are
-        // written as groups.
+        // The statement `o` is written only if every face belongs to exactly one object. If a face belongs to no object
+        // or to several objects, the object tags are written as groups.
         let objects = if !several && parallel::all(mesh.n_faces(), one_object_each) {
             groups.extract_if(.., |(name, _)| is_object(name)).collect()
         } else {
@@ -94,7 +94,7 @@ impl<'a> FaceStates<'a> {
         }
     }
 
-    /// Whether two faces have the same state.
+    /// Whether two faces have the same groups, object, material and smoothing group.
     pub(super) fn same(&self, f: FaceId, g: FaceId) -> bool {
         let (f, g) = (f.index(), g.index());
         let mut tags = self.objects.iter().chain(&self.groups);

@@ -22,7 +22,7 @@ use crate::{Format, WriteOptions, WriteReport, fail_if_lost, gzip};
 ///
 /// # Errors
 ///
-/// If an object is neither a mesh nor polylines, or the files cannot be written.
+/// Returns an error if an object is neither a mesh nor polylines, or the files cannot be written.
 pub(crate) fn write(
     store: &dyn Store,
     path: &Path,

@@ -202,7 +202,7 @@ struct Colors {
 }
 
 impl Colors {
-    /// Adds a color of three or four words.
+    /// Adds a color that is given by three or four words.
     fn push(&mut self, words: Words) -> Result<(), Fault> {
         let [r, g, b, a] = numbers(words)?;
         for (x, (_, word)) in [r, g, b, a].into_iter().zip(words) {

@@ -17,7 +17,7 @@ use crate::text::{Cursor, TextPosition, is_not_finite, number, parsed};
 pub(super) struct Body<'a> {
     file: &'a [u8],
     header: &'a Header,
-    /// The elements. The types of their properties are the types of the values in [`bytes`](Self::bytes).
+    /// The elements, with the types that the values of their properties have in [`bytes`](Self::bytes).
     elements: Vec<Element>,
     bytes: Cow<'a, [u8]>,
     /// The position in `bytes` at which the values begin.

@@ -1,5 +1,5 @@
-//! Decodes whole columns of values on all threads. The type is checked once for each chunk of a column instead of once
-//! for each value.
+//! Decodes whole columns of values on all threads. The type of the values is checked once for each chunk of a column,
+//! not once for each value.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -23,7 +23,7 @@ pub(super) enum Kind {
     Vec4,
 }
 
-/// Each kind, with its name in comments and the number of components of a value.
+/// Each kind, its name in comments, and the number of components of its values.
 const KINDS: [(Kind, &str, usize); 6] = [
     (Kind::Tag, "tag", 1),
     (Kind::Int, "int", 1),
@@ -64,10 +64,10 @@ impl Kind {
 /// Where the numbers of a column are stored.
 #[derive(Clone, Copy)]
 pub(super) enum Source<'a> {
-    /// In consecutive scalar properties. The field is the index of the first property.
+    /// The numbers are in consecutive scalar properties. The field is the index of the first property.
     Scalars(usize),
-    /// In a list property, for corner attributes. The first field is the index of the property. The second field has
-    /// the offsets: the first corner of each face, followed by the total number of corners.
+    /// The numbers are in a list property, as for corner attributes. The first field is the index of the property. The
+    /// second field has the offsets: the first corner of each face, followed by the total number of corners.
     List(usize, &'a [u32]),
 }
 

@@ -7,11 +7,11 @@ use super::types::Type;
 use crate::fault::Fault;
 use crate::text::{BYTE_ORDER_MARK, TextPosition, name, parsed, quoted};
 
-/// The maximum number of properties of all elements together. This limits how often the reader passes over the data.
-/// Files usually have far fewer properties.
+/// The maximum number of properties of all elements together. The maximum limits how often the reader passes over the
+/// data, and is far above the number of properties in usual files.
 pub(super) const MAX_PROPERTIES: usize = 4096;
-/// The maximum number of elements. This limits the time for finding elements by name. Files usually have far fewer
-/// elements.
+/// The maximum number of elements. The maximum limits the time for finding elements by name, and is far above the
+/// number of elements in usual files.
 const MAX_ELEMENTS: usize = 1024;
 
 /// The encoding of the values of a file.

@@ -88,7 +88,7 @@ struct Reader<'a, 'n> {
     tables: &'a [Table<'a>],
     comments: Vec<AttributeComment>,
     polygons: Polygons,
-    /// The names of the columns so far.
+    /// The domains and names of the columns that were added so far.
     names: BTreeSet<(Domain, String)>,
     notes: &'n mut Notes,
 }
@@ -190,7 +190,7 @@ impl Reader<'_, '_> {
             let source = Source::List(list, &self.polygons.offsets);
             let (values, short) = values(table, source, Kind::Vec2);
             let line = element.properties[list].place.line;
-            let what = "faces with texture coordinates set to 0: `texcoord` does not have 2 numbers for each corner";
+            let what = "faces whose texture coordinates are set to 0: `texcoord` does not have 2 numbers for each corner";
             self.notes.changed("uvs-missing", short, line, what);
             self.insert(Domain::Corner, UV.name, UV.rule, values);
         }
@@ -270,7 +270,7 @@ impl Reader<'_, '_> {
         self.insert(domain, COLOR.name, rule, Values::Vec4(colors));
     }
 
-    /// Adds the remaining properties as attributes with the names of the properties. Lists are left out.
+    /// Adds each remaining property as an attribute with the name of the property. Lists are left out.
     fn plain(&mut self, domain: Domain, place: usize, used: &[bool]) {
         let table = &self.tables[place];
         let element = &self.header.elements[place];
@@ -364,7 +364,7 @@ fn mark_used(used: &mut [bool], properties: &[usize]) {
     }
 }
 
-/// Returns the properties if all of them are unused.
+/// Returns the properties if none of them is used.
 fn free<const N: usize>(used: &[bool], properties: Option<[usize; N]>) -> Option<[usize; N]> {
     properties.filter(|properties| !properties.iter().any(|&p| used[p]))
 }

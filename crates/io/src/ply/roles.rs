@@ -134,7 +134,8 @@ const COLORS: [[&str; 4]; 3] = [
     ["r", "g", "b", "a"],
 ];
 
-/// Returns the names of all families. Other attributes must not have these names.
+/// Returns the names of all properties with a known meaning, such as `s` and `t`. Other attributes must not have these
+/// names.
 pub(super) fn names() -> impl Iterator<Item = &'static str> {
     let families = UVS.as_flattened().iter().chain(COLORS.as_flattened());
     let others = POSITION
@@ -155,7 +156,7 @@ pub(super) fn uv(element: &Element) -> Option<[usize; 2]> {
     family(element, &UVS)
 }
 
-/// Returns the properties of red, green and blue, and the property of alpha if it exists.
+/// Returns the properties for red, green and blue, and the property for alpha if it exists.
 pub(super) fn color(element: &Element) -> Option<([usize; 3], Option<usize>)> {
     COLORS
         .iter()

@@ -24,7 +24,7 @@ use crate::writing::{finite, is_byte, push_comment, to_byte, uvs_of_vertices};
 use crate::{Format, WriteOptions, WriteReport, fail_if_lost};
 use mesh::parallel;
 
-/// The number of rows in a block of the file. A block of this many rows has a few hundred kilobytes.
+/// The number of rows in a block of the file, chosen so that a block has a few hundred kilobytes.
 const BLOCK: usize = 8192;
 
 /// Writes `images`, and then `scene` to a little-endian binary file.
@@ -114,7 +114,7 @@ enum Field<'a> {
     Corners(Type),
     Values {
         values: Cow<'a, Values>,
-        /// The number of components that are written. If all colors are opaque, their alpha is left out.
+        /// The number of components of a value that are written. If all colors are opaque, the alpha is left out.
         size: usize,
         form: Type,
         /// If the field is a list with the values of the corners of a face, the type of its count.
@@ -159,7 +159,8 @@ impl<'a> Element<'a> {
             .push(format!("{list}{} {name}", form.name()));
     }
 
-    /// Adds the first `size` components of values as one property for each name, or as one list.
+    /// Adds the first `size` components of each value, either as one scalar property for each name or as one list
+    /// property.
     fn values(
         &mut self,
         names: &[impl AsRef<str>],
@@ -269,7 +270,7 @@ impl<'a> Element<'a> {
         }
     }
 
-    /// Adds the blocks of the rows. `element` returns the element of the mesh for a row.
+    /// Adds the blocks of the rows. `element` maps the index of a row to the index of an element of the mesh.
     fn add_blocks<'b>(
         &'b self,
         blocks: &mut Vec<Block<'b>>,

@@ -9,7 +9,7 @@ use crate::peek::differ;
 use mesh::parallel::{self, BLOCK};
 
 pub(super) const HEADER: usize = 80;
-/// The position at which the triangles begin. The number of triangles, in 4 bytes, precedes them.
+/// The position at which the triangles begin, after the header and the 4 bytes with the number of triangles.
 pub(super) const START: usize = HEADER + 4;
 /// The size of a triangle: a normal and three corners with three 32-bit numbers each, and 2 attribute bytes.
 pub(super) const FACET: usize = 50;

@@ -42,7 +42,7 @@ pub(crate) fn read(bytes: &[u8], notes: &mut Notes) -> Result<Polygons, Fault> {
 
 enum Kind {
     Text,
-    /// A binary file. The field is the position of the end of its facets.
+    /// A binary file. The field is the position at which the facets end.
     Binary(usize),
 }
 
@@ -145,7 +145,7 @@ type AttributeNames = Vec<(Domain, String)>;
 ///
 /// # Errors
 ///
-/// If a binary file is shorter than its declared number of triangles requires.
+/// If a binary file is too short for the number of triangles that it declares.
 pub(crate) fn peek(
     bytes: &[u8],
     notes: &mut Notes,

@@ -59,7 +59,7 @@ fn solid(cursor: &mut Cursor, found: &mut Facets) -> Result<(), Fault> {
     }
 }
 
-/// Reads a normal. Some programs write `nan` as the normal of a zero-area facet, which is read as zero.
+/// Reads a normal. Some programs write `nan` as the normal of a zero-area facet. Such a normal is read as zero.
 fn normal(cursor: &mut Cursor) -> Result<DVec3, Fault> {
     let mut normal = DVec3::ZERO;
     for i in 0..3 {

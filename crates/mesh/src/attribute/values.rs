@@ -9,7 +9,7 @@ use crate::parallel;
 /// each old value that contributes to the new value.
 type Weights<'a> = dyn Fn(usize, &mut dyn FnMut(usize, f64)) + Sync + 'a;
 
-/// In a list of sources, marks a new value that has no source. The new value is zero.
+/// In a list with the source of each new value, marks a value that has no source. The new value is zero.
 const NO_SOURCE: usize = usize::MAX;
 
 /// The values of a column, one for each element of its domain.
@@ -115,9 +115,9 @@ impl Values {
         })
     }
 
-    /// Gathers values of any type. This function is not generic, because it would be compiled again for each closure
-    /// and each type. `sources` is called with an index i and a list. It fills the list with the sources of value i and
-    /// of the values after value i.
+    /// Gathers values of any type. This function is not generic, because a generic function would be compiled again for
+    /// each closure and each type. `sources` is called with an index i and a list, and fills the list with the sources
+    /// of new value i and of the new values that follow it.
     fn gather_blocks(&self, n: usize, sources: &(dyn Fn(usize, &mut [usize]) + Sync)) -> Self {
         const SOURCES: usize = 128;
         fn run<T: Value>(

@@ -85,8 +85,8 @@ impl Edges {
                     let c = to_id(c);
                     (next[0], origin[0], face[0]) = (of(polygons.next(c)), vertex(c), face_of(c));
                     (next[1], origin[1], face[1]) = if t == NONE {
-                        // The boundary half-edge ends at v. The boundary continues along the boundary half-edge
-                        // that leaves v.
+                        // The boundary half-edge beside the corner c ends at v. The boundary then continues along the
+                        // boundary half-edge that starts at v.
                         let v = vertex(c).index();
                         (vertex_half_edge[v], vertex(polygons.next(c)), FaceId::NONE)
                     } else {

@@ -138,7 +138,7 @@ impl BuildOutput {
             let half_edges = &self.half_edge_of_corner[w[0] as usize..w[1] as usize];
             let following = half_edges.iter().cycle().skip(1);
             edges.extend(half_edges.iter().zip(following).map(|(&h, &next)| {
-                // A side joins two corners. The half-edge of one of these corners lies on the side.
+                // A side joins two corners. The half-edge on the side starts at one of these two corners.
                 match h.some() {
                     None => EdgeId::NONE,
                     Some(h) if self.mesh.next(h) == next => h.edge(),
@@ -198,7 +198,7 @@ pub fn build(
     corners: &[u32],
     non_manifold: NonManifold,
 ) -> Result<BuildOutput, BuildError> {
-    // The size of the largest arrays that exist at the same time, in addition to the input.
+    // The largest total size of the arrays that exist at the same time, without the input.
     crate::require_memory(32 * corners.len() + 16 * positions.len());
     let degenerate = check(&positions, offsets, corners)?;
     if degenerate.is_empty() {

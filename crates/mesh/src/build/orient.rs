@@ -26,8 +26,8 @@ use crate::parallel::BLOCK;
 pub(super) struct Orientation {
     /// The polygons to reverse, in order.
     pub(super) reversed: Vec<usize>,
-    /// For each part without a consistent orientation, its first polygon. No polygon of these parts is
-    /// reversed.
+    /// For each part without a consistent orientation, its first polygon. No polygon of a part without a consistent
+    /// orientation is reversed.
     pub(super) unorientable: Vec<usize>,
 }
 
@@ -37,7 +37,7 @@ impl Orientation {
         let opposite_sides = opposite_sides(polygons, buckets);
         let mut orientation = Self::default();
         let mut is_visited = vec![false; polygons.n()];
-        // For each polygon, whether its orientation is opposite to that of the first polygon of its part.
+        // For each polygon: whether its orientation is opposite to that of the first polygon in the same part.
         let mut is_reversed = vec![false; polygons.n()];
         let mut part = Vec::new();
         for first in 0..polygons.n() {
@@ -82,8 +82,8 @@ impl Orientation {
         orientation
     }
 
-    /// Reverses polygons. `values` has one value for each corner. The first corner of a polygon stays the
-    /// first.
+    /// Reverses polygons. `values` has one value for each corner. The first corner of a polygon remains its first
+    /// corner.
     pub(super) fn reverse<T>(&self, offsets: &[u32], values: &mut [T]) {
         for &f in &self.reversed {
             values[offsets[f] as usize + 1..offsets[f + 1] as usize].reverse();
@@ -91,8 +91,8 @@ impl Orientation {
     }
 }
 
-/// Returns, for each side, the other side of its edge if the edge has exactly two sides, whatever their directions;
-/// otherwise `NONE`.
+/// Returns, for each side, the other side of its edge, or `NONE` if the edge does not have exactly two sides. The
+/// directions of the sides do not matter.
 fn opposite_sides(polygons: &Polygons, buckets: &Buckets) -> Vec<u32> {
     let opposite_sides: Vec<AtomicU32> = (0..polygons.corners.len())
         .into_par_iter()
@@ -112,7 +112,7 @@ fn opposite_sides(polygons: &Polygons, buckets: &Buckets) -> Vec<u32> {
             sides.sort_unstable();
             for edge in sides.chunk_by(|a, b| a.0 == b.0) {
                 if let &[(_, c), (_, d)] = edge {
-                    // The task that handles the other end of the edge stores the same values.
+                    // The task for the vertex at the other end of the edge stores the same values.
                     opposite_sides[c as usize].store(d, Relaxed);
                     opposite_sides[d as usize].store(c, Relaxed);
                 }

@@ -88,8 +88,8 @@ fn faces_of_corners(offsets: &[u32]) -> Vec<u32> {
         .zip(offsets.par_chunks(BLOCK))
         .enumerate()
         .for_each(|(block, (faces, firsts))| {
-            // The loop visits the polygons from last to first. Each polygon splits its corners off the end of
-            // the unfilled part.
+            // The loop visits the polygons from last to first. For each polygon, the slots of its corners are split off
+            // the end of the part that is not filled yet.
             let mut unfilled = faces;
             for (i, first) in firsts.iter().enumerate().rev() {
                 let Some(of_polygon) = unfilled.split_off_mut((first - firsts[0]) as usize..)

@@ -143,7 +143,7 @@ impl Elements {
     /// Returns the number of elements.
     #[expect(
         clippy::len_without_is_empty,
-        reason = "the elements of a repair are never empty"
+        reason = "the list of the elements of a repair is never empty"
     )]
     pub fn len(&self) -> usize {
         match self {

@@ -10,8 +10,7 @@
 use super::pair::Outgoing;
 use super::polygons::{NONE, Polygons, to_id};
 
-/// Up to this number of corners at a vertex are matched by comparing all pairs. If there are more, the corners are
-/// sorted.
+/// If a vertex has at most this number of corners, they are matched by comparing all pairs; otherwise, they are sorted.
 const MAX_COMPARED: usize = 32;
 
 /// The corners at one vertex. Each list has one entry for each corner, in the order of the corners passed to
@@ -24,13 +23,14 @@ pub(super) struct Star {
     from: Vec<u32>,
     /// For each corner, the vertex of the corner after it in its polygon.
     to: Vec<u32>,
-    /// For each corner, the index in these lists of the corner that follows clockwise, or `NONE` on the boundary.
+    /// For each corner, the corner that follows clockwise, as an index into these lists; `NONE` on the boundary.
     pub(super) after: Vec<u32>,
-    /// The index in these lists of a corner that has no predecessor, at the start of a fan; 0 if all fans are closed.
+    /// A corner that has no predecessor, at the start of a fan, as an index into these lists; 0 if all fans are closed.
     start: usize,
     is_closed: bool,
     /// Whether any edge at the vertex is known to be non-manifold. If all sides along a non-manifold edge end at the
-    /// vertex, the flag can be false here; it is then true in the star of the vertex at the other end of the edge.
+    /// vertex, the flag can be false in this star. The flag is then true in the star of the vertex at the other end of
+    /// the edge.
     pub(super) has_non_manifold_edge: bool,
 }
 
@@ -61,8 +61,8 @@ impl Star {
         }
     }
 
-    /// Finds the corner after each corner. Consider the sides between the vertex and a neighbor w. The corner
-    /// at the start of the k-th side to w is followed by the corner at the end of the k-th side from w.
+    /// Finds, for each corner, the corner that follows clockwise. For each neighbor w of the vertex, the corner at the
+    /// start of the k-th side to w is followed by the corner at the end of the k-th side from w.
     fn match_by_comparing(&mut self) {
         let n = self.to.len();
         let mut free = if n == MAX_COMPARED {

@@ -17,7 +17,7 @@ impl Mesh {
     /// `v` dies. The n edges of `v` keep their ids and end at the cuts. The new elements are n vertices, the n edges
     /// from each new vertex to the next, and the face, whose first corner is the first new vertex. The new vertices and
     /// edges are in clockwise order, starting at the first edge of [`vertex_half_edges`](Self::vertex_half_edges). V, E
-    /// and F grow by n - 1, n and 1. Each face at v gains one corner for each of its corners at v.
+    /// and F grow by n - 1, n and 1. A face with k corners at v gains k corners.
     ///
     /// At a cut, vertex attributes are interpolated between v and the other end of the edge. Corner attributes are
     /// interpolated within their face, separately on each side of a seam. Attributes that are
@@ -81,7 +81,7 @@ impl Mesh {
     /// n vertices, the n edges from each new vertex to the next, and the face, whose first corner is the first new
     /// vertex. The new vertices and edges are in clockwise order around e, from the edge after e at a (the origin of
     /// the first half of e) to the last edge at b. V, E and F grow by n - 2, n - 1 and 1. The faces beside e keep their
-    /// number of corners. Any other face gains one corner for each of its corners at a or b.
+    /// number of corners. Any other face with k corners at a or b gains k corners.
     ///
     /// Attributes are set as in [`bevel_vertex`](Self::bevel_vertex). The new face has the values of the face
     /// to the left of the first half of e.
@@ -168,9 +168,9 @@ impl Mesh {
     /// Cuts the half-edges of `cuts` at their fractions, and connects the cuts by a new face with the values
     /// of `f`.
     ///
-    /// The half-edges must be in clockwise order. Consider a half-edge h of `cuts` and the face to its
-    /// right. On this face, the twin of h must be followed by the next half-edge of `cuts`. Between the two
-    /// there can be one half-edge of the beveled edge.
+    /// The half-edges must be in clockwise order. On the face to the right of a half-edge h of `cuts`, the next
+    /// half-edge of `cuts` must follow the twin of h. Only a half-edge of the beveled edge can be between these two
+    /// half-edges.
     fn join_cuts(&mut self, cuts: &[(HalfEdgeId, f64)], f: FaceId) -> FaceId {
         self.drop_columns_by_rule();
         let n = cuts.len();
@@ -190,8 +190,8 @@ impl Mesh {
         }
         let new = self.push_copy_of_face(f, ring[n - 1][1]);
 
-        // Sets the values of the corners at the cuts. The corners to the right of the cut edges are set first,
-        // because their values depend on the old values of the corners to the left.
+        // Sets the values of the corners at the cuts. The values of the corners to the right of the cut edges depend on
+        // the old values of the corners to the left. Therefore the corners to the right are set first.
         for (&(h, t), [along, _]) in cuts.iter().zip(&ring) {
             let corner = self.next(h.twin());
             self.copy_values(corner, *along);

@@ -12,17 +12,17 @@ impl Mesh {
     /// ```
     ///
     /// If the holes belong to one component of the mesh, this component gets a handle. If they belong to two
-    /// components, these become one. If one loop has n edges and the other m, with n at least m, the band has n
-    /// new edges and n faces: m quads, and n - m triangles spread evenly between them. Each triangle is at an
-    /// edge of the longer loop. Choose `h` and `g` so that they face each other; otherwise the band is twisted.
+    /// components, these become one. If one loop has n edges and the other m, with n at least m, the band has n new
+    /// edges and n faces: m quads, and n - m triangles spread evenly between them. One side of each triangle is an edge
+    /// of the longer loop. Choose `h` and `g` so that they face each other; otherwise the band is twisted.
     ///
-    /// All existing ids stay the same. New edges and faces are numbered along the longer loop (that of `h` if
-    /// both have the same length). The first face is f. The first edge is a-d, or b-c if the loop of `g` is
-    /// longer. A new face has the values of the face beside its edge of the longer loop. A new corner is at a
-    /// vertex of one of the loops. If its face has an edge of this loop, the corner gets the values of the
-    /// existing corner at the same vertex, in the face on the other side of this edge. A triangle has no edge
-    /// of the shorter loop; its corner at that loop uses the edge of the last quad before the triangle. New
-    /// edges have zero attribute values.
+    /// All existing ids stay the same. New edges and faces are numbered along the longer loop (that of `h` if both have
+    /// the same length). The first face is f. The first new edge is a-d, or b-c if the loop of `g` is longer than the
+    /// loop of `h`. A new face at an edge of the longer loop has the values of the old face at this edge. If the face
+    /// of a new corner has an edge of the loop on which the corner lies, the corner gets the values of the existing
+    /// corner at the same vertex, on the other side of this edge. A triangle has no edge of the shorter loop, so its
+    /// corner at the shorter loop uses the edge of the last quad before the triangle. New edges have zero attribute
+    /// values.
     ///
     /// Returns the new faces.
     ///
@@ -60,9 +60,8 @@ impl Mesh {
         // The loops run in opposite directions.
         short[1..].reverse();
         let (n, m) = (long.len(), short.len());
-        // Rung i is a new edge that runs from the origin of half-edge i of the long loop to the target of
-        // half-edge `short_index(i)` of the short loop. The index is rounded up, so that the first face is a
-        // quad.
+        // Rung i is a new edge between the loops. It runs from the origin of half-edge i of the long loop to the target
+        // of half-edge `short_index(i)` of the short loop. `short_index` rounds up, so that the first face is a quad.
         let short_index = |i: usize| (i * m).div_ceil(n);
         let rungs: Vec<_> = (0..n)
             .map(|i| (self.origin(long[i]), self.target(short[short_index(i) % m])))
@@ -86,7 +85,7 @@ impl Mesh {
             let [next_rung, _] = rungs[(i + 1) % n].half_edges();
             let [_, rung_back] = rungs[i].half_edges();
             let side = long[i];
-            // Pairs of a half-edge and the corner whose values it gets.
+            // Each pair consists of a half-edge of the new face and the corner whose values this half-edge gets.
             let mut sides = vec![(side, self.corner_beside(side)), (next_rung, side.twin())];
             if next_k > k {
                 let opposite = short[k];

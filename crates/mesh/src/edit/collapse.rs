@@ -16,18 +16,18 @@ impl Mesh {
     ///        d               d                 d-----+           d-----+
     /// ```
     ///
-    /// v is the end with the lower id; the other end and `e` die. A triangle beside `e` dies, and its other two
-    /// edges become one: the edge at v remains, and the other edge dies. A larger face loses one corner, and a
-    /// hole loses one edge. Inside a triangle mesh, V, E and F shrink by 1, 3 and 2; on its boundary by 1, 2
-    /// and 1. V - E + F stays the same. No ids are added, and all other elements keep their ids.
+    /// v is the end with the lower id; the other end and `e` die. A triangle beside `e` dies, and its other two edges
+    /// become one: the edge at v remains, and the other edge dies. A face beside `e` with more than three corners loses
+    /// one corner, and a hole beside `e` loses one edge. Inside a triangle mesh, V, E and F shrink by 1, 3 and 2; on
+    /// its boundary by 1, 2 and 1. V - E + F stays the same. No ids are added, and all other elements keep their ids.
     ///
     /// Vertex attributes of v are interpolated between the two ends, except attributes whose rule does not interpolate:
     /// these keep their values at v. The corners at v of the faces beside `e` are interpolated within their face,
-    /// separately on each side of a seam. Every other face at an end of `e` has a corner there. For each attribute,
-    /// this corner is compared with the corners of the faces beside `e` at the same end. If it has the same value as
-    /// one of them, it gets the new value of that corner. Otherwise it keeps its value. When two edges become one, the
-    /// larger value is kept, so that creases are preserved, and a tag is set if either edge had it. For attributes of
-    /// other types, the remaining edge keeps its value.
+    /// separately on each side of a seam. Each corner that another face has at an end of `e` is compared with the
+    /// corners of the faces beside `e` at the same end, separately for each attribute. If the corner has the same value
+    /// as one of them, it gets the new value of that corner. Otherwise it keeps its value. When two edges become one,
+    /// the remaining edge gets the larger of their floating-point values, so that creases are preserved. A tag is set
+    /// if either edge had it. Attributes of other types keep the value of the remaining edge.
     ///
     /// A collapse is refused if it would change the topology of the surface or make two elements coincide. The test is
     /// the link condition of Dey, Edelsbrunner, Guha and Nekhayev ("Topology preserving edge contraction", 1999),
@@ -86,8 +86,9 @@ impl Mesh {
         self.collapse(e, t, (1.0 - t) * a + t * b)
     }
 
-    /// Collapses an edge like [`collapse_edge`](Self::collapse_edge), to any point. Attributes are those at the
-    /// nearest point on the edge, or at its middle if both ends have the same position.
+    /// Collapses an edge like [`collapse_edge`](Self::collapse_edge), to any point. The attributes are those at the
+    /// point on the edge that is nearest to the given point, or at the middle of the edge if both ends have the same
+    /// position.
     ///
     /// # Errors
     ///
@@ -123,9 +124,9 @@ impl Mesh {
         }
         self.kill(e);
         self.kill(removed);
-        // A triangle beside e has become a face of two edges. Of these two edges, the one at the removed vertex
-        // is removed. On the side of the first half of e, the edge at b comes after e and the edge at a before
-        // it. On the side of the second half, the edge at a comes after e and the edge at b before it.
+        // If a face beside e was a triangle, it now has only two edges. Of these two edges, the one that ends at the
+        // removed vertex is removed. On the side of the first half of e, the edge at b comes after e and the edge at a
+        // before it. On the side of the second half, the edge at a comes after e and the edge at b before it.
         for (i, h) in sides.into_iter().enumerate().filter(|&(i, _)| vanishes[i]) {
             let after = self.next(h);
             if (removed == b) == (i == 0) {
@@ -153,7 +154,8 @@ impl Mesh {
         }
         self.check_outer_faces(e)?;
 
-        // The third corners of the triangles beside the edge. Only these corners may be neighbors of both ends.
+        // The third corners of the triangles beside the edge. Only the third corners of these triangles may be
+        // neighbors of both ends of the edge.
         let apexes = [ab, ba].map(|h| {
             self.is_beside_triangle(h)
                 .then(|| self.target(self.next(h)))
@@ -190,8 +192,9 @@ impl Mesh {
             valence += 1;
             h = self.next(h.twin());
         }
-        // Each triangle beside the edge merges one pair of edges that lead to its apex. An apex has more such
-        // pairs only if there are parallel edges, or a hole with three edges whose third corner is the apex.
+        // For each triangle beside the edge, the collapse merges the two edges that lead to the apex of the triangle.
+        // More edges at an apex would be merged only if there are parallel edges, or a hole with three edges whose
+        // third corner is the apex.
         for (i, x) in apexes.into_iter().enumerate() {
             let merged = apexes.iter().filter(|&&apex| apex == x).count();
             if let Some(x) = x.filter(|&x| shared[i].min(vertices.count(x)) > merged) {
@@ -245,12 +248,13 @@ impl Mesh {
         Ok(())
     }
 
-    /// Must be called only if the merged vertex would have two edges and two faces. Returns whether these faces
-    /// would lie back to back, which is true if every vertex of one of these faces would have two edges.
+    /// Must be called only if the merged vertex would have two edges and two faces. Returns whether the two faces at
+    /// the merged vertex would lie back to back. This is true if every vertex of one of these faces would have two
+    /// edges.
     fn would_fold(&self, e: EdgeId, apexes: [Option<VertexId>; 2]) -> bool {
         let [ab, ba] = e.half_edges();
-        // Finds one of the two faces. A face beside e that is not a triangle remains. If both faces beside e
-        // are triangles, the next face at a remains.
+        // Finds one of the two faces. A face beside e remains after the collapse if it is not a triangle. If both faces
+        // beside e are triangles, the next face around a remains.
         let around = match apexes {
             [None, _] => ab,
             [_, None] => ba,
@@ -277,7 +281,7 @@ impl Mesh {
     /// Moves the outgoing half-edges of the origin of `h` to `v`, the target of `h`.
     fn move_half_edges(&mut self, h: HalfEdgeId, v: VertexId) {
         let removed = self.origin(h);
-        // If v is on the boundary, its stored half-edge must be the one without a face.
+        // The stored half-edge of a boundary vertex must be a half-edge without a face.
         let hole = [h, h.twin()].into_iter().find(|&h| self.face(h).is_none());
         if let Some(hole) = hole {
             self.set_vertex_half_edge(v, Some(self.next(hole)));
@@ -318,7 +322,7 @@ impl Mesh {
         if !self.has_corner_columns() {
             return;
         }
-        // For each side of the edge, the corners of its face at a and at b.
+        // For each of the two sides of the edge: the corners of the face on this side, at a and at b.
         let [ab, ba] = e.half_edges();
         let corners = [[ab, self.next(ab)], [self.next(ba), ba]];
         let sides = [0, 1].map(|i| Some(corners[i]).filter(|_| self.face(corners[i][i]).is_some()));
@@ -334,8 +338,8 @@ impl Mesh {
         }
         for (h, side) in [ab, ba].into_iter().zip(sides) {
             if let Some([at_a, at_b]) = side {
-                // Values that are not interpolated are taken from the corner at v. The result is stored at the
-                // half-edge after h, because h is removed.
+                // Values that are not interpolated are taken from the corner at v. If the result is stored at h, it is
+                // copied to the half-edge after h, because h is removed.
                 let at_v = if v == self.origin(ab) { at_a } else { at_b };
                 self.mix_values(at_a, at_b, t, at_v);
                 if at_v == h {

@@ -161,8 +161,9 @@ impl Mesh {
 
 /// Returns the parts of a fan after its cut edges were duplicated. The fan must start at the boundary or at a cut.
 fn parts(fan: &[HalfEdgeId], copy_of: impl Fn(HalfEdgeId) -> Option<EdgeId>) -> Vec<Part> {
-    // Returns two outgoing half-edges at the cut of h: the last half-edge of the part before the cut
-    // (clockwise), and the first half-edge of the part after the cut. The latter is on the boundary.
+    // Returns two outgoing half-edges at the cut along the edge of h. The first is the last half-edge, in clockwise
+    // order, of the part before the cut. The second is the first half-edge of the part after the cut. The latter is on
+    // the boundary.
     let sides = |h: HalfEdgeId| {
         let [first, second] = copy_of(h)?.half_edges();
         let is_first = h == h.edge().half_edge();

@@ -17,8 +17,9 @@ use crate::{EditError, FaceId, HalfEdgeId, Mesh};
 /// Each part starts with its lowest half-edge. The parts are ordered by their first half-edges. Returns `None`
 /// if diagonals cross, or if a part would have fewer than three sides.
 pub fn polygon_parts(n: usize, diagonals: &[[u32; 2]]) -> Option<Vec<Vec<usize>>> {
-    // The diagonals at each corner, counter-clockwise from the side that starts at the corner. The diagonal
-    // to the nearest corner ahead comes first. Each entry is (corner, distance to the other corner, half-edge).
+    // The diagonals at each corner, counter-clockwise from the side that starts at the corner. Of the diagonals at a
+    // corner, the one to the nearest corner ahead comes first. Each entry is (corner, distance to the other corner,
+    // half-edge).
     let mut outgoing: Vec<(usize, usize, usize)> = Vec::with_capacity(2 * diagonals.len());
     for (k, diagonal) in diagonals.iter().enumerate() {
         let [a, b] = diagonal.map(|corner| corner as usize);
@@ -35,8 +36,8 @@ pub fn polygon_parts(n: usize, diagonals: &[[u32; 2]]) -> Option<Vec<Vec<usize>>
     for (i, &(corner, _, h)) in outgoing.iter().enumerate() {
         let is_first = i == 0 || outgoing[i - 1].0 != corner;
         next[twin(h)] = if is_first { corner } else { clockwise };
-        // The last diagonal at the corner follows the side that ends at the corner. Each diagonal overwrites
-        // the entry of the diagonal before it.
+        // The last diagonal at the corner follows the side that ends at the corner. Each diagonal overwrites the entry
+        // of the diagonal before it, so that the entry of the last diagonal remains.
         next[(corner + n - 1) % n] = h;
         clockwise = h;
     }
@@ -61,7 +62,8 @@ pub fn polygon_parts(n: usize, diagonals: &[[u32; 2]]) -> Option<Vec<Vec<usize>>
 }
 
 impl Mesh {
-    /// Cuts a face along diagonals, given as pairs of corner indices. The parts are those of [`polygon_parts`].
+    /// Cuts a face along diagonals, given as pairs of corner indices. The face is divided into the parts that
+    /// [`polygon_parts`] returns.
     ///
     /// The diagonals become edges, in order, each from its first corner to its second. The first part keeps
     /// the id and the first corner of the face; the other parts become new faces, in order, with the values

@@ -116,7 +116,7 @@ mod tests {
         }
         assert!(
             n_refused > 0,
-            "deleting an edge across a sheet must be refused: it leaves two fans at a vertex"
+            "at least one deletion must be refused, because it would leave two fans of faces at a vertex"
         );
     }
 

@@ -76,8 +76,8 @@ impl Mesh {
         }
 
         self.drop_columns_by_rule();
-        // At b, the half-edge that stores the corner of f remains. At a, the half-edge that stores the corner
-        // of g remains and gets the values of the corner of f.
+        // At b, the half-edge that stores the corner of f remains. At a, the half-edge that stores the corner of the
+        // removed face g remains. It gets the values of the corner of f.
         self.copy_values(ab, after_a);
         let moved: Vec<HalfEdgeId> = self.face_half_edges(g).collect();
         for h in moved {
@@ -237,8 +237,8 @@ mod tests {
 
     #[test]
     fn faces_with_another_common_vertex_are_not_merged() {
-        // The tube has three squares. Two of these squares were merged, and both side edges of the third square
-        // are edges of the merged face.
+        // The tube has three squares. Two of these squares are merged into one face. Both side edges of the third
+        // square are then edges of the merged face.
         let mut tube = shapes::cylinder(3, false);
         tube.dissolve_edge(between(&tube, 1, 4)).unwrap();
         let refused = refused(&tube, between(&tube, 2, 5));

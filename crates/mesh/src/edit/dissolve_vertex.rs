@@ -162,8 +162,8 @@ impl Mesh {
         rim
     }
 
-    /// Returns the spoke whose face has the most corners. Walks around all faces at the same time, and stops when only
-    /// one face is left.
+    /// Returns the spoke whose face has the most corners. Walks around all of these faces at the same time, and stops
+    /// when at most one walk is not complete.
     fn spoke_of_largest_face(&self, spokes: &[HalfEdgeId]) -> HalfEdgeId {
         let with_face = spokes.iter().filter(|&&h| self.face(h).is_some());
         let mut walks: Vec<(HalfEdgeId, HalfEdgeId)> = with_face.map(|&h| (h, h)).collect();

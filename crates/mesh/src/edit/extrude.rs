@@ -22,12 +22,12 @@ impl Mesh {
     /// The rim consists of the half-edges h of `faces` whose twin has no face, or has a face that is not listed in
     /// `faces`. If the rim has n half-edges, V, E and F grow by n, 2n and n.
     ///
-    /// **Ids.** The faces keep their ids and the order of their corners, so that the same faces can be extruded
-    /// again. The edges and vertices inside the faces keep their ids too. The vertices and edges of the rim
-    /// stay in place with the rest of the mesh, and the moved faces get new vertices and edges. The new
-    /// elements are numbered in the order of the half-edges h: in order of `faces`, and counter-clockwise from
-    /// the first half-edge of each face. Each h adds the vertex v', the edges v'-w' and v-v' in this order, and
-    /// the side face, whose half-edge is h.
+    /// **Ids.** The faces keep their ids and the order of their corners, so that the same faces can be extruded again.
+    /// The edges and vertices inside the faces keep their ids too. The vertices and edges of the rim stay in place with
+    /// the rest of the mesh, and the moved faces get new vertices and edges. The new elements are numbered in the order
+    /// of the half-edges h: in order of `faces`, and counter-clockwise from the first half-edge of each face. Each
+    /// half-edge h of the rim adds the vertex v', the edges v'-w' and v-v' in this order, and the side face. The
+    /// half-edge of the side face is h.
     ///
     /// If faces meet only at a vertex, each of their fans gets a separate copy of the vertex. If all faces of a sheet
     /// are extruded, the sheet becomes a box that is open where the sheet was. If all faces of a closed component are
@@ -142,8 +142,8 @@ impl Mesh {
 pub(super) struct Rim {
     /// All half-edges of the faces, in order.
     half_edges: Vec<HalfEdgeId>,
-    /// The half-edges of the rim, in the order of `half_edges`. These half-edges are called bases here. The
-    /// twin of a base has no face, or has a face outside of the set.
+    /// The half-edges of the rim, in the order of `half_edges`. A half-edge of the rim is called a base here. The twin
+    /// of a base has no face, or has a face outside of the set.
     pub(super) bases: Vec<HalfEdgeId>,
     /// The index in `bases` of each base.
     index_of_base: BTreeMap<HalfEdgeId, usize>,

@@ -99,7 +99,7 @@ impl Mesh {
         let corners: Vec<HalfEdgeId> = rim.iter().map(|&h| self.corner_beside(h)).collect();
         let mut next: Vec<usize> = (1..n).chain([0]).collect();
         let mut before: Vec<usize> = [n - 1].into_iter().chain(0..n - 1).collect();
-        // For each remaining vertex, the half-edge to the next remaining vertex, on the side of the hole.
+        // For each remaining vertex of the rim: the half-edge to the next remaining vertex, on the side of the hole.
         let mut front = rim.clone();
         let mut triangles = Vec::with_capacity(ears.len());
         for &ear in ears {

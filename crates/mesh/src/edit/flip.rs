@@ -25,10 +25,11 @@ impl Mesh {
     /// ```
     ///
     /// Between two triangles, the edge becomes the other diagonal of the quadrilateral that the two triangles form.
-    /// Four flips of such an edge restore the mesh, apart from the half-edges that vertices and faces store. All ids
-    /// stay the same. Before the flip, `e` runs from a to b; afterwards from d to c, where c follows b on face f, and d
-    /// follows a on face g. The first half of `e` stays on f. Attributes of vertices, edges and faces stay with their
-    /// ids. The new corners at c and d get the values of the corner at the same vertex in the other face.
+    /// Four flips of an edge between two triangles restore the mesh, apart from the half-edges that vertices and faces
+    /// store. All ids stay the same. Before the flip, `e` runs from a to b; afterwards from d to c, where c follows b
+    /// on face f, and d follows a on face g. The first half of `e` stays on f. Attributes of vertices, edges and faces
+    /// stay with their ids. The new corners at c and d get the values of the corner at the same vertex in the other
+    /// face.
     ///
     /// # Errors
     ///
@@ -113,8 +114,8 @@ impl Mesh {
     }
 
     /// Returns the half-edge before `h` around its face, or around its hole. Walks around the face (or the hole) and
-    /// around the origin of `h` at the same time. So the time is proportional to the smaller of two numbers: the
-    /// number of edges of the face or the hole, and the valence of the origin.
+    /// around the origin of `h` at the same time. So the time is proportional to the number of edges of the face or the
+    /// hole, or to the valence of the origin, whichever is smaller.
     #[inline]
     pub(super) fn prev_on_face(&self, h: HalfEdgeId) -> HalfEdgeId {
         let (mut before, mut around) = (self.next(h), h.twin());
@@ -241,7 +242,8 @@ mod tests {
 
     #[test]
     fn an_edge_at_a_vertex_with_two_edges_does_not_flip() {
-        // The new vertex on the edge of a cube has two edges. A flip would leave it with one edge.
+        // The new vertex on the edge of a cube has two edges. A flip of one of these edges would leave the vertex with
+        // one edge.
         let mut mesh = shapes::cube();
         let m = mesh.split_edge(EdgeId::new(0), 0.5).unwrap();
         assert_eq!(refused(&mesh, EdgeId::new(0)), EditError::FewEdges(m));

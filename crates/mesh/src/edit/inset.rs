@@ -107,7 +107,7 @@ impl Mesh {
     /// the corresponding element of `from` and the mean of all elements of `from`.
     fn mix_with_mean<I: Id>(&mut self, from: &[I], t: f64, to: &[I]) {
         let &[.., last] = to else { return };
-        // The last element stores the mean until its own values are set.
+        // The mean is stored at the last element of `to` until the values of this element are set.
         self.average_values(from, last);
         for (&from, &to) in from.iter().zip(to) {
             self.mix_values(from, last, t, to);

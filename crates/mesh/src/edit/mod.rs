@@ -48,8 +48,8 @@ pub enum EditError {
     /// The edit needs an edge with a face on both sides.
     #[error("{0} is on the boundary")]
     Boundary(EdgeId),
-    /// The edit needs a half-edge without a face, but this half-edge has one. The edge can still be on the
-    /// boundary, if its other half-edge has no face.
+    /// The edit needs a half-edge without a face, but this half-edge has one. Nevertheless, the edge is on the boundary
+    /// if its other half-edge has no face.
     #[error("{0} has a face, so it is not a boundary half-edge")]
     NotBoundary(HalfEdgeId),
     /// The edit needs a vertex inside the surface.
@@ -106,7 +106,7 @@ pub enum EditError {
     )]
     OutsideEdge(f64),
     /// A coordinate, length or fraction is not finite, or is out of range.
-    #[error("{0} is not finite, or is out of the range of this edit")]
+    #[error("{0} is not finite, or is outside the range that this edit accepts")]
     BadNumber(f64),
     /// The edit would leave several fans of faces at the vertex. Also returned if a hole to be filled contains the
     /// vertex twice, or if both ends of a diagonal are at the vertex.
@@ -116,11 +116,11 @@ pub enum EditError {
     #[error("{0} is not a corner of the face or vertex that is to be split")]
     WrongCorner(HalfEdgeId),
     /// The two corners are the same, adjacent, or at the same vertex.
-    #[error("{0} and {1} are the same corner, adjacent, or at the same vertex")]
+    #[error("{0} and {1} are the same corner, adjacent corners, or corners at the same vertex")]
     Adjacent(HalfEdgeId, HalfEdgeId),
     /// The edit needs whole components, and this face shares an edge with a face that was not listed.
     #[error(
-        "{0} shares an edge with a face that was not listed; the faces must form whole components"
+        "the faces must form whole connected components, but {0} shares an edge with a face that was not listed"
     )]
     PartOfComponent(FaceId),
     /// The edge was listed twice.
@@ -209,8 +209,8 @@ impl Mesh {
         require(self.face(h).is_none(), EditError::NotBoundary(h))
     }
 
-    /// Checks that there are ids for this many additional half-edges. The edits that call this function add at most as
-    /// many vertices, and at most as many faces, as half-edges.
+    /// Checks that there are ids for this many additional half-edges. An edit that calls this function adds no more
+    /// vertices than half-edges, and no more faces than half-edges.
     fn check_room(&self, half_edges: usize) -> Result<(), EditError> {
         let n = self.connectivity.next.len().max(self.positions.len()) + half_edges;
         require(n < u32::MAX as usize, EditError::Full)

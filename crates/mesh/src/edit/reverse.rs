@@ -66,8 +66,8 @@ impl Mesh {
             .map(|&h| (h, self.next(h), self.target(h)))
             .collect();
         for (h, next, target) in old {
-            // After the reversal, h leaves the vertex that `next` left before. So h replaces `next` as the
-            // half-edge of that vertex.
+            // After the reversal, h leaves the vertex that `next` left before. Therefore h replaces `next` as the
+            // stored half-edge of that vertex.
             if self.vertex_half_edge(target) == Some(next) {
                 self.set_vertex_half_edge(target, Some(h));
                 self.negate_normals(target);

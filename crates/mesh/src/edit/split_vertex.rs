@@ -22,13 +22,13 @@ impl Mesh {
     /// gain a corner. f or g can be a hole; then the edge is on the boundary. V and E grow by 1. All existing ids
     /// stay the same.
     ///
-    /// [`split_face`](Self::split_face) is the corresponding edit for faces. To undo the split, collapse the new
-    /// edge to the old position with [`collapse_edge_to`](Self::collapse_edge_to). That collapse is always
-    /// allowed, unless two edges joined v to the same vertex or a face contains v twice. To undo a collapse that
-    /// removed triangles, call `split_vertex`, then `split_face`.
+    /// [`split_face`](Self::split_face) is the corresponding edit for faces. To undo the split, collapse the new edge
+    /// to the old position with [`collapse_edge_to`](Self::collapse_edge_to). This collapse can be refused only if two
+    /// edges joined v to the same vertex or a face contains v twice. To undo a collapse that removed triangles, call
+    /// `split_vertex`, then `split_face`.
     ///
-    /// The new vertex is at `position` and has the attributes of v. On each side, both corners at the new edge
-    /// have the values of the old corner. The edge has zero values.
+    /// The new vertex is at `position` and has the attributes of v. On each side of the new edge, the two corners at
+    /// its ends have the values of the old corner. The edge has zero values.
     ///
     /// Returns the new edge.
     ///
@@ -95,9 +95,9 @@ impl Mesh {
             self.set_face(new, face);
         }
 
-        // If the stored half-edge of v now leaves w, it becomes the stored half-edge of w, and vw becomes the
-        // stored half-edge of v. Otherwise v keeps its stored half-edge, and wv becomes the stored half-edge of
-        // w. In both cases, a vertex on the boundary has a boundary half-edge.
+        // If the stored half-edge of v now leaves w, it becomes the stored half-edge of w, and vw becomes the stored
+        // half-edge of v. If the stored half-edge of v still leaves v, v keeps it, and wv becomes the stored half-edge
+        // of w. In both cases, the stored half-edge of a boundary vertex is a boundary half-edge.
         let old = self.vertex_half_edge(v);
         let is_moved = old.is_some_and(|h| self.origin(h) == w);
         let first = if is_moved { old } else { Some(wv) };
@@ -215,8 +215,8 @@ mod tests {
         };
         let (v, removed) = (shape.origin(h), shape.target(h));
         let triangles = [h, h.twin()].map(|h| shape.face(h).is_some_and(|f| shape.is_triangle(f)));
-        // The first and the last half-edge to move back to the removed vertex. If a triangle vanished, its edge
-        // at the removed vertex was merged with its edge at v; the edge at v is then used.
+        // The first and the last of the half-edges that move back to the removed vertex. If a triangle vanished, its
+        // edge at the removed vertex was merged with its edge at v. In this case, the edge at v is used.
         let [mut first, mut last] = [shape.next(h), shape.prev(h.twin()).twin()];
         if triangles[0] {
             first = shape.prev(h).twin();
@@ -348,7 +348,7 @@ mod tests {
 
     #[test]
     fn two_corners_of_one_face_are_refused() {
-        // The two faces share two edges. After a flip of one of these edges, the second face contains vertex 2
+        // The two faces share two edges. After a flip of one of the shared edges, the second face contains vertex 2
         // twice.
         let polygons: [&[u32]; 2] = [&[0, 1, 2, 3], &[1, 0, 4, 3, 2, 5]];
         let (mut mesh, _) = Mesh::from_polygons(vec![DVec3::ZERO; 6], &polygons).unwrap();

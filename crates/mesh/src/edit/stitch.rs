@@ -140,7 +140,7 @@ impl Mesh {
     /// Merges the edges of two half-edges without faces. The edge with the lower id remains.
     fn merge_edges(&mut self, [h, g]: Pair) -> EdgeId {
         let (kept, removed) = (h.min(g), h.max(g));
-        // One half of the removed edge has a face. The kept half-edge takes the place of this half.
+        // One half of the removed edge has a face. The kept half-edge takes the place of the half that has a face.
         let old = removed.twin();
         let (before, after, face) = (self.prev(old), self.next(old), self.face(old));
         self.set_next(before, kept);
@@ -152,8 +152,8 @@ impl Mesh {
         kept.edge()
     }
 
-    /// Sets the stored half-edge of the origin of `h`. If the vertex has an outgoing boundary half-edge, that
-    /// half-edge is stored; otherwise `h`.
+    /// Sets the stored half-edge of the origin of `h`. If the vertex has an outgoing boundary half-edge, that half-edge
+    /// is stored; otherwise, `h` is stored.
     fn reset_vertex_half_edge(&mut self, h: HalfEdgeId) {
         let v = self.origin(h);
         self.set_vertex_half_edge(v, Some(h));

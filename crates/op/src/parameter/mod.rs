@@ -1,7 +1,7 @@
 //! Parameter types that operations share.
 //!
-//! The range of a parameter is part of its type. A value outside of the range is an error when the recipe is read, the
-//! schema of a number contains its range, and operations do not check the range again.
+//! The range of a parameter is part of its type. If a value is outside its range, reading the recipe fails. Operations
+//! therefore do not check the range again. The JSON schema of a number contains its range.
 
 mod number;
 mod turn;

@@ -13,8 +13,8 @@ use super::{Angle, Axis};
 pub struct Turn {
     /// The direction of the axis.
     pub axis: Axis,
-    /// The angle in degrees, counter-clockwise when the axis points towards the viewer. Rotations by multiples of 90
-    /// degrees are exact.
+    /// The angle of the rotation, in degrees. A positive angle is counter-clockwise if the axis points towards the
+    /// viewer. Rotations by multiples of 90 degrees have no rounding errors.
     #[serde(alias = "degrees")]
     #[schemars(extend("aliases" = ["degrees"]))]
     pub angle: Angle,
@@ -32,7 +32,7 @@ impl Turn {
         DMat3::from_cols(x, y, z)
     }
 
-    /// Returns the matrix of several rotations, applied in order.
+    /// Returns the matrix of several rotations that are applied one after the other.
     pub fn all(turns: &[Self]) -> DMat3 {
         turns
             .iter()

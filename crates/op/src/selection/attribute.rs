@@ -5,13 +5,13 @@ use mesh::{Column, Domain, Id, Mesh, Values};
 use super::{ElementKind, Select};
 use crate::{OpError, Refusal};
 
-/// Returns a function that maps the index of an element to its value of the attribute, or to one component if the
-/// values are vectors.
+/// Returns a function that takes the index of an element and returns its attribute value. If the values are vectors,
+/// the function returns one component.
 ///
 /// # Errors
 ///
-/// Returns [`Refusal::Missing`] if no attribute of these elements has this name; [`OpError::Parameter`] if the
-/// attribute is a tag, if it is a vector and `component` is missing, or if the attribute does not have this component.
+/// Returns [`Refusal::Missing`] if no attribute of these elements has this name. Returns [`OpError::Parameter`] if the
+/// attribute is a tag, if it is a vector but `component` is missing, or if the attribute does not have this component.
 pub(super) fn component_of<'m, S: Select>(
     mesh: &'m Mesh,
     name: &str,
@@ -26,11 +26,11 @@ pub(super) fn component_of<'m, S: Select>(
 }
 
 /// Returns the index of the component that the parameter `component` of a selection chooses. If the attribute holds one
-/// number for each element, `component` must be omitted, and the index is 0.
+/// number for each element, `component` must be omitted, and the returned index is 0.
 ///
 /// # Errors
 ///
-/// Returns [`OpError::Parameter`] if the attribute is a tag, if it is a vector and `component` is missing, or if the
+/// Returns [`OpError::Parameter`] if the attribute is a tag, if it is a vector but `component` is missing, or if the
 /// attribute does not have this component.
 pub fn check_component(
     domain: Domain,
@@ -57,7 +57,7 @@ pub fn check_component(
     )))
 }
 
-/// Returns the refusal for an attribute that these elements do not have.
+/// Returns the refusal for an attribute that does not exist on this kind of element.
 fn missing<S: Select>(mesh: &Mesh, name: &str) -> OpError {
     let attributes = mesh.attributes();
     let refused = |message| OpError::refused(Refusal::Missing, message);

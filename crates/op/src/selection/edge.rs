@@ -50,11 +50,11 @@ selection! {
         EdgesAround(VertexSelection),
         /// Edges with both ends among these vertices.
         EdgesWithin(VertexSelection),
-        /// These edges and the edge loops through them. A loop goes straight across each interior vertex with four
-        /// edges. A loop that starts at a boundary edge follows the boundary.
+        /// The given edges and all edge loops through them. An edge loop continues straight across each interior vertex
+        /// that has four edges. An edge loop that starts at a boundary edge follows the boundary.
         EdgeLoop(Box<Self>),
-        /// These edges and the edge rings through them. A ring goes from an edge to the opposite edge of each face
-        /// with four corners.
+        /// The given edges and all edge rings through them. An edge ring passes through each face with four corners,
+        /// from an edge to the opposite edge.
         EdgeRing(Box<Self>),
         /// The shortest path along edges from one vertex to another. Refused if no path exists.
         Path {
@@ -63,9 +63,9 @@ selection! {
             /// The id of the last vertex.
             to: u32,
         },
-        /// The longest edges. If edges are equally long, those with the lower ids are selected.
+        /// The longest edges. If several edges have the same length, the edges with the lowest ids are chosen.
         Longest {
-            /// The number of edges. If fewer are available, all are selected.
+            /// The number of edges. If fewer edges are available, all of them are selected.
             #[serde(default = "super::one")]
             count: u32,
             /// The selection to choose from.
@@ -76,9 +76,10 @@ selection! {
 }
 
 impl EdgeSelection {
-    /// Converts the parameter `at` of a recipe to a position on the edge `e`, measured from the origin of the first
-    /// half-edge of `e`. If the selection is `Between(v, w)`, `at` is 0 at v and 1 at w. Otherwise `at` is 0 at the end
-    /// with the lower id. Returns `at` unchanged if the edge does not exist, because the edit will refuse the edge.
+    /// Converts the parameter `at` of a recipe to a position on the edge `e`. The position is 0 at the origin of the
+    /// first half-edge of `e` and 1 at the other end. If the selection is `Between(v, w)`, `at` is 0 at v and 1 at w.
+    /// For every other selection, `at` is 0 at the end of the edge with the lower id. If the edge does not exist,
+    /// returns `at` unchanged, because the edit will refuse the edge later.
     pub fn place_on(&self, mesh: &Mesh, e: EdgeId, at: f64) -> f64 {
         if !mesh.has_edge(e) {
             return at;

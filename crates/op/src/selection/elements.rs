@@ -10,8 +10,8 @@ use crate::{Context, OpError};
 
 /// A selection of vertices, edges or faces.
 ///
-/// Recipes may omit the outer name if the selection exists for only one kind of element:
-/// `Sharp(above: 30)` is short for `Edges(Sharp(above: 30))`, but `Boundary` exists for all kinds.
+/// A recipe may omit the outer name if only one kind of element has the selection. For example, `Sharp(above: 30)` is
+/// short for `Edges(Sharp(above: 30))`. `Boundary` exists for all kinds, so its outer name is required.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields, remote = "Self")]
 #[schemars(!remote, extend("x-shorthand" = true))]
@@ -41,8 +41,8 @@ impl ElementKind {
     /// All three kinds.
     pub const ALL: [Self; 3] = [Self::Vertices, Self::Edges, Self::Faces];
 
-    /// Returns the selections of this kind that take a selection of `other` elements, such as `EdgesOf` for the edges
-    /// of faces. The list is empty if the kinds are equal.
+    /// Returns the names of the selections of this kind that are made from a selection of another kind `other`. For
+    /// example, `EdgesOf` makes a selection of edges from faces. The list is empty if both kinds are equal.
     pub fn conversions(self, other: Self) -> &'static [&'static str] {
         match (self, other) {
             (Self::Vertices, Self::Edges) => &["EndsOf"],

@@ -38,8 +38,8 @@ selection! {
             /// The largest angle between the normal and the direction, in degrees.
             within: AngleBetween,
         },
-        /// These faces and all faces that can be reached from them by crossing only edges at which the normals of the
-        /// two faces differ by at most the angle `to_angle`.
+        /// The given faces, and all faces that can be reached from them across edges at which the normals of the two
+        /// faces differ by at most the angle `to_angle`.
         Expand {
             /// The largest angle between the normals of two neighboring faces, in degrees, from 0 (flat) to 180.
             to_angle: AngleBetween,

@@ -1,10 +1,11 @@
 //! Selections: values that describe which vertices, edges or faces an operation works on.
 //!
-//! The three types share one algebra: `And`, `Or`, `Not`, `Grow`, `Shrink`, `Component`, choices from another selection
-//! (`Random`, `Nearest`, ...), and `Expect`, which fails unless another selection has the expected number of elements.
-//! A step evaluates its selections once, before the first edit.
+//! The selection types for vertices, edges and faces have many variants in common: `And`, `Or`, `Not`, `Grow`,
+//! `Shrink`, `Component`, choices from another selection (`Random`, `Nearest` and others), and `Expect`. `Expect` fails
+//! unless another selection has the expected number of elements. A step evaluates its selections once, before the first
+//! edit.
 
-/// Defines a selection type: the variants that all three types share, and the variants of this type.
+/// Defines a selection type. The type gets the variants that all three types share, and its own variants.
 macro_rules! selection {
     (
         $(#[$meta:meta])*
@@ -44,11 +45,12 @@ macro_rules! selection {
             Where {
                 /// The name of the attribute.
                 attribute: String,
-                /// The component of a vector, from 0. Required for vectors, not allowed for numbers.
+                /// The index of the component of a vector, starting at 0. Required if the attribute is a vector, and
+                /// not allowed if it is a number.
                 #[serde(default)]
                 #[schemars(range(max = 3))]
                 component: Option<u32>,
-                /// Only values above this number. At least one of `above` and `below` is required.
+                /// Only values above this number. At least one of the bounds `above` and `below` is required.
                 #[serde(default)]
                 above: Option<$crate::Number>,
                 /// Only values below this number.
@@ -73,28 +75,34 @@ macro_rules! selection {
                 "The ", $elements, " of all connected components of the mesh that this selection touches."
             )]
             Component(Box<Self>),
-            /// A random choice. The same seed in the same step gives the same choice.
+            /// A random choice. In the same step, the same seed always makes the same choice.
             Random {
-                #[doc = concat!("The number of ", $elements, ". If fewer are available, all are selected.")]
+                #[doc = concat!(
+                    "The number of ", $elements, ". If fewer ", $elements,
+                    " are available, all of them are selected."
+                )]
                 count: u32,
                 /// The selection to choose from.
                 #[serde(default)]
                 of: Box<Self>,
-                /// The seed. A different seed gives a different choice.
+                /// The seed. A different seed makes a different choice.
                 seed: u64,
             },
             #[doc = $nearest]
             Nearest {
                 /// The point.
                 to: $crate::Vector,
-                #[doc = concat!("The number of ", $elements, ". If fewer are available, all are selected.")]
+                #[doc = concat!(
+                    "The number of ", $elements, ". If fewer ", $elements,
+                    " are available, all of them are selected."
+                )]
                 #[serde(default = "super::one")]
                 count: u32,
                 /// The selection to choose from.
                 #[serde(default)]
                 of: Box<Self>,
             },
-            /// All elements of the selection `of`. Refused unless the number of these elements is exactly `count`.
+            /// All elements of the selection `of`. Refused unless the selection has exactly `count` elements.
             Expect {
                 #[doc = concat!("The expected number of ", $elements, ".")]
                 count: u32,
@@ -155,9 +163,9 @@ pub use face::FaceSelection;
 pub use region::Region;
 pub use vertex::VertexSelection;
 
-/// The variants that all selection types share. The documentation is in the macro `selection`.
+/// The variants that all selection types share. The macro `selection` documents each variant.
 enum Shared<'a, S> {
-    /// Any variant that only one selection type has.
+    /// Stands for all variants that only one of the selection types has.
     Own,
     All,
     Inside(&'a Region),
@@ -201,20 +209,20 @@ pub trait Select: Sized + Sync {
     /// # Errors
     ///
     /// Returns [`Refusal::Missing`] if a given element, tag, attribute or material does not exist, or if no path
-    /// exists. Returns [`Refusal::Expectation`] if `Expect` found a different number of elements.
+    /// exists. Returns [`Refusal::Expectation`] if a selection `Expect` does not have the expected number of elements.
     fn resolve(&self, mesh: &Mesh, cx: &Context) -> Result<Vec<Self::Id>, OpError> {
         let mask = self.mask(mesh, cx)?;
         Ok(Self::marked(mesh, &mask).collect())
     }
 
-    /// Returns one flag for each element, by the index of the element: whether the element is selected.
+    /// Returns one flag for each element, at the index of the element. The flag says whether the element is selected.
     ///
     /// # Errors
     ///
     /// Returns the errors of [`resolve`](Self::resolve).
     fn mask(&self, mesh: &Mesh, cx: &Context) -> Result<Vec<bool>, OpError>;
 
-    /// Returns how many elements of a planned mesh this selection can contain, as a range.
+    /// Returns the possible number of elements that this selection contains in a planned mesh, as a range.
     fn count(&self, plan: &MeshPlan) -> Range;
 
     /// Returns all elements of a mesh.
@@ -320,7 +328,8 @@ impl<S: Select> Shared<'_, S> {
         })
     }
 
-    /// Returns how many elements the variant can select, as a range. `all` is the number of all elements.
+    /// Returns the possible number of elements that the variant selects, as a range. `all` is the number of all
+    /// elements.
     fn count(&self, all: Range, plan: &MeshPlan) -> Range {
         match self {
             Self::All => all,
@@ -346,7 +355,7 @@ fn marks<S: Select>(mesh: &Mesh, predicate: impl Fn(S::Id) -> bool) -> Vec<bool>
     mask
 }
 
-/// Returns for each vertex whether it is inside the mesh of the object `name`.
+/// Returns one flag for each vertex. The flag says whether the vertex lies inside the mesh of the object `name`.
 fn inside_of(mesh: &Mesh, name: &str, cx: &Context) -> Result<Vec<bool>, OpError> {
     let other = cx.other_mesh("InsideOf", name)?;
     let Some(index) = SurfaceIndex::with_progress(&other, cx.progress())? else {
@@ -378,7 +387,7 @@ fn tagged<S: Select>(mesh: &Mesh, name: &str) -> Result<Vec<bool>, OpError> {
     Err(OpError::refused(Refusal::Missing, message))
 }
 
-/// Returns the elements that are not marked.
+/// Returns the elements that `mask` does not mark.
 fn not<S: Select>(mesh: &Mesh, mask: &[bool]) -> Vec<bool> {
     marks::<S>(mesh, |id| !mask[id.index()])
 }
@@ -399,7 +408,8 @@ fn touching<S: Select>(mesh: &Mesh, vertices: &[bool]) -> Vec<bool> {
     })
 }
 
-/// Returns the marked elements and the elements that share a vertex (for vertices: an edge) with them.
+/// Returns the marked elements and their neighbors. Two vertices are neighbors if they share an edge, and two edges or
+/// faces are neighbors if they share a vertex.
 fn grow<S: Select>(mesh: &Mesh, mask: &[bool]) -> Vec<bool> {
     let mut vertices = touched::<S>(mesh, mask);
     if S::Id::DOMAIN == Domain::Vertex {
@@ -421,8 +431,8 @@ fn center<S: Select>(mesh: &Mesh, id: S::Id) -> DVec3 {
     sum / n
 }
 
-/// Returns the `count` marked elements with the lowest keys. If elements have equal keys, the elements with the lower
-/// ids come first.
+/// Returns the `count` marked elements with the lowest keys. Among elements with equal keys, those with the lowest ids
+/// are chosen.
 fn lowest<S: Select, K: PartialOrd>(
     mesh: &Mesh,
     count: u32,
@@ -439,8 +449,8 @@ fn lowest<S: Select, K: PartialOrd>(
     chosen
 }
 
-/// Adds a note to the report if fewer than `count` elements are available for a choice. `mask` marks the available
-/// elements.
+/// Adds a note to the report if a selection chooses `count` elements but fewer are available. `mask` marks the elements
+/// that are available for the choice.
 fn note_if_fewer<S: Select>(choice: &str, count: u32, mask: &[bool], cx: &Context) {
     let available = mask.iter().filter(|&&m| m).count();
     if available < count as usize {
@@ -451,7 +461,7 @@ fn note_if_fewer<S: Select>(choice: &str, count: u32, mask: &[bool], cx: &Contex
     }
 }
 
-/// Hashes two numbers: combines them and applies the output function of SplitMix64.
+/// Combines two numbers into one, and hashes the result with the output function of SplitMix64.
 ///
 /// Steele, Lea, Flood, "Fast Splittable Pseudorandom Number Generators", 2014.
 fn mix(key: u64, counter: u64) -> u64 {

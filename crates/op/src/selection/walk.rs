@@ -7,8 +7,8 @@ use mesh::{Domain, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 
 use crate::{OpError, Refusal};
 
-/// Returns the edges and the edge loops through them. A loop goes straight across each interior vertex with four
-/// edges. A loop that starts at a boundary edge follows the boundary.
+/// Returns the edges and the edge loops through them. An edge loop continues straight across each interior vertex that
+/// has four edges. An edge loop that starts at a boundary edge follows the boundary.
 pub(super) fn edge_loops(mesh: &Mesh, edges: &[EdgeId]) -> Vec<bool> {
     follow(mesh, edges, |h| {
         if mesh.is_boundary_edge(h.edge()) {
@@ -24,8 +24,8 @@ pub(super) fn edge_loops(mesh: &Mesh, edges: &[EdgeId]) -> Vec<bool> {
     })
 }
 
-/// Returns the edges and the edge rings through them. A ring goes from an edge to the opposite edge of each face with
-/// four corners.
+/// Returns the edges and the edge rings through them. An edge ring passes through each face with four corners, from an
+/// edge to the opposite edge.
 pub(super) fn edge_rings(mesh: &Mesh, edges: &[EdgeId]) -> Vec<bool> {
     follow(mesh, edges, |h| {
         let f = mesh.face(h)?;
@@ -33,8 +33,8 @@ pub(super) fn edge_rings(mesh: &Mesh, edges: &[EdgeId]) -> Vec<bool> {
     })
 }
 
-/// Follows `successor` from both half-edges of each edge, until it returns `None` or a visited half-edge. Returns the
-/// visited edges. Each half-edge is visited at most once.
+/// Starts at both half-edges of each edge and calls `successor` repeatedly, until it returns `None` or a half-edge that
+/// was already visited. Returns the visited edges. Each half-edge is visited at most once.
 fn follow(
     mesh: &Mesh,
     edges: &[EdgeId],
@@ -57,7 +57,7 @@ fn follow(
 }
 
 /// Returns the edges of the shortest path between two vertices, starting with the edge at `to`. If several shortest
-/// paths lead to a vertex, the path whose second-to-last vertex has the lowest id is chosen.
+/// paths lead to a vertex, the one whose second-to-last vertex has the lowest id is chosen.
 ///
 /// E. W. Dijkstra, "A note on two problems in connexion with graphs", 1959.
 ///
@@ -126,8 +126,8 @@ pub(super) fn connected(mesh: &Mesh, mut mask: Vec<bool>) -> Vec<bool> {
     mask
 }
 
-/// Returns the marked faces and all faces that can be reached from them across edges whose dihedral angle is at most
-/// `angle`, in degrees.
+/// Returns the marked faces, and all faces that can be reached from them across edges with a dihedral angle of at most
+/// `angle` degrees.
 pub(super) fn spread(mesh: &Mesh, mut mask: Vec<bool>, angle: f64) -> Vec<bool> {
     let mut open: Vec<FaceId> = mesh.faces().filter(|f| mask[f.index()]).collect();
     while let Some(f) = open.pop() {

@@ -1,9 +1,9 @@
-//! Checks the attributes of meshes from step to step: the meshes must have the attributes that a step needs, and a step
-//! must not lose attributes unless `on_loss` allows it.
+//! Checks the attributes of meshes before and after each step. The meshes must have the attributes that a step needs,
+//! and a step must not lose attributes unless `on_loss` allows it.
 //!
-//! The plan of each step states which attributes the step keeps, provides and drops. An attribute counts as lost if a
-//! mesh certainly has it before a step and the plan does not list it after the step. An attribute is missing if all
-//! attributes of the mesh are known and the attribute is not one of them.
+//! The plan of each step says which attributes the step keeps, adds and drops. An attribute is lost if a mesh certainly
+//! has it before a step, but the plan of the mesh after the step does not list it. An attribute is missing if all
+//! attributes of the mesh are known but this attribute is not among them.
 
 use std::collections::HashMap;
 
@@ -15,7 +15,7 @@ use crate::recipe::{OnLoss, RecipeExpectation, RecipeStep};
 use crate::schema_check::did_you_mean;
 use ron_tree::{Diagnostic, Span, Value, ValueKind};
 
-/// The attributes that the steps checked so far have dropped.
+/// The attributes that were dropped by the steps checked so far.
 #[derive(Debug, Default)]
 pub(super) struct Attributes {
     dropped: Vec<DroppedAttribute>,
@@ -30,7 +30,7 @@ struct DroppedAttribute {
     step: String,
 }
 
-/// The names of the meshes whose attributes are known, each with its attributes.
+/// For each mesh whose attributes are known: the name of the object and the list of attributes.
 pub(super) type KnownAttributes = Vec<(String, Vec<PlannedAttribute>)>;
 
 fn key(attribute: &PlannedAttribute) -> (Domain, &str) {
@@ -38,8 +38,8 @@ fn key(attribute: &PlannedAttribute) -> (Domain, &str) {
 }
 
 impl Attributes {
-    /// Records the attributes that a step certainly loses. Adds the certain losses of the step to `losses`, and its
-    /// possible losses to `possible`.
+    /// Records the attributes that a step certainly loses. Adds the certain losses of the step to the list `losses`,
+    /// and its possible losses to the list `possible`.
     pub(super) fn losses(
         &mut self,
         step: &RecipeStep,
@@ -81,8 +81,8 @@ impl Attributes {
         }
     }
 
-    /// Reports errors in the selections of a step: each `Tagged(..)` and each `Where(..)` with a tag or an attribute
-    /// that one of the meshes certainly does not have, and each `Where(..)` without a bound.
+    /// Reports errors in the selections of a step. A `Tagged(..)` or a `Where(..)` is an error if one of the meshes
+    /// certainly does not have its tag or attribute. A `Where(..)` without a bound is an error, too.
     pub(super) fn needs(&self, step: &RecipeStep, plan: &Plan, found: &mut Vec<Diagnostic>) {
         // If the recipe expects a refusal, the missing tag may be the reason for the refusal.
         if plan.incomplete || step.refused.is_some() {
@@ -108,7 +108,7 @@ impl Attributes {
         }
     }
 
-    /// Reports an expected attribute that cannot exist at this point.
+    /// Reports an expectation about an attribute that cannot exist at this point of the recipe.
     pub(super) fn expected(
         &self,
         placed: &RecipeExpectation,
@@ -131,7 +131,7 @@ impl Attributes {
         }
     }
 
-    /// Returns the first of the objects in `on` that cannot have the attribute, with a help text.
+    /// Returns the first object in `on` that cannot have the attribute, and a help text.
     fn lacking<'p>(
         &self,
         plan: &'p Plan,
@@ -149,7 +149,8 @@ impl Attributes {
         Some((object, self.help(object, domain, name, mesh)))
     }
 
-    /// Returns the help text for a missing attribute: which step dropped it, or else a similar name.
+    /// Returns the help text for a missing attribute. The help text names the step that dropped the attribute or, if no
+    /// step dropped it, an attribute with a similar name.
     fn help(&self, object: &str, domain: Option<Domain>, name: &str, mesh: &MeshPlan) -> String {
         let is_missing = |d: &&DroppedAttribute| {
             d.object == object && d.name == name && domain.is_none_or(|domain| d.domain == domain)
@@ -208,7 +209,7 @@ pub(super) fn may_fail(step: &RecipeStep, loss: &Loss) -> Diagnostic {
 
 #[cfg(test)]
 thread_local! {
-    /// The number of objects that checks on this thread have visited.
+    /// The number of objects that the checks on this thread have visited so far.
     pub(crate) static VISITED: std::cell::Cell<usize> = const { std::cell::Cell::new(0) };
 }
 

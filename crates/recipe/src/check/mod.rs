@@ -1,4 +1,4 @@
-//! Checks a recipe without running it: plans every step on the forecast of the scene before the step.
+//! Checks a recipe without running it: plans each step on the forecast of the scene before that step.
 
 mod attributes;
 mod selections;
@@ -21,7 +21,7 @@ use selections::missing_elements;
 pub(crate) use attributes::VISITED;
 pub(crate) use attributes::forbidden;
 
-/// The forecast of the scene after a step.
+/// The predicted state of the scene after a step.
 #[derive(Clone, Debug)]
 pub struct StepForecast {
     /// The label of the step.
@@ -34,14 +34,14 @@ pub struct StepForecast {
     pub faces: Range,
     /// The memory that all meshes take, in bytes.
     pub bytes: Range,
-    /// The data that the step certainly loses.
+    /// The data that the step will certainly lose.
     pub losses: Vec<Loss>,
-    /// The data that the step may lose. Losses that depend on the values of points and attributes, such as coincident
-    /// vertices or numbers that are not finite, are not listed.
+    /// The data that the step may lose. Losses that depend on the values of points and attributes are not listed.
+    /// Examples are losses because of coincident vertices or of numbers that are not finite.
     pub possible_losses: Vec<Loss>,
-    /// The number of files in [`Forecast::inputs`] that this step and earlier steps read.
+    /// The number of files in [`Forecast::inputs`] that the steps up to this step read.
     pub n_inputs: usize,
-    /// The number of files in [`Forecast::outputs`] that this step and earlier steps write.
+    /// The number of files in [`Forecast::outputs`] that the steps up to this step write.
     pub n_outputs: usize,
 }
 
@@ -70,13 +70,13 @@ impl Forecast {
     }
 }
 
-/// Checks a recipe that was read: plans every step, and returns the forecast. `budget` is the memory budget for meshes,
+/// Checks a recipe that was read. Plans every step, and returns the forecast. `budget` is the memory budget for meshes,
 /// in bytes.
 pub fn check(recipe: &Recipe, files: &Files, budget: u64) -> Forecast {
     check_from(recipe, &Scene::new(), files, budget)
 }
 
-/// Like [`check`], for steps that run on `scene` instead of an empty scene.
+/// Like [`check`], but the steps run on `scene` instead of an empty scene.
 pub fn check_from(recipe: &Recipe, scene: &Scene, files: &Files, budget: u64) -> Forecast {
     let mut forecast = Forecast::default();
     let mut plan = Plan::of(scene);
@@ -211,7 +211,7 @@ fn exceeds_budget(step: &RecipeStep, bytes: u64, budget: u64) -> Diagnostic {
     Diagnostic::error(step.span, message).with_help("raise the budget with --budget")
 }
 
-/// Returns the errors and warnings of an expectation at this point of the recipe.
+/// Returns the errors and warnings for an expectation at this point of the recipe.
 fn check_expectation(
     placed: &RecipeExpectation,
     plan: &Plan,
@@ -246,7 +246,8 @@ fn check_expectation(
     found
 }
 
-/// Returns the errors and warnings of an `Output` expectation: `path` is the written file, `beside` the reference file.
+/// Returns the errors and warnings for an `Output` expectation. `path` is the written file, and `beside` is the
+/// reference file.
 fn check_output(
     path: &str,
     beside: &str,
@@ -297,10 +298,10 @@ fn missing_file(files: &Files, path: &Path, span: Span) -> Option<Diagnostic> {
     (!files.store.is_file(path)).then(|| Diagnostic::error(span, message))
 }
 
-/// The totals over all meshes of a plan. If a step only adds objects, only the new objects are counted, so that
-/// counting takes no time for unchanged objects.
+/// The total counts and sizes of all meshes of a plan. If a step only adds objects, only the new objects are counted.
+/// Unchanged objects therefore cost no time.
 struct Totals {
-    /// The number of objects that are counted.
+    /// The number of objects that have been counted.
     objects: usize,
     vertices: Range,
     edges: Range,

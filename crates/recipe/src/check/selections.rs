@@ -1,7 +1,7 @@
-//! Checks the numbers and names in selections: elements and materials that a mesh certainly does not have, and objects
-//! that do not exist.
+//! Checks the numbers and names in selections. Reports elements and materials that a mesh certainly does not have, and
+//! objects that do not exist.
 //!
-//! Selections are recognized by their syntax, because they can be nested in any parameter.
+//! A selection can be nested in any parameter, so selections are found by their syntax.
 
 use op::{MeshPlan, Plan};
 use ron_tree::{Call, Diagnostic, Span, Value, ValueKind};
@@ -19,8 +19,8 @@ enum Named<'v> {
     Object(&'v str),
 }
 
-/// Reports each element and each material that a selection of the step names but that one of the step's meshes
-/// certainly does not have. Also reports each object that a selection names but that does not exist.
+/// Reports each element and each material that a selection of the step names, if one of the meshes of the step
+/// certainly does not have it. Also reports each object that a selection names but that does not exist.
 pub(super) fn missing_elements(step: &RecipeStep, plan: &Plan, found: &mut Vec<Diagnostic>) {
     // If the recipe expects a refusal, the missing element may be the reason for the refusal.
     if plan.incomplete || step.refused.is_some() {
@@ -52,8 +52,8 @@ pub(super) fn missing_elements(step: &RecipeStep, plan: &Plan, found: &mut Vec<D
 }
 
 impl Named<'_> {
-    /// If a mesh certainly does not have the element or the material, returns the error message and, for some errors, a
-    /// help text.
+    /// Returns an error message if a mesh certainly does not have the element or material. Some of the errors also have
+    /// a help text.
     fn missing_in(&self, object: &str, mesh: &MeshPlan) -> Option<(String, Option<String>)> {
         match *self {
             Self::Vertex(number) => mesh.missing_vertex_message(number).map(|m| (m, None)),
@@ -112,7 +112,7 @@ fn add_name<'v>(
     }
 }
 
-/// Adds the elements with these numbers.
+/// Adds the elements with the ids `numbers` to `named`.
 fn add<'v>(
     numbers: impl Iterator<Item = &'v Value>,
     element: fn(u32) -> Named<'v>,

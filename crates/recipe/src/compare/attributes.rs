@@ -35,16 +35,17 @@ pub enum ColumnDifference {
     Values {
         /// The number of values that differ.
         count: usize,
-        /// The largest difference between two corresponding numbers. Two different values of a tag differ by 1.
+        /// The largest difference between two corresponding numbers. Two different values of a tag count as a
+        /// difference of 1.
         by: f64,
-        /// The element of the first mesh with the largest difference, such as `v12`.
+        /// The element of the first mesh at which the values differ most, such as `v12`.
         element: String,
     },
 }
 
 impl AttributeDifference {
-    /// Whether both meshes have the attribute with the same type and the same edit rule, and no value differs by more
-    /// than `tolerance`. Returns `false` if the values cannot be compared.
+    /// Whether both meshes have the attribute with the same type and the same edit rule, and each pair of corresponding
+    /// values differs by at most `tolerance`. Returns `false` if the values cannot be compared.
     pub fn is_within(&self, tolerance: f64) -> bool {
         match &self.difference {
             ColumnDifference::None => true,
@@ -54,8 +55,8 @@ impl AttributeDifference {
     }
 }
 
-/// Compares the attributes of two meshes. Values are compared only if `orders` gives the corresponding elements of the
-/// two meshes.
+/// Compares the attributes of two meshes. Values are compared only if `orders` is given, because it says which elements
+/// of the two meshes correspond.
 pub(super) fn differences(
     [a, b]: [&Mesh; 2],
     orders: Option<&[Order; 2]>,
@@ -95,7 +96,8 @@ pub(super) fn differences(
     found
 }
 
-/// Compares two columns: the value of each element in `first` with the value of the corresponding element in `second`.
+/// Compares two attribute columns. The value of each element in `first` is compared with the value of the corresponding
+/// element in `second`.
 fn values<I: Id>(a: &Column, b: &Column, first: &[I], second: &[I]) -> ColumnDifference {
     let (mut count, mut most, mut element) = (0, 0.0, None);
     for (&i, &j) in first.iter().zip(second) {
@@ -119,7 +121,7 @@ fn values<I: Id>(a: &Column, b: &Column, first: &[I], second: &[I]) -> ColumnDif
     }
 }
 
-/// Returns the largest difference between the numbers of two values of the same type.
+/// Compares two values of the same type and returns the largest difference between corresponding components.
 fn largest_difference(a: &Values, i: usize, b: &Values, j: usize) -> f64 {
     match (a, b) {
         (Values::Float(a), Values::Float(b)) => (a[i] - b[j]).abs(),

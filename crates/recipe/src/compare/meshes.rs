@@ -12,16 +12,17 @@ use geometry::distance::Distance;
 /// The comparison of two meshes.
 #[derive(Clone, Debug)]
 pub struct MeshDifference {
-    /// The element counts and the sizes of the first and the second mesh.
+    /// The element counts and the size of the first mesh, and those of the second mesh.
     pub counts: [Counts; 2],
     /// Whether corresponding faces of the two meshes have the same vertices.
     pub connectivity: Connectivity,
     /// The vertices that moved. `None` if no vertex moved or `connectivity` is not [`Connectivity::Same`].
     pub moved: Option<Moved>,
-    /// The attributes of both meshes. For each domain, the attributes of the first mesh come first, then the attributes
-    /// that only the second mesh has.
+    /// The attributes of both meshes. The attributes are grouped by domain. In each group, the attributes of the first
+    /// mesh come first, followed by the attributes that only the second mesh has.
     pub attributes: Vec<AttributeDifference>,
-    /// The distance between the surfaces. `None` if the meshes are identical or one of them has no faces.
+    /// The distance between the surfaces of the two meshes. `None` if the meshes are identical or one of them has no
+    /// faces.
     pub distance: Option<Distance>,
 }
 
@@ -40,19 +41,19 @@ pub struct Counts {
     pub boundary_loops: usize,
     /// The sum of the areas of the faces.
     pub area: f64,
-    /// The enclosed volume. It is meaningless if the mesh has boundary loops.
+    /// The enclosed volume. The volume has no meaning if the mesh has boundary loops.
     pub volume: f64,
-    /// The lowest and highest coordinates. `None` if the mesh has no vertices.
+    /// The lowest and the highest coordinates of the vertices. `None` if the mesh has no vertices.
     pub bounds: Option<[DVec3; 2]>,
 }
 
 /// Whether the faces of two meshes have the same vertices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Connectivity {
-    /// Both meshes have the same vertex ids, and the n-th face of one mesh has the same vertices as the n-th face of
-    /// the other mesh, in the order of face ids.
+    /// Both meshes have the same vertex ids. If the faces are ordered by id, the n-th face of one mesh has the same
+    /// vertices as the n-th face of the other mesh.
     Same,
-    /// The vertices have the same positions and the faces are the same, but ids differ.
+    /// The vertices have the same positions and the faces are the same, but the ids differ.
     Reordered,
     /// The faces differ.
     Different,
@@ -63,9 +64,9 @@ pub enum Connectivity {
 pub struct Moved {
     /// The number of vertices that moved.
     pub count: usize,
-    /// The vertex that moved farthest.
+    /// The vertex that moved the largest distance.
     pub vertex: VertexId,
-    /// How far that vertex moved, in scene units.
+    /// The distance that the vertex moved, in scene units.
     pub by: f64,
 }
 
@@ -117,8 +118,8 @@ impl Counts {
     }
 }
 
-/// Whether the meshes are the same up to the order of their elements. Several vertices at the same position are matched
-/// in the order of their ids.
+/// Whether the two meshes differ only in the order of their elements. If several vertices have the same position, they
+/// are matched in the order of their ids.
 fn same_up_to_order(a: &Mesh, b: &Mesh, [p, q]: &[Order; 2]) -> bool {
     let sorted = |mesh: &Mesh, order: &Order| {
         let mut vertices = order.vertices.clone();

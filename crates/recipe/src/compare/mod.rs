@@ -1,7 +1,8 @@
 //! Compares two scenes.
 //!
-//! Objects with the same name are compared. If exactly one other object remains in each scene, these two objects are
-//! compared too, because a mesh that is alone in a file is often named after the file.
+//! Objects with the same name are compared. If each scene has exactly one object without a partner of the same name,
+//! these two objects are compared, too. A mesh that is alone in a file is often named after the file, so the names of
+//! such objects differ.
 
 mod attributes;
 mod meshes;
@@ -15,14 +16,14 @@ pub use meshes::{Connectivity, Counts, MeshDifference, Moved};
 /// The comparison of two scenes.
 #[derive(Clone, Debug)]
 pub struct Difference {
-    /// Whether both scenes have the same graph, and the same objects in the same order. If two objects with different
-    /// names are compared, their names are ignored.
+    /// Whether both scenes have the same graph, and the same objects in the same order. If a pair of compared objects
+    /// has different names, the names are ignored.
     pub identical: bool,
-    /// Objects that only the first scene has.
+    /// The names of the objects that only the first scene has.
     pub only_first: Vec<String>,
-    /// Objects that only the second scene has.
+    /// The names of the objects that only the second scene has.
     pub only_second: Vec<String>,
-    /// The pairs of objects that are compared: first those with the same name, in the order of the first scene.
+    /// The pairs of objects that are compared. The pairs with equal names come first, in the order of the first scene.
     pub objects: Vec<ObjectDifference>,
 }
 
@@ -37,19 +38,19 @@ pub struct ObjectDifference {
     pub identical: bool,
     /// The comparison of the meshes, if both objects are meshes.
     pub mesh: Option<Box<MeshDifference>>,
-    /// Materials that only the first object has.
+    /// The names of the materials that only the first object has.
     pub materials_only_first: Vec<String>,
-    /// Materials that only the second object has.
+    /// The names of the materials that only the second object has.
     pub materials_only_second: Vec<String>,
-    /// Names of materials that both objects have with different values.
+    /// The names of materials that both objects have, but with different values.
     pub materials_differ: Vec<String>,
-    /// Whether both objects have the same names of materials, but in a different order.
+    /// Whether the materials of both objects have the same names, but in a different order.
     pub materials_reordered: bool,
 }
 
 impl Difference {
-    /// Compares two scenes. Measures the distance between meshes that are not identical. If the nodes of the scenes
-    /// differ, the instances of objects are compared in scene space.
+    /// Compares two scenes. For meshes that are not identical, measures the distance between their surfaces. If the
+    /// nodes of the scenes differ, the instances of objects are compared in scene space.
     pub fn between(first: &Scene, second: &Scene) -> Self {
         if first.graph() == second.graph() {
             return Self::of_objects(first, second);
@@ -103,9 +104,9 @@ impl Difference {
         }
     }
 
-    /// Whether the scenes have the same objects with the same elements in the same order, and no position or attribute
-    /// value of a mesh differs by more than `tolerance`. Materials, and objects that are not meshes, must be equal.
-    /// `tolerance` is in the unit of the compared value.
+    /// Whether the scenes have the same objects with the same elements in the same order, and all positions and
+    /// attribute values of the meshes differ by at most `tolerance`. Materials, and objects that are not meshes, must
+    /// be equal. `tolerance` has the unit of the values that are compared.
     pub fn is_within(&self, tolerance: f64) -> bool {
         self.identical
             || (self.only_first.is_empty()

@@ -9,7 +9,8 @@ pub(super) struct Order {
     pub(super) faces: Vec<FaceId>,
     /// Sorted by face. Within a face, the corner at the vertex with the lowest id comes first.
     pub(super) corners: Vec<HalfEdgeId>,
-    /// Sorted by the lower vertex id of each edge, then by the higher vertex id.
+    /// The edges, sorted by the lower vertex id of each edge. Edges with the same lower vertex id are sorted by the
+    /// higher vertex id.
     pub(super) edges: Vec<EdgeId>,
 }
 

@@ -30,7 +30,7 @@ pub(super) fn check(
 ///
 /// # Errors
 ///
-/// If a mesh does not have the attribute, or there are no values.
+/// Returns an error if a mesh does not have the attribute, or if there are no values.
 pub(crate) fn values(
     subject: Subject,
     name: &str,
@@ -99,7 +99,7 @@ fn column<'m>(
     })
 }
 
-/// Returns the elements that the selection `of` matches or, if there is no selection, all elements of the domain.
+/// Returns the elements that the selection `of` matches. If there is no selection, returns all elements of the domain.
 fn elements(
     domain: Domain,
     of: Option<&Elements>,

@@ -18,8 +18,8 @@ impl Expectation {
     ///
     /// # Errors
     ///
-    /// A [`Violation`], whose message gives the expected and the actual value if the expectation does not hold, or the
-    /// reason if the expectation cannot be checked.
+    /// Returns a [`Violation`]. If the expectation does not hold, its message gives the expected and the actual value.
+    /// If the expectation cannot be checked, its message gives the reason.
     pub fn check(&self, subject: Subject) -> Result<(), Violation> {
         if self.measures_space() && !subject.scene.graph().is_empty() {
             let placed = PlacedSubject::new(subject, self.other_object())?;
@@ -48,7 +48,7 @@ impl Expectation {
         )
     }
 
-    /// Returns the name of the object to compare with.
+    /// Returns the name of the object with which the expectation compares.
     fn other_object(&self) -> Option<&str> {
         match self {
             Self::Same {
@@ -267,8 +267,8 @@ fn count(of: &Elements, object: &Object, mesh: &Mesh, subject: Subject) -> Resul
     Ok(n as u64)
 }
 
-/// Checks that the Hausdorff distance is proven to be below a limit. If the limit is small, the tolerance of the
-/// measurement is a fraction of the limit, so that small limits can also be checked.
+/// Checks that the Hausdorff distance of two meshes is certainly below a limit. If the limit is small, the measurement
+/// uses a fraction of the limit as its tolerance, so that small limits can be checked, too.
 fn distance_below(
     mesh: &Mesh,
     other: &Mesh,
@@ -292,9 +292,9 @@ fn distance_below(
         };
         let (from, to) = (worst.from, worst.to);
         let endpoints = if found.is_worst_forth() {
-            format!("from {from} to {to} of the other mesh")
+            format!("from the point {from} to the point {to} of the other mesh")
         } else {
-            format!("from {from} of the other mesh to {to}")
+            format!("from the point {from} of the other mesh to the point {to}")
         };
         format!("expected a distance below {below}, found {range}: {endpoints}")
     })

@@ -104,7 +104,7 @@ pub enum Expectation {
     },
     /// The sum of the areas of the faces.
     Area {
-        /// This value, within the tolerance.
+        /// The value must equal this number within the tolerance.
         eq: Option<f64>,
         /// At least this value.
         min: Option<f64>,
@@ -117,7 +117,7 @@ pub enum Expectation {
     },
     /// The enclosed volume.
     Volume {
-        /// This value, within the tolerance.
+        /// The value must equal this number within the tolerance.
         eq: Option<f64>,
         /// At least this value.
         min: Option<f64>,
@@ -139,8 +139,8 @@ pub enum Expectation {
         #[schemars(range(min = 0.0))]
         tolerance: f64,
     },
-    /// There is at least one mesh, and every mesh is a valid manifold in which no two edges join the same
-    /// vertices. Meshes are built as manifolds; this expectation validates them again.
+    /// There is at least one mesh. Every mesh is a valid manifold, and no two edges of a mesh join the same vertices.
+    /// Meshes are always built as manifolds. The expectation `Manifold` checks the meshes once more.
     Manifold,
     /// There is at least one mesh, and no mesh has boundary edges.
     Closed,
@@ -167,8 +167,9 @@ pub enum Expectation {
         /// The highest valence is at most this number.
         max: Option<u64>,
     },
-    /// The dihedral angle, in degrees, of every selected edge between two faces: the angle between the face normals, 0
-    /// if the faces are coplanar. Edges of a zero-area face are skipped. Fails if no selected edge has an angle.
+    /// The dihedral angle of every selected edge between two faces, in degrees. The dihedral angle is the angle between
+    /// the normals of the two faces: 0 if the faces are coplanar. Edges of a face with zero area are skipped. Fails if
+    /// no selected edge has an angle.
     DihedralAngle {
         /// Which edges.
         #[serde(default)]
@@ -177,7 +178,7 @@ pub enum Expectation {
         min: Option<f64>,
         /// The largest angle is at most this value.
         max: Option<f64>,
-        /// The largest angle is at least this value.
+        /// At least one angle has this value or a larger value.
         reaches: Option<f64>,
     },
     /// The length, in scene units, of every selected edge. Fails if the selection is empty.
@@ -200,8 +201,8 @@ pub enum Expectation {
         /// At most this value.
         max: Option<f64>,
     },
-    /// The mean, over the selected faces, of the smallest corner angle of each face, in degrees. It is 60 for
-    /// equilateral triangles. Fails if the selection is empty.
+    /// The smallest corner angle of each selected face, averaged over these faces, in degrees. The smallest corner
+    /// angle of an equilateral triangle is 60. Fails if the selection is empty.
     MeanMinAngle {
         /// Which faces.
         #[serde(default)]
@@ -211,9 +212,9 @@ pub enum Expectation {
         /// At most this value.
         max: Option<f64>,
     },
-    /// The thickness of the solid at each selected vertex, in scene units, as `Measure(of: Thickness, ..)` measures it.
-    /// The thickness is infinite where the surface has no opposite side, as on an open sheet. Fails if the selection is
-    /// empty.
+    /// The thickness of the solid at each selected vertex, in scene units. `Measure(of: Thickness, ..)` measures it in
+    /// the same way. The thickness is infinite where the surface has no opposite side, for example on an open sheet.
+    /// Fails if the selection is empty.
     Thickness {
         /// Which vertices.
         #[serde(default)]
@@ -245,7 +246,7 @@ pub enum Expectation {
     },
     /// The position of one vertex.
     Position {
-        /// Which vertex. The selection must match exactly one.
+        /// Which vertex. The selection must match exactly one vertex.
         of: VertexSelection,
         /// The expected position.
         is: Vector,
@@ -254,12 +255,12 @@ pub enum Expectation {
         #[schemars(range(min = 0.0))]
         tolerance: f64,
     },
-    /// The position of one point of a polyline. The position is in object space, because nodes place only meshes.
+    /// The position of one point of a polyline. The position is in object space, because nodes do not place polylines.
     Point {
-        /// The index of the polyline in its object, counted from 0.
+        /// The index of the polyline in its object, starting at 0.
         #[serde(default)]
         line: u32,
-        /// The index of the point in the polyline, counted from 0.
+        /// The index of the point in the polyline, starting at 0.
         index: u32,
         /// The expected position.
         is: Vector,
@@ -280,17 +281,17 @@ pub enum Expectation {
         #[serde(default = "yes")]
         connectivity: bool,
     },
-    /// The two-sided Hausdorff distance between the surface of the mesh and that of another mesh: the largest
-    /// distance from a point of one surface to the other surface. Fails unless the distance is proven to be
-    /// below the limit.
+    /// The two-sided Hausdorff distance between the surfaces of the mesh and of another mesh. The Hausdorff distance is
+    /// the largest distance from a point of either surface to the other surface. Fails unless the distance is proven to
+    /// be below the limit `below`.
     DistanceTo {
         /// The mesh to compare with.
         other: OtherMesh,
-        /// The limit, in scene units: the distance must be below it.
+        /// The distance must be below this limit, in scene units.
         #[schemars(range(min = 0.0))]
         below: f64,
     },
-    /// How many motions of a symmetry group about the origin map the mesh onto itself. If `eq`, `min` and
+    /// The number of motions in a symmetry group about the origin that map the mesh onto itself. If `eq`, `min` and
     /// `max` are omitted, all motions of the group must map the mesh onto itself.
     SymmetricUnder {
         /// The symmetry group.
@@ -301,18 +302,18 @@ pub enum Expectation {
         min: Option<u64>,
         /// At most this number of motions.
         max: Option<u64>,
-        /// The allowed distance between a moved vertex and the vertex that it is mapped onto.
+        /// The allowed distance between a vertex that was moved by a motion and the vertex onto which it is mapped.
         #[serde(default = "tolerance")]
         #[schemars(range(min = 0.0))]
         tolerance: f64,
-        /// Whether every face must also be mapped onto a face.
+        /// Whether each motion must also map every face onto a face.
         #[serde(default = "yes")]
         connectivity: bool,
     },
-    /// The stretch of texture coordinates. A small circle on the surface becomes an ellipse in the texture. The
-    /// stretch is the ratio of the axes of the ellipse: 1 if angles are preserved. The value of a mesh is the stretch
-    /// that 95 % of the surface area does not exceed. The largest value of all meshes counts. Fails if no mesh has
-    /// the texture coordinates.
+    /// The stretch of texture coordinates. A small circle on the surface becomes an ellipse in the texture. The stretch
+    /// is the ratio of the axes of this ellipse: 1 where angles are preserved. The value of a mesh is the stretch that
+    /// is not exceeded on 95 % of the surface area. If there are several meshes, the largest of their values is
+    /// checked. Fails if no mesh has the texture coordinates.
     UvStretch {
         /// The name of the texture coordinates. Defaults to `uv`.
         #[serde(default = "uv")]
@@ -346,10 +347,10 @@ pub enum Expectation {
     Attribute {
         /// The name of the attribute.
         name: String,
-        /// Which elements. If omitted, all elements of one kind: the first of vertices, faces, corners and edges that
-        /// has an attribute of this name.
+        /// Which elements. If omitted, all elements of one kind: the first kind in the order vertices, faces, corners,
+        /// edges that has an attribute of this name.
         of: Option<Elements>,
-        /// The component of a vector, from 0. Required for vectors.
+        /// The index of the component of a vector, starting at 0. Required for vectors.
         #[schemars(range(max = 3))]
         component: Option<u32>,
         /// Every value is at least this number.
@@ -358,12 +359,12 @@ pub enum Expectation {
         max: Option<f64>,
     },
     /// A file that a step writes equals a reference file, which `meshwright test --update` creates and updates.
-    /// Pictures (.png, .apng) are compared by their pixels, mesh files by the objects that are read from them, and
-    /// other files by their bytes. Recorded provenance is ignored.
+    /// Pictures (.png, .apng) are compared pixel by pixel. Mesh files are compared by the objects that are read from
+    /// them, and all other files byte by byte. Differences in the recorded provenance are ignored.
     Output {
-        /// The written file: the path relative to the output folder, as in the step that writes the file.
+        /// The path of the written file, relative to the output folder, as in the step that writes the file.
         path: String,
-        /// The reference file: a path relative to the recipe's folder, and inside it.
+        /// The path of the reference file, relative to the recipe's folder. The file must be inside this folder.
         r#as: String,
         /// The allowed difference between the colors of two pictures, in steps of 1/255. Defaults to 0.
         #[serde(default)]
@@ -371,22 +372,22 @@ pub enum Expectation {
     },
     /// The digest of the scene, as `meshwright run` prints it.
     Digest(String),
-    /// The inner expectation does not hold. Also fails if the inner expectation cannot be checked, for example
+    /// The inner expectation must not hold. `Not` also fails if the inner expectation cannot be checked, for example
     /// because a file cannot be read or a selection is empty.
     Not(Box<Self>),
 }
 
-/// The mesh that an expectation compares with.
+/// The other mesh with which an expectation compares.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum OtherMesh {
     /// The name of an object of the scene.
     Object(String),
-    /// The first mesh in a file. The path is relative to the recipe's folder.
+    /// The first mesh in a file. The path of a file, relative to the recipe's folder.
     File(String),
 }
 
-/// The elements that an attribute has values for.
+/// The kind of elements that have values of an attribute.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum AttributeDomain {
@@ -424,8 +425,8 @@ const fn yes() -> bool {
 }
 
 impl Expectation {
-    /// Returns the error in the expectation itself, if there is an error. An expectation that can never fail is an
-    /// error.
+    /// Returns an error if the expectation itself is wrong, whatever the scene contains. If an expectation can never
+    /// fail, that is an error.
     pub fn problem(&self) -> Option<&'static str> {
         let needs_bound = match self {
             Self::Objects { eq, min, max }
@@ -464,7 +465,7 @@ impl Expectation {
         needs_bound.then_some("the expectation has no bound, so it can never fail")
     }
 
-    /// Returns the paths of the written file and of the reference file if this is an `Output` expectation.
+    /// If this is an `Output` expectation, returns the paths of the written file and of the reference file.
     pub fn output(&self) -> Option<(&str, &str)> {
         match self {
             Self::Output { path, r#as, .. } => Some((path, r#as)),
@@ -483,7 +484,7 @@ impl Expectation {
         }
     }
 
-    /// Returns the mesh that the expectation compares with, if any.
+    /// Returns the other mesh with which the expectation compares, if it has one.
     pub fn other_mesh(&self) -> Option<&OtherMesh> {
         match self {
             Self::Same { r#as, .. } => Some(r#as),

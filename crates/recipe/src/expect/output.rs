@@ -1,8 +1,8 @@
-//! The expectation `Output`: compares a file that a step has written with a reference file beside the recipe (called
-//! the golden file in the code).
+//! The expectation `Output`, which compares a file that a step has written with a reference file beside the recipe. The
+//! code calls the reference file the golden file.
 //!
-//! Two pictures are compared by their pixels, two mesh files by the objects that are read from them, and two other
-//! files by their bytes. Provenance that is recorded in a file is ignored.
+//! Pictures are compared pixel by pixel. Mesh files are compared by the objects that are read from them, and all other
+//! files byte by byte. The provenance that is recorded in a file is ignored.
 
 use std::path::{Component, Path, PathBuf};
 
@@ -15,7 +15,8 @@ use super::subject::{ActualValue, Subject, Violation, fails_unless};
 /// The maximum size, in bytes, of a written file that `test --update` copies over its reference file.
 const MAX_RECORDED: u64 = 64 << 20;
 
-/// Whether the path has the extension of a picture. The pixels of pictures are compared, not the bytes of the files.
+/// Whether the path has the extension of a picture. Pictures are compared by their pixels, not by the bytes of their
+/// files.
 pub(super) fn is_picture(path: &str) -> bool {
     let extension = Path::new(path).extension().unwrap_or_default();
     ["png", "apng"]
@@ -23,12 +24,13 @@ pub(super) fn is_picture(path: &str) -> bool {
         .any(|e| extension.eq_ignore_ascii_case(e))
 }
 
-/// Returns the full path of a reference file. The allowed paths are restricted, because `test --update` writes to the
-/// file.
+/// Returns the full path of a reference file. Not every path is allowed, because `test --update` writes to the
+/// reference file.
 ///
 /// # Errors
 ///
-/// If the path leads out of the recipe's folder, directly or through a link, or is a folder, a link or a device.
+/// Returns an error if the path leads out of the recipe's folder, directly or through a link. Also returns an error if
+/// the path is a folder, a link or a device.
 pub(crate) fn golden(files: &Files, path: &str) -> Result<PathBuf, String> {
     let relative = Path::new(path);
     let is_plain = relative
@@ -94,8 +96,8 @@ pub(super) fn check(
     })
 }
 
-/// Adds the bytes of the written file to the violation, so that `test --update` can record them. If the bytes cannot be
-/// recorded, adds the reason to the message.
+/// Adds the bytes of the written file to the violation, so that `test --update` can write them to the reference file.
+/// If it is not possible to record the bytes, adds the reason to the message.
 fn with_written_file(
     mut violation: Violation,
     written: &Path,
@@ -127,9 +129,9 @@ fn with_written_file(
     Violation::unmet(format!("{}; the written file {why}", violation.message))
 }
 
-/// Whether a copy of the written file, alone in a folder and with the name of the reference file, would be read as
-/// the same objects. Returns false for an OBJ file with a material library. Returns true if the written file cannot
-/// be read as objects.
+/// Whether the objects of a copy of the written file would be the same if the copy has the name of the reference file
+/// and is alone in its folder. Returns `false` for an OBJ file with a material library, because the copy is read
+/// without the library. Returns true if the written file cannot be read as objects.
 fn stands_alone(written: &Path, golden: &Path, bytes: &[u8], subject: Subject) -> bool {
     let Ok(scene) = subject.reader.scene(written, subject.files) else {
         return true;
@@ -194,7 +196,7 @@ fn compare(written: &Path, golden: &Path, subject: Subject) -> Result<(), Violat
     }))
 }
 
-/// Returns the digests of the scenes in two files. If two corresponding objects are both named after their file, their
+/// Returns the digests of the scenes in two files. If each of two corresponding objects has the name of its file, these
 /// names are treated as equal.
 fn digests(
     (path, scene): (&Path, &Scene),
@@ -213,7 +215,8 @@ fn digests(
     Ok([scene.digest(), other.digest()])
 }
 
-/// Removes the recorded provenance from the bytes of a file: the metadata of an SVG, the comment of a GIF.
+/// Removes the recorded provenance from the bytes of a file. In an SVG file, this is the metadata. In a GIF file, it is
+/// the comment.
 fn without_stamp(mut bytes: Vec<u8>) -> Vec<u8> {
     let find = |bytes: &[u8], text: &[u8]| bytes.windows(text.len()).position(|w| w == text);
     let (open, close): (&[u8], &[u8]) = (b"<metadata>meshwright ", b"</metadata>");

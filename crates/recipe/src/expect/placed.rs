@@ -6,11 +6,12 @@ use scene::Scene;
 
 use super::subject::{Subject, Violation};
 
-/// The maximum total size of all instances, in bytes. A limit is necessary, because many nodes can reference the same
-/// mesh.
+/// The maximum total size of all instances, in bytes. Because many nodes can reference the same mesh, the instances can
+/// be much larger than the meshes.
 const MAX_BYTES: u64 = 1 << 36;
 
-/// A subject (see [`Subject`]) whose objects are the instances of the objects of another subject, in scene space.
+/// A subject (see [`Subject`]) made from another subject. Its objects are the instances of the objects of that subject,
+/// in scene space.
 pub(crate) struct PlacedSubject<'a> {
     scene: Cow<'a, Scene>,
     on: Option<Vec<String>>,
@@ -22,7 +23,7 @@ impl<'a> PlacedSubject<'a> {
     ///
     /// # Errors
     ///
-    /// If `other` has several instances, or if the instances are too large.
+    /// Returns an error if `other` has several instances, or if the instances are too large.
     pub(crate) fn new(subject: Subject<'a>, other: Option<&str>) -> Result<Self, Violation> {
         let scene = subject.scene;
         let bytes = scene.placed_bytes();
@@ -63,7 +64,7 @@ impl<'a> PlacedSubject<'a> {
         })
     }
 
-    /// Returns the subject with the instances as objects.
+    /// Returns the subject whose objects are the instances.
     pub(crate) fn subject(&self) -> Subject<'_> {
         Subject {
             scene: &self.scene,

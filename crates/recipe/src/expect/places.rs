@@ -10,9 +10,9 @@ use super::subject::{Subject, selected, smallest_corner_angle};
 use super::{Expectation, symmetry, textures};
 
 impl Expectation {
-    /// Returns the locations in the scene that violate the expectation, at most [`ErrorLocation::MAX_ELEMENTS`].
-    /// The result is empty for expectations that are not about elements, for `Not`, and for comparisons of meshes in a
-    /// scene with nodes.
+    /// Returns the locations in the scene at which the expectation is violated, at most
+    /// [`ErrorLocation::MAX_ELEMENTS`]. The result is empty for expectations that are not about elements and for `Not`.
+    /// The result is also empty for comparisons of meshes in a scene with nodes.
     pub fn places(&self, subject: Subject) -> Vec<ErrorLocation> {
         let mut places = Vec::new();
         let compares = matches!(
@@ -47,7 +47,7 @@ impl Expectation {
     }
 }
 
-/// A mesh that an expectation is checked on.
+/// A mesh on which an expectation is checked.
 struct CheckedMesh<'a> {
     subject: Subject<'a>,
     object: &'a Object,
@@ -148,7 +148,8 @@ impl CheckedMesh<'_> {
         found.unwrap_or_default()
     }
 
-    /// Returns the selected elements whose measure is out of bounds. Elements without a measure are not returned.
+    /// Returns the selected elements whose measured value is out of bounds. Elements for which `measure` returns `None`
+    /// are not returned.
     fn out_of_bounds<S: Select, T: PartialOrd + Copy>(
         &self,
         of: &S,
@@ -174,7 +175,7 @@ impl CheckedMesh<'_> {
             .collect()
     }
 
-    /// Returns the vertices of each mesh for which no vertex of the other mesh is within the tolerance.
+    /// Returns each vertex of either mesh that has no vertex of the other mesh within the tolerance.
     fn unmatched_vertices(&self, other: &Mesh, tolerance: f64) -> Vec<ErrorLocation> {
         let (these, others) = (PositionIndex::new(self.mesh), PositionIndex::new(other));
         let mut places = self.locations(self.mesh.vertices().filter(|&v| {
@@ -189,8 +190,8 @@ impl CheckedMesh<'_> {
         places
     }
 
-    /// Returns where two surfaces are farthest apart: the element of this mesh, and the line from the point on one
-    /// surface to the nearest point on the other surface.
+    /// Returns where two surfaces are farthest apart, as two locations: the element of this mesh, and the line from the
+    /// point on one surface to the nearest point on the other surface.
     fn farthest(&self, found: &Distance) -> Vec<ErrorLocation> {
         let worst = found.worst();
         let on = if found.is_worst_forth() {
@@ -212,7 +213,7 @@ fn within<T: PartialOrd + Copy>(found: T, min: Option<T>, max: Option<T>) -> boo
     min.is_none_or(|min| found >= min) && max.is_none_or(|max| found <= max)
 }
 
-/// Creates a location without a name.
+/// Creates a location that has no name.
 fn point(at: DVec3) -> ErrorLocation {
     ErrorLocation {
         object: String::new(),
@@ -221,7 +222,7 @@ fn point(at: DVec3) -> ErrorLocation {
     }
 }
 
-/// Creates a location where an element is expected but missing.
+/// Creates a location at a point where an element was expected but does not exist.
 fn expected(at: DVec3) -> ErrorLocation {
     ErrorLocation {
         name: ErrorLocation::EXPECTED.to_owned(),

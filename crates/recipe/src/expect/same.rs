@@ -1,4 +1,4 @@
-//! Checks whether two meshes are the same up to the order of their elements.
+//! Checks whether two meshes differ only in the order of their elements.
 
 use std::cmp::Ordering;
 use std::ops::Range;
@@ -7,9 +7,9 @@ use mesh::{DVec3, Mesh, VertexId};
 
 use super::subject::counted;
 
-/// The vertices of a mesh, for searches by position. The list `tree` is a k-d tree: the vertex in the middle of the
-/// list splits the other vertices by the coordinate in which they extend most. Both halves of the list are split in the
-/// same way.
+/// An index of the vertices of a mesh for finding them by position. The list `tree` is a k-d tree. The vertex in the
+/// middle of the list splits the other vertices by one coordinate, the one in which their bounding box is longest. Each
+/// half of the list is split in the same way.
 pub(super) struct PositionIndex<'m> {
     mesh: &'m Mesh,
     tree: Vec<(VertexId, u8)>,
@@ -22,8 +22,8 @@ impl<'m> PositionIndex<'m> {
         Self { mesh, tree }
     }
 
-    /// Returns the index in the tree of the free vertex nearest to `p`, if there is one within the tolerance. If
-    /// several vertices are equally near, returns the one with the lowest id.
+    /// Returns the free vertex nearest to `p`, as its index in the tree. Returns `None` if no free vertex is within the
+    /// tolerance. If several vertices have the same distance from `p`, returns the one with the lowest id.
     fn nearest(&self, p: DVec3, tolerance: f64, free: &FreeVertices) -> Option<usize> {
         let mut best = (tolerance, VertexId::NONE, 0);
         let all = 0..self.tree.len();
@@ -50,10 +50,10 @@ impl<'m> PositionIndex<'m> {
         found
     }
 
-    /// Searches a part of the tree for the vertices whose distance from `p` is at most `limit`. Calls `at` with the
-    /// index of each vertex that can be so near. `at` returns the limit for the rest of the search. Before a part of
-    /// the tree is searched, calls `enter` with the index of the middle vertex of the part and with the current limit,
-    /// and skips the part if the result is `false`. Returns the last limit.
+    /// Searches a part of the tree for the vertices with a distance of at most `limit` from `p`. Calls `at` with the
+    /// index of each vertex that is found. `at` returns the new limit, which applies to the rest of the search. Before
+    /// searching a part of the tree, calls `enter` with the index of the middle vertex of this part and with the
+    /// current limit. If `enter` returns `false`, the part is skipped. Returns the last limit.
     fn visit(
         &self,
         part: Range<usize>,
@@ -83,9 +83,10 @@ impl<'m> PositionIndex<'m> {
         limit
     }
 
-    /// Matches each vertex v of `other`, in the order of ids, with the nearest vertex of this mesh that is within the
-    /// tolerance of the image of v and is not matched yet. Returns the matches in a list by the index of v. Returns
-    /// `None` if the numbers of vertices differ, or if there is no match for a vertex.
+    /// Matches the vertices of `other` with vertices of this mesh, in the order of ids. Each vertex v is matched with
+    /// the nearest vertex that is not matched yet and that is within the tolerance of the image of v. The item at index
+    /// v of the returned list is the match of v. Returns `None` if the meshes have different numbers of vertices, or if
+    /// a vertex has no match.
     pub(super) fn matching(
         &self,
         other: &Mesh,
@@ -106,17 +107,17 @@ impl<'m> PositionIndex<'m> {
     }
 }
 
-/// Returns the index of the vertex that splits a part of the tree.
+/// Returns the index of the vertex that splits this part of the tree.
 fn middle(part: &Range<usize>) -> usize {
     part.start + part.len() / 2
 }
 
-/// The free vertices of a k-d tree: those that are not matched yet.
+/// The free vertices of a k-d tree, which are the vertices that are not matched yet.
 struct FreeVertices {
     is_free: Vec<bool>,
-    /// For each vertex, the bounding box of the free vertices in the part of the tree that the vertex splits. With the
-    /// boxes, a search skips parts without free vertices. Without the boxes, every search would visit the matched
-    /// vertices again.
+    /// Each vertex of the tree splits a part of the tree. For each vertex, this list has the bounding box of the free
+    /// vertices in this part. With these boxes, a search can skip the parts that have no free vertices. Without these
+    /// boxes, each search would visit the vertices that are already matched.
     boxes: Vec<[DVec3; 2]>,
 }
 
@@ -133,7 +134,7 @@ impl FreeVertices {
         free
     }
 
-    /// Computes the boxes of a part of the tree.
+    /// Computes the bounding boxes for a part of the tree and for all parts inside it.
     fn measure(&mut self, index: &PositionIndex, part: Range<usize>) {
         if !part.is_empty() {
             let middle = middle(&part);
@@ -143,7 +144,7 @@ impl FreeVertices {
         }
     }
 
-    /// Computes the box of a part of the tree from the boxes of its halves.
+    /// Computes the bounding box for a part of the tree from the boxes of its two halves.
     fn update(&mut self, index: &PositionIndex, part: Range<usize>) {
         let middle = middle(&part);
         let own = if self.is_free[middle] {
@@ -158,8 +159,8 @@ impl FreeVertices {
             .fold(own, |a, b| [a[0].min(b[0]), a[1].max(b[1])]);
     }
 
-    /// Returns the distance from `p` to the box of the part that a vertex splits. Infinite if no vertex of the part is
-    /// free.
+    /// Returns the distance from `p` to the bounding box of the part of the tree that a vertex splits. The distance is
+    /// infinite if no vertex of this part is free.
     fn distance(&self, i: usize, p: DVec3) -> f64 {
         let [min, max] = self.boxes[i];
         if min.x > max.x {
@@ -187,7 +188,7 @@ impl FreeVertices {
     }
 }
 
-/// Orders vertices as a k-d tree. Stores with each vertex the coordinate by which the vertex splits its part of the
+/// Orders vertices as a k-d tree. With each vertex, stores which coordinate the vertex uses to split its part of the
 /// tree.
 fn split(mesh: &Mesh, tree: &mut [(VertexId, u8)]) {
     let positions = tree.iter().map(|&(v, _)| mesh.position(v));
@@ -207,8 +208,8 @@ fn split(mesh: &Mesh, tree: &mut [(VertexId, u8)]) {
     split(mesh, &mut above[1..]);
 }
 
-/// Whether the faces of `other`, with their vertices mapped by `map`, are the faces of `mesh`. If `reversed`, the
-/// winding of the mapped faces is reversed first.
+/// Whether the faces of `other` become the faces of `mesh` when their vertices are mapped by `map`. If `reversed` is
+/// set, the winding of the mapped faces is reversed before the comparison.
 pub(crate) fn same_faces(mesh: &Mesh, other: &Mesh, map: &[VertexId], reversed: bool) -> bool {
     let canonical = |mut corners: Vec<VertexId>| {
         let lowest = corners
@@ -238,7 +239,8 @@ pub(crate) fn same_faces(mesh: &Mesh, other: &Mesh, map: &[VertexId], reversed: 
     faces == others
 }
 
-/// Checks that two meshes have the same vertices within the tolerance and, if `connectivity` is set, the same faces.
+/// Checks that two meshes have the same vertices within the tolerance. If `connectivity` is set, also checks that they
+/// have the same faces.
 pub(super) fn check(
     mesh: &Mesh,
     other: &Mesh,

@@ -1,4 +1,4 @@
-//! The subject of an expectation (a scene), and the measures that several expectations use.
+//! The subject of an expectation, which is a scene, and measurements that several expectations use.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -16,19 +16,19 @@ use super::OtherMesh;
 
 /// Reads the files that expectations refer to.
 pub trait Reader: Sync {
-    /// Reads the scene of a file, and reports each file that it reads to [`Files::has_read`].
+    /// Reads the scene in a file. Reports each file that is read to [`Files::has_read`].
     ///
     /// # Errors
     ///
-    /// The path and the reason, if the file cannot be read.
+    /// Returns the path and the reason if the file cannot be read.
     fn scene(&self, path: &Path, files: &Files) -> Result<Scene, String>;
 
     /// Compares the pixels of two PNG files, each given by its path and bytes. Returns a description of the differences
-    /// that exceed `tolerance` steps of 1/255, or `None` if there are none.
+    /// that are larger than `tolerance` steps of 1/255, or `None` if there are no such differences.
     ///
     /// # Errors
     ///
-    /// The path and the reason, if one of the files cannot be read.
+    /// Returns the path and the reason if one of the files cannot be read.
     fn compare_pictures(
         &self,
         found: (&Path, &[u8]),
@@ -42,14 +42,14 @@ pub trait Reader: Sync {
 pub struct Violation {
     /// The expected and the actual value, in one line.
     pub message: String,
-    /// The actual value, if the expectation would hold with this value in place of the expected value.
+    /// The actual value, if the expectation would hold with this value as the expected value.
     pub found: Option<ActualValue>,
-    /// Whether the expectation could not be checked. If so, `Not(..)` of the expectation does not hold either.
+    /// Whether the expectation could not be checked. In this case, `Not(..)` of the expectation does not hold either.
     pub(super) is_unknown: bool,
 }
 
 impl Violation {
-    /// Creates a violation without an actual value that could be recorded.
+    /// Creates a violation without an actual value, for expectations in which no value can be replaced.
     pub(super) fn unmet(message: impl Into<String>) -> Self {
         Self {
             message: message.into(),
@@ -58,7 +58,7 @@ impl Violation {
         }
     }
 
-    /// Creates a violation with the actual value, which can replace the expected value.
+    /// Creates a violation with the actual value, which can replace the expected value in the recipe.
     pub(super) fn with_actual(message: String, found: ActualValue) -> Self {
         Self {
             found: Some(found),
@@ -95,7 +95,7 @@ pub enum ActualValue {
     File {
         /// The path of the reference file.
         golden: PathBuf,
-        /// The bytes that the step has written.
+        /// The contents of the file that the step has written.
         bytes: Vec<u8>,
         /// The allowed difference between the colors of two pictures, in steps of 1/255.
         tolerance: u8,
@@ -118,7 +118,7 @@ pub enum ActualValue {
     },
 }
 
-/// The scene that an expectation is checked against.
+/// The scene against which an expectation is checked.
 #[derive(Clone, Copy)]
 pub struct Subject<'a> {
     /// The scene.
@@ -129,7 +129,7 @@ pub struct Subject<'a> {
     pub files: &'a Files,
     /// Reads the files that the expectation refers to.
     pub reader: &'a dyn Reader,
-    /// Receives the progress of a check, and can cancel the check. A canceled check fails.
+    /// Receives progress reports of the check, and can cancel it. A canceled check fails.
     pub progress: &'a dyn Progress,
 }
 
@@ -247,7 +247,7 @@ impl<'a> Subject<'a> {
         Err(Violation::with_actual(message, found))
     }
 
-    /// Checks every element of a selection, which must not be empty.
+    /// Calls `check` for every element of a selection, and fails if the selection is empty.
     pub(super) fn each_selected<S: Select>(
         &self,
         of: &S,
@@ -290,7 +290,7 @@ impl<'a> Subject<'a> {
         )
     }
 
-    /// Returns the smallest corner angle of the selected faces, in degrees, and the face that has it.
+    /// Returns the smallest corner angle of all selected faces, in degrees, and the face with this angle.
     pub(crate) fn smallest_angle(&self, of: &FaceSelection) -> Result<(f64, FaceId), Violation> {
         let mut smallest = (f64::INFINITY, FaceId::NONE);
         self.each_selected(of, |mesh, f| {
@@ -361,7 +361,7 @@ impl<'a> Subject<'a> {
         check_position(found, is, tolerance, || v.to_string())
     }
 
-    /// Returns the polylines of the only object that has polylines.
+    /// Returns the polylines of the object that has polylines. There must be exactly one such object.
     pub(super) fn polylines(&self) -> Result<&'a [Vec<DVec3>], String> {
         let objects = self.objects()?;
         let lines: Vec<&Vec<Vec<DVec3>>> = objects
@@ -401,8 +401,8 @@ impl<'a> Subject<'a> {
     }
 }
 
-/// Returns the elements that a selection matches on one object. A refused selection, for example one that names a
-/// missing edge, violates the expectation, so `Not(..)` of the expectation holds.
+/// Returns the elements of one object that a selection matches. A selection is refused, for example, if it names a
+/// missing edge. A refused selection violates the expectation, so `Not(..)` of the expectation holds.
 pub(super) fn selected<S: Select>(
     selection: &S,
     object: &Object,
@@ -456,7 +456,7 @@ pub(super) fn fails_unless(holds: bool, message: impl FnOnce() -> String) -> Res
     }
 }
 
-/// Checks a count against `eq`, `min` and `max`. `what` is a plural, such as "faces".
+/// Checks a count against `eq`, `min` and `max`. `what` is a noun in the plural, such as "faces".
 pub(super) fn check_count(
     what: impl fmt::Display,
     found: u64,
@@ -490,12 +490,12 @@ fn check_exact<T: PartialOrd + Copy + Into<i128>>(
     check_bounds(found, bounds, is_equal, actual, message)
 }
 
-/// Returns the number with its noun, such as "1 vertex" or "2 vertices". `what` is the plural.
+/// Returns the number followed by the noun in the right form, such as "1 vertex" or "2 vertices". `what` is the plural.
 pub(super) fn counted(n: usize, what: &str) -> String {
     format!("{n} {}", singular_if_one(n as u64, what))
 }
 
-/// Returns the plural `what`, or its singular if `n` is 1.
+/// Returns `what`, a noun in the plural, or its singular if `n` is 1.
 fn singular_if_one(n: u64, what: &str) -> Cow<'_, str> {
     if n != 1 {
         Cow::Borrowed(what)
@@ -508,8 +508,8 @@ fn singular_if_one(n: u64, what: &str) -> Cow<'_, str> {
     }
 }
 
-/// Checks a number against `eq` (within the tolerance), `min` and `max`. `what` names the number in the error, such as
-/// "an area" or "v3 to have a thickness".
+/// Checks a number against `eq` (within the tolerance), `min` and `max`. `what` is the name of the number in the error
+/// message, such as "an area" or "v3 to have a thickness".
 pub(super) fn check_number(
     what: impl fmt::Display,
     found: f64,
@@ -545,9 +545,9 @@ pub(super) fn rounded(found: f64, limit: f64) -> String {
     }
 }
 
-/// Fails with the first of the bounds `eq`, `min` and `max` that is violated. The violation has the actual value only
-/// if `eq` is violated but `min` and `max` are not. Otherwise the expectation would still fail after the actual value
-/// is recorded.
+/// Returns the violation of the first of the bounds `eq`, `min` and `max` that does not hold. The violation contains
+/// the actual value only if `eq` does not hold but `min` and `max` do. If `min` or `max` were violated, the expectation
+/// would still fail after the actual value had been recorded.
 fn check_bounds<T: PartialOrd + Copy>(
     found: T,
     [eq, min, max]: [Option<T>; 3],

@@ -1,4 +1,4 @@
-//! Symmetry: counts the motions of a group that map a mesh onto itself.
+//! Symmetry: counts the motions of a symmetry group that map a mesh onto itself.
 
 use mesh::{DVec3, Mesh, VertexId};
 use schemars::JsonSchema;
@@ -18,7 +18,7 @@ pub enum Group {
     AxisMirrors,
 }
 
-/// A motion: the images of the three axes, and whether the motion is a rotation.
+/// A motion of a symmetry group: the images of the three coordinate axes, and whether the motion is a rotation.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Motion {
     axes: [DVec3; 3],
@@ -62,8 +62,8 @@ impl Group {
     }
 }
 
-/// Counts the motions that map every vertex onto a vertex within the tolerance and, if `connectivity` is set, every
-/// face onto a face.
+/// Counts the motions that map every vertex to a point within the tolerance of a vertex. If `connectivity` is set, each
+/// motion must also map every face onto a face.
 pub(super) fn count(mesh: &Mesh, motions: &[Motion], tolerance: f64, connectivity: bool) -> u64 {
     let points = PositionIndex::new(mesh);
     let keeps = |motion: &Motion| {
@@ -75,7 +75,7 @@ pub(super) fn count(mesh: &Mesh, motions: &[Motion], tolerance: f64, connectivit
     motions.iter().filter(|motion| keeps(motion)).count() as u64
 }
 
-/// Whether one of the motions maps the vertex to a position without a vertex.
+/// Whether one of the motions maps the vertex to a point at which there is no vertex.
 pub(super) fn has_unmatched_image(
     mesh: &Mesh,
     points: &PositionIndex,

@@ -5,8 +5,8 @@ use ron_tree::{Value, ValueKind, parse};
 use super::Expectation;
 
 impl Expectation {
-    /// Returns the expectation in one line, in the form in which it is written in a recipe: optional values have no
-    /// `Some(..)`, and fields with default values are omitted.
+    /// Returns the expectation in one line and in the form in which it is written in a recipe. Optional values are
+    /// written without `Some(..)`, and fields with default values are omitted.
     pub(super) fn as_written(&self) -> String {
         let canonical = self.to_string();
         let mut value = parse(&canonical).value;
@@ -31,7 +31,7 @@ fn unwrap_options(value: &mut Value) {
     value.for_each_part(unwrap_options);
 }
 
-/// Returns the number of fields of all structs in the value.
+/// Returns the total number of fields of all structs in the value.
 fn n_fields(value: &Value) -> usize {
     let own = match &value.kind {
         ValueKind::Struct(body) => body.fields.len(),
@@ -40,8 +40,9 @@ fn n_fields(value: &Value) -> usize {
     own + value.parts().map(n_fields).sum::<usize>()
 }
 
-/// Removes the field with this number. The fields are counted as in [`n_fields`]: the fields of a struct come before
-/// the fields of its parts. If the value has fewer fields, their number is subtracted from `number`.
+/// Removes the field with the number `number`. Fields are numbered in the order in which [`n_fields`] counts them: the
+/// fields of a struct come before the fields of its values. If the value has no field with this number, the number of
+/// its fields is subtracted from `number`.
 fn remove_field(value: &mut Value, number: &mut usize) {
     if let ValueKind::Struct(body) = &mut value.kind {
         if *number < body.fields.len() {

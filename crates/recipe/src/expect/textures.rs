@@ -29,14 +29,14 @@ fn coordinates<'m>(mesh: &'m Mesh, name: &str) -> Option<&'m [DVec2]> {
     DVec2::of(&column.values)
 }
 
-/// Returns the largest stretch of the meshes; see [`uv::Stretch::aspect`].
+/// Returns the stretch of the mesh that has the largest stretch; see [`uv::Stretch::aspect`].
 pub(super) fn stretch(subject: Subject, name: &str) -> Result<f64, Violation> {
     let meshes = textured(subject, name)?.into_iter();
     let aspects = meshes.filter_map(|(mesh, uvs)| Some(uv::stretch(mesh, uvs)?.aspect));
     Ok(aspects.fold(1.0, f64::max))
 }
 
-/// Returns the number of faces that overlap another face of the same mesh.
+/// Returns the number of faces that overlap another face of the same mesh in the texture.
 pub(super) fn n_overlapping(subject: Subject, name: &str) -> Result<u64, Violation> {
     let mut n = 0;
     for (mesh, uvs) in textured(subject, name)? {
@@ -46,7 +46,7 @@ pub(super) fn n_overlapping(subject: Subject, name: &str) -> Result<u64, Violati
     Ok(n)
 }
 
-/// Returns the faces that have a larger stretch than `max`, the most stretched face first.
+/// Returns the faces with a stretch above `max`. The face with the largest stretch comes first.
 pub(super) fn stretched_faces(mesh: &Mesh, name: &str, max: f64) -> Vec<FaceId> {
     let Some(uvs) = coordinates(mesh, name) else {
         return Vec::new();
@@ -65,7 +65,7 @@ pub(super) fn stretched_faces(mesh: &Mesh, name: &str, max: f64) -> Vec<FaceId> 
     stretched.into_iter().map(|(f, _)| f).collect()
 }
 
-/// Returns the faces that overlap another face of the mesh.
+/// Returns the faces that overlap another face of the mesh in the texture.
 pub(super) fn overlapping_faces(mesh: &Mesh, name: &str, progress: &dyn Progress) -> Vec<FaceId> {
     let found = coordinates(mesh, name).map(|uvs| uv::overlapping_faces(mesh, uvs, progress));
     found.and_then(Result::ok).unwrap_or_default()

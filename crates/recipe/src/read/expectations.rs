@@ -9,8 +9,9 @@ use crate::schema_check::{check_schema, did_you_mean};
 use ron_tree::{Span, Value, ValueKind};
 
 impl Reader<'_, '_> {
-    /// Reads `Name(..)` or `(after: "id", on: [..], that: Name(..) or a list of them)`. Returns the id of the step
-    /// after which the expectations are checked (`None` for the end of the recipe), and the expectations.
+    /// Reads either `Name(..)` or `(after: "id", on: [..], that: ..)`, where `that` is an expectation or a list of
+    /// expectations. Returns the id of the step after which the expectations are checked, and the expectations. The id
+    /// is `None` if they are checked at the end of the recipe.
     pub(super) fn expectation(
         &mut self,
         mut value: Value,

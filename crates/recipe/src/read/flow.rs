@@ -7,9 +7,9 @@
 //! If(param: "mode", is: Fast, steps: [..])               runs the steps if the parameter equals `is`
 //! ```
 //!
-//! Such a step is replaced by its inner steps while the recipe is read. A called recipe works on the current scene,
+//! When a recipe is read, such a step is replaced by the steps inside it. A called recipe works on the current scene,
 //! reads files from its own folder, and can use only its own parameters and ids. The expectations of a called recipe
-//! are checked after its steps.
+//! are checked after the steps of this recipe.
 
 use std::path::Path;
 
@@ -23,14 +23,14 @@ use crate::schema_check::{check_schema, check_step, did_you_mean};
 use crate::source::Source;
 use ron_tree::{Span, Value, ValueKind};
 
-/// The maximum nesting depth of calls.
+/// The maximum depth to which calls can be nested.
 const MAX_CALLS: usize = 32;
 
-/// The number of steps that each call counts as, in addition to the steps of the called recipe. With this count, the
-/// maximum number of steps also limits the time for reading called recipes.
+/// The number of steps as which each call counts, in addition to the steps of the called recipe. Because calls count as
+/// steps, the maximum number of steps also limits the time for reading called recipes.
 const STEPS_PER_CALL: usize = 20;
 
-/// Returns the kind of a step that contains steps, or `None` for other steps.
+/// Returns the kind of a step that contains other steps, or `None` for any other step.
 pub(super) fn kind(written: &Value) -> Option<Kind> {
     let is_envelope = matches!(written.kind, ValueKind::Struct(_));
     let run = if is_envelope {
@@ -43,7 +43,7 @@ pub(super) fn kind(written: &Value) -> Option<Kind> {
 }
 
 impl Reader<'_, '_> {
-    /// Replaces a step that contains steps by the inner steps.
+    /// Replaces a step that contains other steps by the steps inside it.
     pub(super) fn flow(&mut self, kind: Kind, mut value: Value) -> Vec<Draft> {
         let is_envelope = matches!(value.kind, ValueKind::Struct(_));
         // The inner steps are taken out of `value`. The inner steps are read later like all steps, and their parameters
@@ -134,7 +134,7 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// Whether the parameter of an `If` has the requested value. `None` if an error prevents the comparison.
+    /// Whether the parameter of an `If` has the requested value. Returns `None` if an error prevents the comparison.
     fn condition(&mut self, run: &Value) -> Option<bool> {
         let param = run.field("param")?;
         let name = param.as_str()?;
@@ -225,8 +225,8 @@ impl Reader<'_, '_> {
         drafts
     }
 
-    /// Returns the index of the text of a called recipe. If the text cannot be read, the recipe calls itself, or calls
-    /// are nested too deeply, reports an error and returns `None`.
+    /// Returns the index of the text of a called recipe in the list of texts. Reports an error and returns `None` in
+    /// three cases: the text cannot be read, the recipe calls itself, or calls are nested too deeply.
     fn open_called(&mut self, path: &Path, span: Span) -> Option<usize> {
         let mut chain = vec![self.scope];
         while let Some((caller, _)) = self.shared.scopes[*chain.last()?].called {
@@ -272,8 +272,9 @@ impl Reader<'_, '_> {
     }
 }
 
-/// Returns a suggestion of recipes in the folder of a missing recipe: those with similar file names, or all if no name
-/// is similar. The result is empty if the folder contains no recipes, or if the recipe exists but cannot be read.
+/// If a recipe is missing, returns a text that suggests recipes in its folder. The text names those with similar file
+/// names or, if no name is similar, all recipes in the folder. The text is empty if the folder contains no recipes, or
+/// if the recipe exists but cannot be read.
 fn similar_files(store: &dyn Store, path: &Path) -> String {
     let folder = path.parent().filter(|_| !store.exists(path));
     let siblings = folder.and_then(|folder| store.list(folder).ok());

@@ -1,11 +1,11 @@
 //! Reads a recipe: converts its text to operations with their parameters, and reports all errors at once.
 //!
-//! There are three stages. The text is parsed into a tree, with recovery from syntax errors. Each step is checked
-//! against the schema of its operation. Each valid step is deserialized into the struct of its operation. An error in
-//! one step does not hide errors in other steps.
+//! There are three stages. The text is parsed into a tree. After a syntax error, parsing continues. Each step is
+//! checked against the schema of its operation. Each valid step is deserialized into the struct of its operation. An
+//! error in one step does not hide errors in other steps.
 //!
-//! Steps that contain steps ([`flow`]) are replaced by their inner steps here, so that later stages work on a flat
-//! list. A called recipe is read in its own scope, with its own parameters and ids.
+//! If a step contains steps ([`flow`]), it is replaced here by the steps inside it. Later stages therefore receive a
+//! list without nesting. A called recipe has its own scope when it is read, with its own parameters and ids.
 
 mod expectations;
 mod flow;
@@ -30,7 +30,7 @@ use crate::schema_check::{self, check_schema};
 use crate::source::Source;
 use ron_tree::{Diagnostic, Span, Value, ValueKind};
 
-/// The version of recipes that this program reads.
+/// The version of the recipe language that this program reads.
 pub const VERSION: i128 = 1;
 
 /// A recipe with its errors and warnings.
@@ -49,15 +49,15 @@ impl Reading {
     }
 }
 
-/// Values that are set from outside for the parameters of a recipe. By default, there are none.
+/// Values that the caller of `read` sets for the parameters of a recipe. By default, there are none.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Values<'a> {
-    /// Names of parameters and their values as plain text.
+    /// The names of parameters, each with its value as plain text.
     pub set: &'a [(String, String)],
-    /// The name of one of the recipe's presets.
+    /// The name of a preset of the recipe.
     pub preset: Option<&'a str>,
-    /// The folder that relative paths in `set` are relative to, such as the working directory. If `None`, the folder of
-    /// the recipe.
+    /// The folder to which relative paths in `set` are relative, such as the working directory. If `None`, these paths
+    /// are relative to the folder of the recipe.
     pub folder: Option<&'a Path>,
 }
 
@@ -66,7 +66,8 @@ pub fn read(source: &Source, registry: &Registry, values: Values) -> Reading {
     read_by(&Schemas::new(registry), &Disk, source, values)
 }
 
-/// Like [`read`](read()), but uses `schemas`, which several recipes can share, and reads called recipes from `store`.
+/// Like [`read`](read()), but reads called recipes from `store`. Uses `schemas`, which the reading of other recipes can
+/// share.
 pub fn read_by(schemas: &Schemas, store: &dyn Store, source: &Source, values: Values) -> Reading {
     let mut shared = Shared {
         schemas,
@@ -115,7 +116,7 @@ pub fn read_by(schemas: &Schemas, store: &dyn Store, source: &Source, values: Va
     }
 }
 
-/// Returns an error if a text declares a version other than the expected one, such as `recipe: 2`.
+/// Returns an error if a text declares another version than the expected one, as in `recipe: 2`.
 pub(crate) fn wrong_version(root: &Value, kind: &str, expected: i128) -> Option<Diagnostic> {
     let version = root.field(kind)?;
     let ValueKind::Number(number) = &version.kind else {
@@ -131,37 +132,37 @@ pub(crate) fn wrong_version(root: &Value, kind: &str, expected: i128) -> Option<
     Some(Diagnostic::error(version.span, message).with_help(help))
 }
 
-/// The state that the sources of one recipe share while they are read.
+/// The state that all sources of one recipe share while they are read.
 struct Shared<'a> {
     schemas: &'a Schemas<'a>,
-    /// The store that called recipes are read from.
+    /// The store from which called recipes are read.
     store: &'a dyn Store,
     sources: Vec<Source>,
-    /// The paths of the sources with links resolved.
+    /// The paths of the sources after resolving symbolic links.
     canonical_paths: Vec<PathBuf>,
     scopes: Vec<Scope>,
-    /// The number of steps that can still be added.
+    /// The number of steps that can be added before the limit is reached.
     remaining_steps: usize,
     diagnostics: Vec<Diagnostic>,
 }
 
-/// Returns the path with links resolved, or the path itself if the file does not exist.
+/// Returns the path after resolving symbolic links. If the file does not exist, returns the path itself.
 fn canonical(store: &dyn Store, path: &Path) -> PathBuf {
     store.canonical(path).unwrap_or_else(|_| path.to_owned())
 }
 
-/// A step, with the ids and expectations that belong to it.
+/// A step, together with the ids and expectations that belong to it.
 #[derive(Clone)]
 struct Draft {
     step: RecipeStep,
-    /// The ids of everything that ends with this step: the step itself, and each call, repetition and condition that
-    /// ends with it. Contains only ids that are written in the same text as the step.
+    /// The id of the step itself, and the ids of all calls, repetitions and conditions whose last step it is. Only ids
+    /// that are written in the same text as the step are included.
     ends: Vec<String>,
     /// The expectations that are checked after the step.
     then: Vec<RecipeExpectation>,
 }
 
-/// Takes the items out of a list. Returns no items if the value is not a list.
+/// Takes the items out of a list. Returns an empty list if the value is not a list.
 fn take_items(list: Option<&mut Value>) -> Vec<Value> {
     match list.map(|list| &mut list.kind) {
         Some(ValueKind::List(items)) => std::mem::take(items),
@@ -175,7 +176,7 @@ struct Reader<'s, 'a> {
     source: Source,
     /// The index of the scope.
     scope: usize,
-    /// The prefix of the labels of steps.
+    /// The text at the start of the labels of all steps.
     prefix: String,
     on_loss: OnLoss,
     diagnostics: Vec<Diagnostic>,
@@ -189,7 +190,7 @@ struct Reader<'s, 'a> {
     used: HashSet<String>,
     /// The ids of steps.
     ids: IndexSet<String>,
-    /// Whether the error about too many steps was reported.
+    /// Whether an error was already reported for too many steps.
     has_too_many_steps: bool,
 }
 
@@ -213,8 +214,8 @@ impl<'s, 'a> Reader<'s, 'a> {
         }
     }
 
-    /// Reads the text. `values` is called after the parameters are declared, to set their values. Returns the steps,
-    /// and the expectations for the end of the recipe.
+    /// Reads the text. `values` is called when the parameters have been declared, and sets the values of the
+    /// parameters. Returns the steps, and the expectations that are checked at the end of the recipe.
     fn text(&mut self, values: impl FnOnce(&mut Self)) -> (Vec<Draft>, Vec<RecipeExpectation>) {
         let text = self.source.text.clone();
         let parsed = ron_tree::parse(&text);
@@ -270,8 +271,8 @@ impl<'s, 'a> Reader<'s, 'a> {
         (drafts, last)
     }
 
-    /// Adds the diagnostics of this text to the diagnostics of the whole recipe, and sets the text and the calls of
-    /// each diagnostic.
+    /// Moves the diagnostics of this text to the diagnostics of the whole recipe. For each diagnostic, sets the text to
+    /// which it belongs and the calls that led to this text.
     fn close(self) {
         let scopes = &self.shared.scopes;
         let located = (self.diagnostics.into_iter()).map(|d| located(d, self.scope, scopes));
@@ -294,7 +295,7 @@ impl<'s, 'a> Reader<'s, 'a> {
         self.error(needs.span, problem, "");
     }
 
-    /// Adds an error, with a help text unless it is empty.
+    /// Adds an error. If `help` is not empty, the error has this help text.
     fn error(&mut self, span: Span, message: impl Into<String>, help: impl Into<String>) {
         let (error, help) = (Diagnostic::error(span, message), help.into());
         self.diagnostics.push(if help.is_empty() {

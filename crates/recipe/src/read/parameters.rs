@@ -1,4 +1,4 @@
-//! The parameters of a recipe: reads their declarations, sets their values, and substitutes them in steps.
+//! The parameters of a recipe: reads their declarations, sets their values, and inserts the values into the steps.
 
 use std::collections::HashSet;
 
@@ -10,15 +10,15 @@ use crate::schema_check::did_you_mean;
 use crate::substitute::substitute;
 use ron_tree::{Diagnostic, Span, Value, ValueKind};
 
-/// A named set of values for parameters.
+/// A preset, which is a named set of values for parameters.
 pub(super) struct Preset {
     pub(super) name: String,
-    /// The names of parameters and their values.
+    /// The names of parameters, each with its value in this preset.
     values: Vec<(String, Value)>,
 }
 
 impl Reader<'_, '_> {
-    /// Reads the declarations. Each parameter gets its default.
+    /// Reads the declarations. Each parameter gets its default value.
     pub(super) fn declare(&mut self, params: Option<&Value>) {
         for (key, value) in entries(params) {
             let Some(name) = key.as_str() else { continue };
@@ -45,7 +45,7 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// Reads all presets, so that errors are also found in presets that are not chosen.
+    /// Reads all presets, even those that are not chosen, so that their errors are found, too.
     pub(super) fn declare_presets(&mut self, presets: Option<&Value>) {
         for (key, values) in entries(presets) {
             let Some(name) = key.as_str() else { continue };
@@ -93,7 +93,7 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// Sets the values of the preset with this name.
+    /// Sets the parameters to the values of the preset with this name.
     pub(super) fn choose_preset(&mut self, name: Option<&str>) {
         let Some(name) = name else { return };
         if let Some(preset) = self.presets.iter().find(|p| p.name == name) {
@@ -112,7 +112,7 @@ impl Reader<'_, '_> {
             .push(Diagnostic::without_place(message).with_help(help));
     }
 
-    /// Sets the values that are given from outside.
+    /// Sets the parameters to the values that were passed to `read`.
     pub(super) fn set(&mut self, values: Values) {
         for (name, text) in values.set {
             if self.broken.contains(name) {
@@ -148,10 +148,12 @@ impl Reader<'_, '_> {
             .with_help(did_you_mean(name, known))
     }
 
-    /// Replaces each `arg(..)` in a value by the value of its parameter. Returns whether every `arg(..)` was replaced.
+    /// Replaces each `arg(..)` in a value by the value of its parameter. Returns whether it was possible to replace
+    /// every `arg(..)`.
     pub(super) fn fill(&mut self, value: &mut Value) -> bool {
         let mut used = Vec::new();
-        // The uses of parameters whose declarations have errors. The errors in the declarations were already reported.
+        // The places in `value` that use a parameter whose declaration has errors. The errors in the declarations were
+        // already reported.
         let mut reported = Vec::new();
         let resolve = |name: &str, span: Span| {
             if !self.used.contains(name) {
@@ -173,8 +175,8 @@ impl Reader<'_, '_> {
         is_whole
     }
 
-    /// Warns about parameters that no `arg(..)`, `If` or placeholder in a path uses. Does nothing if there are errors,
-    /// because a use may be in a part that could not be read.
+    /// Warns about each parameter that is never used: no `arg(..)`, no `If` and no placeholder in a path refers to it.
+    /// If the recipe has errors, does nothing, because a parameter may be used in a part that could not be read.
     pub(super) fn unused(&mut self, params: Option<&Value>) {
         if self.diagnostics.iter().any(Diagnostic::is_error) {
             return;
@@ -196,7 +198,7 @@ impl Reader<'_, '_> {
     }
 }
 
-/// Returns the entries of a map. The result is empty if the value is not a map.
+/// Returns the entries of a map. The list is empty if the value is not a map.
 fn entries(value: Option<&Value>) -> &[(Value, Value)] {
     match value.map(|v| &v.kind) {
         Some(ValueKind::Map(entries)) => entries,

@@ -13,8 +13,8 @@ use crate::schema_check::{Rename, check_schema, check_step, deserialize_error};
 use crate::unknown_operation::suggest_operations;
 use ron_tree::{Diagnostic, Span, Value, ValueKind};
 
-/// After this number of problems, errors about unknown operations have no suggestions, because finding suggestions
-/// takes long.
+/// If a recipe already has this number of problems, errors about unknown operations have no suggestions, because
+/// finding suggestions takes long.
 const MAX_SUGGESTIONS: usize = 1000;
 
 impl Reader<'_, '_> {
@@ -49,8 +49,8 @@ impl Reader<'_, '_> {
         self.fill(enabled) && enabled.kind == ValueKind::Bool(false)
     }
 
-    /// Reads a disabled step, so that its ids are known and the parameters in it count as used. Then discards the step
-    /// and the errors and warnings in it.
+    /// Reads a disabled step. Its ids are then known, and the parameters in it count as used. After reading, the step
+    /// is discarded together with the errors and warnings in it.
     fn disabled(&mut self, item: Value) {
         let before = (
             self.diagnostics.len(),
@@ -68,7 +68,7 @@ impl Reader<'_, '_> {
         (self.shared.remaining_steps, self.has_too_many_steps) = (before.2, before.3);
     }
 
-    /// Reads `Name(..)` or `(id: .., run: Name(..), ..)`.
+    /// Reads a step of the form `Name(..)` or `(id: .., run: Name(..), ..)`.
     fn step(&mut self, mut value: Value) -> Draft {
         let is_envelope = matches!(value.kind, ValueKind::Struct(_) | ValueKind::Unit);
         if !self.fill(&mut value) {
@@ -111,7 +111,7 @@ impl Reader<'_, '_> {
         if let (Some(entry), Some(on)) = (&entry, envelope("on"))
             && !entry.takes_on
         {
-            let help = "the operation names its objects in its parameters, or creates new ones";
+            let help = "the operation names its objects in its parameters, or creates new objects";
             self.error(on.span, format!("{} does not take `on`", entry.name), help);
         }
         // `check_schema` has reported invalid values.
@@ -153,8 +153,8 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// Returns a placeholder for a step that could not be read. With the placeholder, the indices of the other steps
-    /// and the id of the step stay the same.
+    /// Returns a placeholder for a step that could not be read. Because of the placeholder, other steps keep their
+    /// indices, and the id of the step remains known.
     pub(super) fn broken_step(&mut self, written: Value) -> Draft {
         let run = written.field("run").unwrap_or(&written);
         let (name, span) = run.name().unwrap_or(("?", written.span));
@@ -195,7 +195,7 @@ impl Reader<'_, '_> {
         Some(text.to_owned())
     }
 
-    /// Reports, once, that the recipe has too many steps.
+    /// Reports that the recipe has too many steps. The error is reported only once.
     pub(super) fn too_many(&mut self, step: &Value, n: usize) {
         if !std::mem::replace(&mut self.has_too_many_steps, true) {
             let message =
@@ -206,9 +206,9 @@ impl Reader<'_, '_> {
     }
 }
 
-/// Improves the help of errors about unknown parameters: if a parameter is a field of the step or of the expectation
-/// around the call, such as `on`, the help says where to write it. `inner` is the field for the call itself: `run` or
-/// `that`.
+/// Improves the help text of errors about unknown parameters. If the parameter is a field of the step or of the
+/// expectation around the call, such as `on`, the help text says where to write it. `inner` is the name of the field
+/// that contains the call: `run` or `that`.
 pub(super) fn explain_outer_fields(
     wrong: &mut [Diagnostic],
     call: &Value,
@@ -228,7 +228,7 @@ pub(super) fn explain_outer_fields(
     }
 }
 
-/// Returns the operation of a step, without the other fields of the step, such as `id` and `on`.
+/// Returns the operation of a step without the fields of the step around it, such as `id` and `on`.
 fn run_of(mut written: Value) -> Value {
     let is_envelope = matches!(written.kind, ValueKind::Struct(_));
     match written.field_mut("run").filter(|_| is_envelope) {

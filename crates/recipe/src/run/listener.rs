@@ -20,13 +20,14 @@ pub trait Listener: Progress {
     fn wants_digests(&self) -> bool {
         false
     }
-    /// Whether to call [`scene_after`](Self::scene_after). Scenes are then loaded from the cache even if no step needs
-    /// them.
+    /// Whether to call [`scene_after`](Self::scene_after). If this method returns true, scenes are loaded from the
+    /// cache even if no step needs them.
     fn wants_scenes(&self) -> bool {
         false
     }
-    /// Called with the scene after each step, if [`wants_scenes`](Self::wants_scenes). A clone of the scene shares its
-    /// meshes with the run. While the clone exists, a step copies a shared mesh before it changes the mesh.
+    /// Called with the scene after each step if [`wants_scenes`](Self::wants_scenes) returns true. A clone of the scene
+    /// shares its meshes with the run. As long as such a clone exists, a step that changes a shared mesh first copies
+    /// the mesh.
     fn scene_after(&self, _number: usize, _scene: &Scene) {}
     /// Called when a step fails or an expectation does not hold.
     fn failed(&self, _: &Failure) {}
@@ -41,11 +42,11 @@ pub trait Listener: Progress {
 pub struct Failure<'a> {
     /// The error to report.
     pub diagnostic: &'a Diagnostic,
-    /// The current scene. For a step whose operation failed, this is the scene before the step.
+    /// The current scene. If the operation of a step failed, this is the scene before the step.
     pub scene: &'a Scene,
-    /// The locations in the scene that the failure refers to, if any are known.
+    /// The locations in the scene to which the failure refers, if any are known.
     pub places: &'a [ErrorLocation],
-    /// The actual value, if the recipe can be updated with it.
+    /// The actual value, if it can replace the expected value in the recipe.
     pub found: Option<&'a ActualValue>,
 }
 
@@ -56,19 +57,19 @@ pub struct StepDone {
     pub label: String,
     /// The report of the step.
     pub report: Report,
-    /// The reason why the step was refused, if the recipe expects a refusal.
+    /// If the recipe expects a refusal: the reason why the step was refused.
     pub refused: Option<Refusal>,
-    /// The number of vertices of all meshes together after the step, including points of polylines.
+    /// The number of vertices of all meshes together after the step. Points of polylines are included.
     pub vertices: usize,
     /// The number of edges after the step.
     pub edges: usize,
     /// The number of faces after the step.
     pub faces: usize,
-    /// The digest of the scene after the step, if the listener wants it.
+    /// The digest of the scene after the step, if the listener requests it.
     pub digest: Option<Digest>,
     /// How long the step took.
     pub time: Duration,
-    /// Why the step ran. `None` if its result was taken from the cache.
+    /// Why the step ran. `None` if the result of the step was taken from the cache.
     pub ran: Option<RerunReason>,
 }
 

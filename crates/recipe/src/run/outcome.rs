@@ -11,11 +11,12 @@ use ron_tree::Diagnostic;
 /// The outcome of a run.
 #[derive(Debug)]
 pub struct Outcome {
-    /// The index of the step that the run started with.
+    /// The index of the first step of the run.
     pub first: usize,
     /// The steps that were done.
     pub steps: Vec<StepDone>,
-    /// The errors: a failed step, expectations that do not hold, or outputs that cannot be written.
+    /// The errors of the run. An error is a failed step, an expectation that does not hold, or outputs that cannot be
+    /// written.
     pub failures: Vec<Diagnostic>,
     /// The expectations that do not hold.
     pub unmet: Vec<UnmetExpectation>,
@@ -23,17 +24,17 @@ pub struct Outcome {
     pub cancelled: bool,
     /// The number of expectations that were checked.
     pub checked: usize,
-    /// The scene at the end. `None` if the scene was not needed and therefore not loaded from the cache, or if it could
-    /// not be recomputed.
+    /// The scene at the end. `None` if the scene was not needed and was therefore not loaded from the cache. Also
+    /// `None` if the scene could not be computed again.
     pub scene: Option<Scene>,
     /// The digest of the scene at the end.
     pub digest: Digest,
-    /// The files that were written. If a file cannot be moved to the output folder, the run fails and this list has the
-    /// files that were moved before that file.
+    /// The files that were written. If a file cannot be moved to the output folder, the run fails. In this case, the
+    /// list has the files that were moved before the failure.
     pub written: Vec<PathBuf>,
-    /// The problem that prevents the cache from storing anything, if any.
+    /// The problem that prevents the cache from storing anything, if there is one.
     pub cache_problem: Option<String>,
-    /// One line for each result that was not stored in the cache or could not be loaded from it, with the reason.
+    /// One line for each result that could not be stored in the cache or loaded from it, with the reason.
     pub cache_notes: Vec<String>,
 }
 
@@ -42,14 +43,14 @@ pub struct Outcome {
 pub struct UnmetExpectation {
     /// The index of the expectation in [`Recipe::expectations`](crate::Recipe::expectations).
     pub expectation: usize,
-    /// The index of the expectation's error in [`Outcome::failures`].
+    /// The index of the error of this expectation in [`Outcome::failures`].
     pub failure: usize,
-    /// The actual value, if the recipe can be updated with it.
+    /// The actual value, if it can replace the expected value in the recipe.
     pub found: Option<ActualValue>,
 }
 
 impl Outcome {
-    /// Whether the run has no failures and was not canceled.
+    /// Whether the run was not canceled and has no failures.
     pub fn succeeded(&self) -> bool {
         self.failures.is_empty() && !self.cancelled
     }

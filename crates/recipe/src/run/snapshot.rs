@@ -5,8 +5,8 @@ use std::sync::{Arc, Weak};
 use mesh::Mesh;
 use scene::{Graph, Material, Scene};
 
-/// A snapshot of a scene, to be compared with a later state of the scene. The snapshot holds only weak references to
-/// meshes, because a strong reference would force an operation to copy a mesh before changing it.
+/// A snapshot of a scene, for comparison with a later state of the scene. The snapshot holds only weak references to
+/// meshes. With a strong reference, an operation would have to copy a mesh before changing it.
 pub(super) struct SceneSnapshot {
     objects: Vec<(String, Vec<Material>, Option<Weak<Mesh>>)>,
     graph: Graph,
@@ -24,8 +24,8 @@ impl SceneSnapshot {
         }
     }
 
-    /// Whether the scene is known to be unchanged. If a mesh with weak references is changed, the mesh moves to a new
-    /// allocation. So equal pointers mean that the mesh is unchanged.
+    /// Whether it is known that the scene is unchanged. If a mesh is changed while weak references to it exist, the
+    /// mesh moves to a new allocation. Equal pointers therefore mean that the mesh is unchanged.
     pub(super) fn is_unchanged(&self, scene: &Scene) -> bool {
         let same =
             |(object, (name, materials, mesh)): (&scene::Object, &(_, _, Option<Weak<_>>))| {

@@ -27,7 +27,7 @@ pub(super) fn staging<'a>(settings: &Settings<'a>) -> Result<Option<TemporaryFol
 }
 
 /// Moves all files from the stage to the output folder. Returns the paths of the files that were written, and the first
-/// error. If the error is found before the first file is moved, no files are written.
+/// error if there was one. If an error occurs before the first file is moved, no files are written.
 pub(super) fn deliver(stage: &Path, files: &Files) -> (Vec<PathBuf>, Result<(), String>) {
     let mut written = Vec::new();
     let result = moves(stage, files).and_then(|moves| {
@@ -41,7 +41,8 @@ pub(super) fn deliver(stage: &Path, files: &Files) -> (Vec<PathBuf>, Result<(), 
     (written, result)
 }
 
-/// Returns the path of each file of the stage and its path in the output folder. Creates the folders of these paths.
+/// Returns two paths for each file of the stage: its current path, and its path in the output folder. Creates the
+/// folders into which the files will be moved.
 fn moves(stage: &Path, files: &Files) -> Result<Vec<(PathBuf, PathBuf)>, String> {
     let store = &*files.store;
     let mut moves = Vec::new();
@@ -64,10 +65,10 @@ fn moves(stage: &Path, files: &Files) -> Result<Vec<(PathBuf, PathBuf)>, String>
     Ok(moves)
 }
 
-/// The files of a stage, each with the metadata that changes when the file is written.
+/// The files of a stage. Each file has metadata that change whenever the file is written.
 pub(super) type Listing = BTreeMap<PathBuf, Entry>;
 
-/// Lists a stage. Skips files that cannot be listed; `deliver` reports them.
+/// Lists a stage. Skips files that cannot be listed, because `deliver` reports them.
 pub(super) fn listing(stage: &Path, files: &Files) -> Listing {
     let paths = files_below(&*files.store, stage).unwrap_or_default();
     let files = paths.into_iter().filter_map(|path| {
@@ -77,7 +78,7 @@ pub(super) fn listing(stage: &Path, files: &Files) -> Listing {
     files.collect()
 }
 
-/// Returns the files that are new or changed.
+/// Returns the files of `after` that are new or changed.
 pub(super) fn written(before: &Listing, after: &Listing) -> Vec<PathBuf> {
     let is_new = |(path, state): &(&PathBuf, &_)| before.get(*path) != Some(state);
     let new = after.iter().filter(is_new);
@@ -92,7 +93,7 @@ mod tests {
 
     use super::*;
 
-    /// Files in memory. No file can be renamed to a path that ends with `bad.obj`.
+    /// Files in memory. Renaming a file fails if the new path ends with `bad.obj`.
     #[derive(Debug, Default)]
     struct Faulty(Memory);
 

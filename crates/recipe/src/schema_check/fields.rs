@@ -7,7 +7,8 @@ use ron_tree::{Field, Number, Span, Value, ValueKind};
 impl Checker {
     /// Checks `(a: 1, b: 2)`.
     ///
-    /// `owner` is the span of the name, or of the opening bracket. Missing fields are reported at this span.
+    /// `owner` is the span of the name of the struct or, if there is no name, of the opening bracket. If fields are
+    /// missing, the error is reported at this span.
     pub(super) fn check_struct(
         &mut self,
         value: &Value,
@@ -64,8 +65,8 @@ impl Checker {
         }
     }
 
-    /// Reports an unknown field. If the unknown field is likely to be one of the `missing` fields under a wrong name,
-    /// removes that field from `missing`.
+    /// Reports an unknown field. If the unknown field is probably a missing field with a wrong name, removes the
+    /// missing field from `missing`.
     fn unknown_field(
         &mut self,
         value: &Value,
@@ -133,7 +134,8 @@ impl Checker {
 }
 
 impl Schema<'_> {
-    /// Whether a number, a string or a variant has the type of this schema. Returns `false` for any other value.
+    /// Whether a number, a string or a variant has the type of this schema. Returns `false` for all other kinds of
+    /// values.
     pub(super) fn accepts(&self, value: &Value) -> bool {
         let choice = self.choice();
         match (&value.kind, &choice) {
@@ -148,9 +150,9 @@ impl Schema<'_> {
     }
 }
 
-/// Returns the help text for a value that should be a struct but seems to be the value of a field of the struct. The
-/// text names the first field that accepts the value or, if no field accepts it, the first field. Required fields come
-/// first.
+/// Returns the help text for a value that should be a struct but looks like the value of one of its fields. The help
+/// text names the first field that accepts the value. If no field accepts it, the text names the first field. Required
+/// fields come first.
 fn with_field_name(value: &Value, schema: &Schema) -> Option<String> {
     let inner = value.single().unwrap_or(value);
     let accepts = |field: &&str| {
@@ -162,7 +164,7 @@ fn with_field_name(value: &Value, schema: &Schema) -> Option<String> {
     Some(format!("write `({field}: {})`", short(inner)?))
 }
 
-/// Returns a value as it is quoted in a help text. `None` for a value that would be too long.
+/// Returns a value in the form in which help texts quote it. Returns `None` if the quoted value would be too long.
 pub(super) fn short(value: &Value) -> Option<String> {
     match &value.kind {
         ValueKind::Name(name) => Some(name.to_string()),
@@ -173,7 +175,7 @@ pub(super) fn short(value: &Value) -> Option<String> {
     }
 }
 
-/// Describes how to write the missing fields, such as `` `count:` with a whole number ``.
+/// Describes how to write the missing fields, for example `` `count:` with a whole number ``.
 fn usage_of(missing: &[&str], schema: &Schema) -> String {
     let one = |name: &&str| {
         let expectation = schema

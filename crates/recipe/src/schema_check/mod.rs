@@ -1,9 +1,9 @@
 //! Checks values of a recipe against the JSON schema of their Rust type.
 //!
-//! The schema is derived by `schemars`, and the values are written as `ron` writes the type. A value that is accepted
-//! here can be deserialized, unless the value breaks a rule that the schema does not contain, such as the rule that a
-//! direction must not be zero. Unlike deserialization, the check finds all errors of a value, each with its span and a
-//! help text.
+//! `schemars` derives the schema from the type, and the values are written as `ron` writes them. If a value is accepted
+//! here, it can be deserialized, unless it breaks a rule that the schema does not contain. An example is the rule that
+//! a direction must not be zero. Deserialization stops at the first error. The check here finds all errors of a value,
+//! each with its span and a help text.
 //!
 //! ```text
 //! schema                                        in the recipe
@@ -16,9 +16,10 @@
 //! anyOf with null, type with null               7, Some(7) or None
 //! ```
 //!
-//! A schema does not contain everything that `ron` needs to know, so types of parameters must follow three rules. The
-//! content of a newtype variant around a tuple or struct is a named type (a `$ref`), not inlined. A struct around one
-//! value is `#[serde(transparent)]`. A list of fixed length is an array, not a `Vec`.
+//! A schema does not contain everything that `ron` needs to know. Types of parameters must therefore follow three
+//! rules. If a newtype variant contains a tuple or a struct, the schema must refer to this content as a named type (a
+//! `$ref`). A struct around a single value must be `#[serde(transparent)]`. A list of fixed length must be an array,
+//! not a `Vec`.
 
 mod fields;
 mod nearest;
@@ -39,8 +40,8 @@ use shorthand::Short;
 
 /// Returns all errors of `value` against `schema`, in the order of the text.
 ///
-/// `schema` is a root schema: references in it are looked up in its `$defs`. Parts of the value that could not be read
-/// are skipped.
+/// `schema` is a root schema, so references are looked up in its `$defs`. Parts of the value that could not be read are
+/// skipped.
 pub fn check_schema(value: &Value, schema: &Json) -> Vec<Diagnostic> {
     checked(value, schema).wrong
 }
@@ -56,9 +57,9 @@ pub(crate) fn checked(value: &Value, schema: &Json) -> Checked {
 ///
 /// # Errors
 ///
-/// All errors of the value against the schema or, if there are none, the error of deserialization. The list is empty if
-/// a part of the value could not be read and there are no other errors, because the parser has already reported the
-/// reason.
+/// Returns all errors of the value against the schema. If there are none, returns the error of deserialization. The
+/// list is empty if the only error is a part of the value that could not be read, because the parser has already
+/// reported it.
 pub(crate) fn typed<T: DeserializeOwned>(
     value: &Value,
     schema: &Json,
@@ -115,12 +116,12 @@ impl Rename {
     }
 }
 
-/// The field or variant that a value belongs to, for messages.
+/// The field or variant to which a value belongs. Messages use its name.
 #[derive(Clone, Copy, Debug, Default)]
 struct Place<'n> {
     /// The name of the innermost field or variant around the value.
     name: Option<&'n str>,
-    /// Whether the value is only a part of the field or variant.
+    /// Whether the value is only a part of the value of the field or variant.
     inside: bool,
 }
 
@@ -139,7 +140,7 @@ impl<'n> Place<'n> {
         }
     }
 
-    /// Returns the subject of a sentence about the value.
+    /// Returns words for the value that can be the subject of a sentence.
     fn subject(self) -> String {
         match self.name {
             Some(name) if self.inside => format!("a value in `{name}`"),
@@ -148,7 +149,7 @@ impl<'n> Place<'n> {
         }
     }
 
-    /// Returns the end of a phrase such as `expected a number for ..`.
+    /// Returns the last words of a phrase such as `expected a number for ..`.
     fn of(self) -> String {
         match self.name {
             Some(name) if self.inside => format!(" in `{name}`"),
@@ -161,15 +162,15 @@ impl<'n> Place<'n> {
 #[derive(Default)]
 struct Checker {
     diagnostics: Vec<Diagnostic>,
-    /// The number of errors beyond [`MAX_DIAGNOSTICS`]. These errors are only counted.
+    /// The number of errors found after the first [`MAX_DIAGNOSTICS`] errors. These errors are only counted.
     more: usize,
     /// The old names that were found.
     renames: Vec<Rename>,
-    /// The values for which the name of the variant was omitted.
+    /// The values that are written without the name of their variant.
     shorts: Vec<Short>,
 }
 
-/// The maximum number of errors of one value that are reported one by one.
+/// The maximum number of errors of one value that are reported individually.
 const MAX_DIAGNOSTICS: usize = 100;
 
 impl Checker {
@@ -187,7 +188,7 @@ impl Checker {
         }
     }
 
-    /// Records an old name, unless it comes from a parameter of the recipe.
+    /// Records the use of an old name, unless the name comes from the value of a recipe parameter.
     fn renamed(&mut self, value: &Value, span: Span, from: &str, to: &str) {
         if value.parameter.is_none() {
             let (from, to) = (from.to_owned(), to.to_owned());
@@ -195,7 +196,7 @@ impl Checker {
         }
     }
 
-    /// Reports an error of `value`. If the value comes from a parameter of the recipe, the message names the parameter.
+    /// Reports an error of `value`. If the value comes from a recipe parameter, the message names this parameter.
     fn report(&mut self, value: &Value, span: Span, message: String, help: Option<String>) {
         if self.diagnostics.len() >= MAX_DIAGNOSTICS {
             self.more += 1;
@@ -325,7 +326,7 @@ impl Checker {
         }
     }
 
-    /// Checks `(1, 2)`. `expected` describes the expected value, for messages.
+    /// Checks `(1, 2)`. `expected` is a description of the expected value for messages.
     fn check_tuple(&mut self, value: &Value, items: &[Schema], expected: &str, place: Place) {
         let values = match &value.kind {
             ValueKind::Tuple(values) => values.as_slice(),
@@ -352,7 +353,8 @@ impl Checker {
         }
     }
 
-    /// Checks a count against its limits: characters of a string or items of a list.
+    /// Checks a count against its limits. The count is the number of characters of a string or the number of items of a
+    /// list.
     fn check_count(
         &mut self,
         value: &Value,
@@ -381,8 +383,8 @@ fn opening(value: &Value) -> Span {
     }
 }
 
-/// Returns a number with its noun, such as "1 value" or "2 values". The plural of the noun must be the noun with an
-/// added s.
+/// Returns a number followed by its noun, such as "1 value" or "2 values". The plural of the noun must end with an
+/// additional "s".
 pub fn counted(count: usize, thing: &str) -> String {
     format!("{count} {thing}{}", if count == 1 { "" } else { "s" })
 }

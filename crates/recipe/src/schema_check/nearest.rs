@@ -2,10 +2,10 @@
 
 use super::listed;
 
-/// Returns the candidates that are most similar to `name`, the most similar first. Returns at most three candidates,
-/// and no candidates if none is similar.
+/// Returns the candidates that are most similar to `name`. The most similar candidate comes first. Returns at most
+/// three candidates. If no candidate is similar, the result is empty.
 ///
-/// Case and underscores are ignored: `loop_subdivide` equals `LoopSubdivide`.
+/// Upper case and lower case count as equal, and underscores are ignored: `loop_subdivide` equals `LoopSubdivide`.
 ///
 /// ```
 /// let operations = ["LoopSubdivide", "Load", "FlipEdges"];
@@ -34,9 +34,9 @@ pub fn nearest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) ->
     near.into_iter().map(|(_, candidate)| candidate).collect()
 }
 
-/// Returns a lower bound of the edit distance between two names. The bound is the larger of two counts: the letters
-/// that only the first name has, and the letters that only the second name has. The bound is fast to compute and
-/// excludes most names.
+/// Returns a lower bound of the edit distance between two names. The bound is the larger of two numbers: how many
+/// letters only the first name has, and how many letters only the second name has. The bound is fast to compute and
+/// excludes most names from the slower comparison.
 fn min_distance(a: &str, b: &str) -> usize {
     let mut surplus = [0_isize; 32];
     a.bytes()
@@ -58,8 +58,8 @@ fn min_distance(a: &str, b: &str) -> usize {
     }
 }
 
-/// Returns a help text for an unknown name: the most similar known names, or the first 40 known names if none is
-/// similar.
+/// Returns a help text for an unknown name. The text lists the most similar known names or, if no name is similar, the
+/// first 40 known names.
 ///
 /// ```
 /// let known = ["segments", "levels"];
@@ -67,7 +67,7 @@ fn min_distance(a: &str, b: &str) -> usize {
 /// assert_eq!(recipe::schema_check::did_you_mean("x", known), "known: `segments`, `levels`");
 /// ```
 pub fn did_you_mean<'n>(name: &str, known: impl IntoIterator<Item = &'n str>) -> String {
-    /// The maximum number of names that are listed.
+    /// The maximum number of names in the list.
     const MAX_NAMES: usize = 40;
     let known: Vec<&str> = known.into_iter().collect();
     let near = nearest(name, known.iter().copied());

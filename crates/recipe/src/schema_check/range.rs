@@ -79,13 +79,13 @@ impl Checker {
 
 #[expect(
     clippy::cast_possible_truncation,
-    reason = "the truncation shows whether the value is too large"
+    reason = "the conversion to 32 bits shows whether the value is too large"
 )]
 fn is_infinite_single(value: f64) -> bool {
     (value as f32).is_infinite()
 }
 
-/// Returns the smallest and the largest whole number that a schema and its Rust type allow.
+/// Returns the smallest and the largest whole number that both the schema and its Rust type allow.
 fn integer_range(schema: &Schema) -> (i128, i128) {
     let (mut least, mut most) = match schema.format() {
         Some("int8") => (i8::MIN.into(), i8::MAX.into()),
@@ -123,7 +123,7 @@ fn to_int(limit: &serde_json::Number, round: fn(f64) -> f64) -> i128 {
         .unwrap_or_else(|| round(limit.as_f64().unwrap_or(0.0)) as i128)
 }
 
-/// A range of numbers. Each limit has a flag: whether the limit is exclusive.
+/// A range of numbers. Each limit is stored with a flag that is true if the limit is exclusive.
 struct Bounds {
     least: Option<(f64, bool)>,
     most: Option<(f64, bool)>,
@@ -145,7 +145,7 @@ impl Bounds {
         }
     }
 
-    /// Returns a description of the limit that `value` violates, if it violates one.
+    /// If `value` violates a limit, returns a description of this limit.
     fn violated_by(&self, value: f64) -> Option<String> {
         let below = |&(limit, open): &(f64, bool)| value < limit || open && value <= limit;
         let above = |&(limit, open): &(f64, bool)| value > limit || open && value >= limit;

@@ -3,31 +3,31 @@
 use super::{counted, listed};
 use serde_json::{Map, Value as Json};
 
-/// A schema, with the schemas that it refers to.
+/// A JSON schema, together with the schemas to which it refers.
 #[derive(Clone, Debug)]
 pub(crate) struct Schema<'s> {
     root: &'s Json,
     /// The schema itself and the schemas that it includes by `$ref` and `allOf`. A value must fit all layers.
     layers: Vec<&'s Map<String, Json>>,
-    /// The name of the type, if it has one.
+    /// The name of the Rust type, if it has one.
     name: Option<&'s str>,
-    /// Whether the schema is defined in `$defs` and referred to by `$ref`.
+    /// Whether the schema is a reference: it is defined in `$defs`, and `$ref` refers to it.
     is_reference: bool,
 }
 
-/// The alternatives of a schema: variants of an enumeration, or other schemas.
+/// The alternatives of a schema, which are the variants of an enumeration or other schemas.
 #[derive(Debug, Default)]
 pub(super) struct Choice<'s> {
     /// Variants without content.
     pub(super) units: Vec<&'s str>,
-    /// Variants with content. The schemas of these variants are read only when needed.
+    /// Variants with content. The schema of such a variant is read only when it is needed.
     variants: Vec<(&'s str, &'s Json)>,
     root: Option<&'s Json>,
-    /// Other schemas except null, such as the type inside an option.
+    /// All other alternatives except null, such as the type inside an option.
     pub(super) others: Vec<Schema<'s>>,
 }
 
-/// The maximum number of layers. A limit is necessary, because a schema can refer to itself.
+/// The maximum number of layers. A limit is necessary because a schema can refer to itself.
 const MAX_LAYERS: usize = 32;
 
 impl<'s> Schema<'s> {
@@ -37,7 +37,7 @@ impl<'s> Schema<'s> {
         schema
     }
 
-    /// Creates the schema of `json`. References are looked up in `root`.
+    /// Creates the schema of `json`. References in `json` are looked up in `root`.
     pub(crate) fn new(root: &'s Json, json: &'s Json) -> Self {
         let mut schema = Self {
             root,
@@ -76,7 +76,7 @@ impl<'s> Schema<'s> {
         }
     }
 
-    /// Returns the values of a keyword in all layers, outermost first.
+    /// Returns the values that a keyword has in the layers. The outermost layer comes first.
     fn all(&self, keyword: &str) -> impl Iterator<Item = &'s Json> {
         self.layers
             .iter()
@@ -87,22 +87,22 @@ impl<'s> Schema<'s> {
         self.all(keyword).find_map(Json::as_str)
     }
 
-    /// Returns the numbers of a keyword in all layers.
+    /// Returns the numbers that a keyword has in the layers.
     pub(crate) fn numbers(&self, keyword: &str) -> impl Iterator<Item = &'s serde_json::Number> {
         self.all(keyword).filter_map(Json::as_number)
     }
 
-    /// Returns the value of a keyword whose value is a count, such as `minItems`.
+    /// Returns the value of a keyword that contains a count, such as `minItems`.
     pub(super) fn count(&self, keyword: &str) -> Option<u64> {
         self.all(keyword).find_map(Json::as_u64)
     }
 
-    /// Returns the value of a keyword in the schema itself, without the schemas that it refers to.
+    /// Returns the value of a keyword in the schema itself. The schemas to which it refers are ignored.
     pub(crate) fn own(&self, keyword: &str) -> Option<&'s Json> {
         self.layers.first()?.get(keyword)
     }
 
-    /// Returns the description of the schema itself. The result is empty if the schema has no description.
+    /// Returns the description in the schema itself. If there is no description, the result is empty.
     pub(crate) fn doc(&self) -> String {
         let doc = self.own("description").and_then(Json::as_str);
         doc.unwrap_or_default().to_owned()
@@ -120,7 +120,7 @@ impl<'s> Schema<'s> {
         definitions.map(move |(name, json)| (name.as_str(), Self::new(root, json)))
     }
 
-    /// Returns the schemas in the list of a keyword.
+    /// Returns the schemas in the list that is the value of a keyword.
     pub(crate) fn list(&self, keyword: &str) -> Vec<Self> {
         let items = self.all(keyword).filter_map(Json::as_array).flatten();
         items.map(|item| Self::new(self.root, item)).collect()
@@ -140,8 +140,8 @@ impl<'s> Schema<'s> {
             .map(|json| Self::new(self.root, json))
     }
 
-    /// Returns the allowed types. `null` is included only if it is the only allowed type. The result is empty if
-    /// every type is allowed.
+    /// Returns the allowed types. `null` is included only if no other type is allowed. If every type is allowed, the
+    /// result is empty.
     pub(crate) fn types(&self) -> Vec<&'s str> {
         let mut types: Vec<&str> = match self.all("type").next() {
             Some(Json::String(name)) => vec![name],
@@ -160,7 +160,7 @@ impl<'s> Schema<'s> {
         self.all(keyword).next().is_some()
     }
 
-    /// Whether the name of the variant can be omitted.
+    /// Whether a value may omit the name of its variant.
     pub(super) fn is_shorthand(&self) -> bool {
         self.all("x-shorthand").any(|is| is == &Json::Bool(true))
     }
@@ -177,13 +177,13 @@ impl<'s> Schema<'s> {
                 .any(|part| part.get("type").is_some_and(|t| t == "null"))
     }
 
-    /// Returns the alternatives as JSON.
+    /// Returns the alternatives of the schema as JSON.
     fn parts(&self) -> impl Iterator<Item = &'s Json> {
         let lists = ["oneOf", "anyOf"].into_iter().flat_map(|key| self.all(key));
         lists.filter_map(Json::as_array).flatten()
     }
 
-    /// Returns the names of the variants, if the schema is of an enumeration.
+    /// Returns the names of the variants, if the schema describes an enumeration.
     pub(crate) fn variants(&self) -> Vec<&'s str> {
         self.choice()
             .map_or_else(Vec::new, |choice| choice.names().collect())
@@ -198,7 +198,7 @@ impl<'s> Schema<'s> {
         let mut found = self.add_units(&mut choice);
         for part in self.parts() {
             found = true;
-            // A fast path for the most common alternatives: a name, or a name with content.
+            // This fast path handles the most common alternatives: a name, or a name with content.
             if let Some(name) = unit(part) {
                 choice.units.push(name);
                 continue;
@@ -216,14 +216,15 @@ impl<'s> Schema<'s> {
         found.then_some(choice)
     }
 
-    /// Adds the names of `enum` and `const` if the schema is for strings. Returns whether the schema has such names.
+    /// If the schema describes strings, adds the names in its `enum` and `const`. Returns whether the schema has any
+    /// such names.
     fn add_units(&self, choice: &mut Choice<'s>) -> bool {
         let before = choice.units.len();
         choice.units.extend(self.units());
         choice.units.len() > before
     }
 
-    /// Returns the names of `enum` and `const` if the schema is for strings.
+    /// If the schema describes strings, returns the names in its `enum` and `const`.
     pub(crate) fn units(&self) -> Vec<&'s str> {
         if !self.types().iter().all(|&name| name == "string") {
             return Vec::new();
@@ -233,7 +234,7 @@ impl<'s> Schema<'s> {
         names.filter_map(Json::as_str).collect()
     }
 
-    /// Returns the schemas of the items, if the array has a fixed length.
+    /// If the schema describes an array of fixed length, returns the schemas of its items.
     pub(crate) fn tuple(&self) -> Option<Vec<Self>> {
         let items = self.list("prefixItems");
         if !items.is_empty() {
@@ -252,7 +253,7 @@ impl<'s> Schema<'s> {
         ])
     }
 
-    /// Whether the object is a map rather than a struct.
+    /// Whether an object of this schema is a map and not a struct.
     pub(super) fn is_map(&self) -> bool {
         let open = self
             .all("additionalProperties")
@@ -260,7 +261,8 @@ impl<'s> Schema<'s> {
         !self.has("properties") && (open || self.has("patternProperties"))
     }
 
-    /// Whether the keys of the map are strings. Schemas do not describe other keys precisely.
+    /// Whether the keys of the map are strings. If the keys are not strings, the schema does not describe them
+    /// precisely.
     pub(super) fn has_text_keys(&self) -> bool {
         !self.has("patternProperties")
     }
@@ -289,7 +291,7 @@ impl<'s> Schema<'s> {
         found.next().map(|json| Self::new(self.root, json))
     }
 
-    /// Returns the field that has or had this name, with its current name.
+    /// Returns the field with this current or earlier name. The first returned value is its current name.
     pub(super) fn field_or_alias(&self, name: &str) -> Option<(&'s str, Self)> {
         let fields = || self.all("properties").filter_map(Json::as_object).flatten();
         let (current, json) = fields()
@@ -298,7 +300,7 @@ impl<'s> Schema<'s> {
         Some((current, Self::new(self.root, json)))
     }
 
-    /// Returns the current name of the variant that had this name.
+    /// Returns the current name of the variant that had this name in an earlier version.
     pub(super) fn variant_by_alias(&self, name: &str) -> Option<&'s str> {
         let part = self.parts().find(|part| has_alias(part, name))?;
         let unit = part["const"].as_str();
@@ -313,8 +315,8 @@ impl<'s> Schema<'s> {
             .filter_map(Json::as_str)
     }
 
-    /// Whether the content of a variant is one value inside its parentheses, as in `Not((a: 1))`, rather than a list of
-    /// fields or items, as in `Random(count: 1)`.
+    /// Whether the content of a variant is a single value inside its parentheses, as in `Not((a: 1))`. The content of
+    /// other variants is a list of fields or items, as in `Random(count: 1)`.
     pub(super) fn is_one_value(&self) -> bool {
         let types = self.types();
         let spread = match types.as_slice() {
@@ -369,7 +371,7 @@ impl<'s> Schema<'s> {
         }
     }
 
-    /// Describes how the content of a variant or struct is written, such as `Name(count: .., seed: ..)`.
+    /// Describes the form in which a variant or struct is written, such as `Name(count: .., seed: ..)`.
     pub(super) fn usage(&self, name: &str) -> String {
         if self.is_one_value() && !name.is_empty() {
             return format!("{name}(..)");
@@ -404,14 +406,14 @@ impl<'s> Choice<'s> {
         self.names().any(|n| n == name)
     }
 
-    /// Returns the schema of the content of a variant.
+    /// Returns the schema for the content of a variant.
     pub(super) fn content(&self, name: &str) -> Option<Schema<'s>> {
         let (_, json) = self.variants.iter().find(|(n, _)| *n == name)?;
         Some(Schema::new(self.root?, json))
     }
 }
 
-/// Returns the name of the variant, if the schema describes a variant without content.
+/// If the schema describes a variant without content, returns the name of the variant.
 fn unit(schema: &Json) -> Option<&str> {
     let layer = schema.as_object()?;
     let name = layer.get("const")?.as_str()?;
@@ -424,7 +426,7 @@ fn refers(layer: &Map<String, Json>) -> bool {
     layer.contains_key("$ref") || layer.contains_key("allOf")
 }
 
-/// Returns the name and the content of the variant, if the schema describes a variant with content.
+/// If the schema describes a variant with content, returns the name of the variant and the schema of the content.
 fn variant(schema: &Json) -> Option<(&str, &Json)> {
     let layer = schema.as_object()?;
     let properties = layer.get("properties")?.as_object()?;
@@ -438,7 +440,7 @@ fn variant(schema: &Json) -> Option<(&str, &Json)> {
     (single && closed).then_some((name.as_str(), content))
 }
 
-/// Whether a field or variant had this name earlier.
+/// Whether a field or variant had this name in an earlier version.
 fn has_alias(json: &Json, name: &str) -> bool {
     let aliases = json.get("aliases").and_then(Json::as_array);
     aliases.is_some_and(|aliases| aliases.iter().any(|alias| alias == name))
@@ -448,7 +450,7 @@ fn dots(count: usize) -> String {
     vec![".."; count].join(", ")
 }
 
-/// Returns the name of a type with its article.
+/// Returns the name of a type in backticks, after the article "a" or "an".
 fn article(name: &str) -> String {
     let vowel = name.starts_with(['A', 'E', 'I', 'O', 'U']);
     format!("{} `{name}`", if vowel { "an" } else { "a" })

@@ -14,11 +14,11 @@ pub(super) struct WrongKind {
     pub(super) help: String,
 }
 
-/// The name of the type, and its variants.
+/// The name of a selection type, and the names of its variants.
 type Variants = (&'static str, Vec<String>);
 
-/// Explains the error if the variant `name` is not part of the selection type `expected`, but is part of another
-/// selection type. Returns `None` for other types and variants.
+/// Explains the error that the variant `name` belongs to another selection type than the expected type `expected`.
+/// Returns `None` if `expected` is not a selection type, or if no selection type has the variant.
 pub(super) fn of_other_kind(name: &str, expected: &str) -> Option<WrongKind> {
     static ALL: LazyLock<[Variants; 3]> = LazyLock::new(|| {
         [

@@ -1,5 +1,5 @@
-//! Checks enumerations in which the name of the variant can be omitted if the content fits only one variant. The schema
-//! of these enumerations has the keyword `x-shorthand`. An example is [`op::Elements`].
+//! Checks enumerations in which a value can omit the name of the variant. The name can be omitted if the content fits
+//! only one variant. The schema of these enumerations has the keyword `x-shorthand`. An example is [`op::Elements`].
 //!
 //! ```text
 //! Sharp(above: 30)   exists only for edges                ---> Edges(Sharp(above: 30))
@@ -13,7 +13,7 @@ use super::schema::{Choice, Schema};
 use super::{Checker, Place, Rename, did_you_mean};
 use ron_tree::{Call, Diagnostic, Name, Span, Value, ValueKind};
 
-/// A value for which the name of the variant was omitted.
+/// A value that is written without the name of its variant.
 #[derive(Clone, Debug)]
 pub(super) struct Short {
     /// The span of the value.
@@ -23,7 +23,7 @@ pub(super) struct Short {
 }
 
 impl Checker {
-    /// Checks a value that is a variant, or the content of a variant whose name was omitted.
+    /// Checks a value that is either a variant or, if the name of the variant was omitted, the content of a variant.
     pub(super) fn check_shorthand(
         &mut self,
         value: &Value,
@@ -74,8 +74,8 @@ impl Checker {
         }
     }
 
-    /// Reports the errors of a value that fits no variant. The reported errors come from the check against the variant
-    /// that fits best.
+    /// Reports the errors of a value that does not fit any variant. The reported errors are those from the check
+    /// against the best fitting variant.
     fn take_closest(&mut self, value: &Value, trials: Vec<(&str, Schema, Self)>) {
         let variants = |schema: &Schema| -> Vec<String> {
             let choice = schema.choice().unwrap_or_default();
@@ -97,8 +97,8 @@ impl Checker {
             );
         }
         // For each variant, counts the names in the value that are selections of this variant. The variant with the
-        // highest count fits best; among variants with equal counts, the variant with the fewest errors; and among
-        // these, the first.
+        // highest count fits best. If several variants have the same count, the variant with the fewest errors fits
+        // best. If several variants also have the same number of errors, the first of them is chosen.
         let fit = |((_, _, trial), names): &((&str, Schema, Self), Vec<String>)| {
             (n_known(value, names), Reverse(trial.diagnostics.len()))
         };
@@ -125,14 +125,15 @@ impl Checker {
 pub(crate) struct Checked {
     /// The errors.
     pub(crate) wrong: Vec<Diagnostic>,
-    /// The old names of fields and variants (`aliases` in the schema), in the order of the text.
+    /// The old names that the value uses for fields and variants, in the order of the text. The schema lists old names
+    /// in `aliases`.
     pub(crate) renames: Vec<Rename>,
     pub(super) shorts: Vec<Short>,
 }
 
 impl Checked {
-    /// Returns the old names in a checked step `Name(..)`, including the name of the operation. `name` is the current
-    /// name of the operation.
+    /// Returns the old names that a checked step `Name(..)` uses. The name of the operation can be one of them. `name`
+    /// is the current name of the operation.
     pub(crate) fn renames_in_step(self, run: &Value, name: &str) -> Vec<Rename> {
         let own = run.name().filter(|(own, _)| *own != name);
         let own = own.map(|(own, span)| Rename {
@@ -143,7 +144,7 @@ impl Checked {
         own.into_iter().chain(self.renames).collect()
     }
 
-    /// Returns the value with all omitted names added.
+    /// Returns the value after adding all names of variants that were omitted.
     pub(crate) fn in_full<'v>(&self, value: &'v Value) -> Cow<'v, Value> {
         if self.shorts.is_empty() {
             return Cow::Borrowed(value);
@@ -154,7 +155,7 @@ impl Checked {
     }
 }
 
-/// Adds the omitted names to the values in `value`.
+/// Adds the names of variants that were omitted inside `value`.
 fn complete(value: &mut Value, shorts: &[Short]) {
     // If several nested values have the same span, the name belongs to the outermost one, because that value was
     // checked against the schema.
@@ -164,7 +165,7 @@ fn complete(value: &mut Value, shorts: &[Short]) {
     }
 }
 
-/// Returns the variant with this name and with `value` as its content.
+/// Returns a variant that has this name and whose content is `value`.
 fn in_full(value: &Value, name: &str) -> Value {
     let span = value.span;
     let body = Value::new(span, ValueKind::Tuple(vec![value.clone()]));
@@ -173,7 +174,7 @@ fn in_full(value: &Value, name: &str) -> Value {
     Value::new(span, ValueKind::Call(Box::new(Call { name, body })))
 }
 
-/// Counts the names in the value that are also in `names`.
+/// Counts the names inside the value that are also in `names`.
 fn n_known(value: &Value, names: &[String]) -> usize {
     let inside: usize = value.parts().map(|part| n_known(part, names)).sum();
     let is_known = |(name, _): (&str, _)| names.iter().any(|known| known == name);

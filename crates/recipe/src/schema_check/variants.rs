@@ -1,4 +1,4 @@
-//! Checks values whose schema has alternatives, such as variants of enumerations.
+//! Checks values whose schema has several alternatives, such as the variants of an enumeration.
 
 use super::fields::short;
 use super::schema::{Choice, Schema};
@@ -19,7 +19,8 @@ impl Checker {
         match choice.others.as_slice() {
             [] => self.check_variant(value, schema, choice, place),
             [one] => self.check(value, one, place),
-            // More than one other schema occurs only for untagged enumerations, which parameters do not use.
+            // Several alternatives that are not variants occur only in untagged enumerations. Parameters do not use
+            // untagged enumerations.
             _ => {}
         }
     }
@@ -166,7 +167,7 @@ impl Checker {
     }
 }
 
-/// Returns the value with a different name.
+/// Returns a copy of the value with another name.
 fn renamed(value: &Value, name: &str) -> Value {
     let mut renamed = value.clone();
     match &mut renamed.kind {
@@ -177,14 +178,15 @@ fn renamed(value: &Value, name: &str) -> Value {
     renamed
 }
 
-/// Returns a help text that lists the variants, if there are at most 24.
+/// Returns a help text that lists the variants, if there are no more than 24.
 fn variants_help(names: &[&str]) -> Option<String> {
     (1..=24)
         .contains(&names.len())
         .then(|| format!("variants: {}", listed(names.iter().copied())))
 }
 
-/// Returns the help text for a value that should be a variant, but is the content of one or two variants.
+/// Returns the help text for a value that should be a variant but is only the content of a variant. At most two
+/// variants are suggested.
 fn with_variant_name(value: &Value, choice: &Choice) -> Option<String> {
     let accepts = |name: &&str| {
         let content = choice.content(name);

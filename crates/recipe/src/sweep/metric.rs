@@ -1,4 +1,4 @@
-//! The metrics of a sweep: the values that the sweep records of each run.
+//! The metrics of a sweep, which are the values that a sweep records for each run.
 
 use std::fmt;
 
@@ -11,7 +11,7 @@ use crate::expect::{self, OtherMesh, PlacedSubject, Reader, Subject};
 use crate::run::Outcome;
 use geometry::distance::Distance;
 
-/// A value that a sweep records of each run. The value is measured at the end of the run, for all meshes together.
+/// A value that a sweep records for each run. The value is measured at the end of the run, for all meshes together.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Metric {
@@ -37,24 +37,24 @@ pub enum Metric {
     Volume,
     /// The smallest corner angle of all faces, in degrees.
     MinAngle,
-    /// The two-sided Hausdorff distance between the surface of the mesh and that of another mesh, in scene units.
+    /// The two-sided Hausdorff distance between the surfaces of the mesh and of another mesh, in scene units.
     DistanceTo {
         /// The mesh to compare with.
         other: OtherMesh,
-        /// The name of the object to measure. Required if the scene has several meshes.
+        /// The name of the object to measure. `on` is required if the scene has several meshes.
         on: Option<String>,
     },
     /// A statistic of the values of an attribute, for example one that `Measure` stored.
     Attribute {
-        /// The name of the attribute. If several kinds of elements have an attribute of this name, the first of
-        /// vertices, faces, corners and edges is used.
+        /// The name of the attribute. If several kinds of elements have an attribute of this name, the first kind in
+        /// the order vertices, faces, corners, edges is used.
         name: String,
         /// The statistic.
         statistic: Statistic,
-        /// The component of a vector, from 0. Required for vectors.
+        /// The index of the component of a vector, starting at 0. Required for vectors.
         #[schemars(range(max = 3))]
         component: Option<u32>,
-        /// The name of the object to measure. If omitted, all meshes are measured together, and each must have the
+        /// The name of the object to measure. If omitted, all meshes are measured together, and each mesh must have the
         /// attribute.
         on: Option<String>,
     },

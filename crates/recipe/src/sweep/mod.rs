@@ -256,7 +256,7 @@ impl Sweep {
                 list.len()
             );
             diagnostics.push(Diagnostic::error(*span, message).with_help(
-                "use `over` for all combinations of the values; `zip` combines them value by value",
+                "`zip` combines the first values of all lists, then the second values, and so on; use `over` for all combinations of the values",
             ));
         }
         let columns = |lists: &[(String, Span, Vec<Setting>)]| -> Vec<Vec<Vec<Setting>>> {
@@ -319,7 +319,7 @@ impl Sweep {
                 diagnostics.push(unknown.with_help(did_you_mean(name, known)));
             }
             if let Some(earlier) = seen.iter().find(|e| e.name == *name) {
-                let message = format!("`{name}` has values at two locations");
+                let message = format!("the sweep gives values for `{name}` in two places");
                 let twice = Diagnostic::error(entry.name_span, message);
                 diagnostics.push(twice.with_label(earlier.name_span, "and here"));
             }

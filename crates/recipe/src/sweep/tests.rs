@@ -160,7 +160,7 @@ fn all_errors_in_the_values_are_reported_at_once() {
             "expected a list of values `[..]`: `Range` is for numbers, but the parameter has the type Choice",
         ),
         ("Area", "expected a string in quotes, found `Area`"),
-        ("\"n\"", "`n` has values at two locations"),
+        ("\"n\"", "the sweep gives values for `n` in two places"),
         ("5", "expected a path in quotes, found 5"),
     ];
     let expected: Vec<_> = expected.map(|(a, b)| (a.to_owned(), b.to_owned())).into();

@@ -380,7 +380,7 @@ fn on_is_only_for_operations_that_take_it() {
         &steps("(run: Sheet(columns: 1), on: [\"a\"])"),
         "[\"a\"]",
         "Sheet does not take `on`",
-        "the operation names its objects in its parameters, or creates new ones",
+        "the operation names its objects in its parameters, or creates new objects",
     );
 }
 

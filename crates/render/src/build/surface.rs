@@ -117,7 +117,7 @@ mod tests {
         let mut mesh: Mesh = shapes::square();
         let uvs = mesh.half_edges().map(|h| mesh.position(mesh.origin(h)));
         let uvs: Vec<DVec2> = uvs.map(DVec3::truncate).collect();
-        // If the material uses the second set of texture coordinates, all coordinates of the first set are equal.
+        // If the material uses the second set of texture coordinates, all coordinates of the first set are set to 0.
         if material
             .base_color_texture
             .as_ref()
@@ -198,8 +198,8 @@ mod tests {
                     "{mode:?}, pixel {i}"
                 );
             }
-            // Checkerboards of n times n squares, with sharp or blurred edges. From n = 64 on, a square is as small as
-            // a pixel or smaller.
+            // Checkerboards of n times n squares, with sharp or blurred edges. If n is 64 or more, a square is at most
+            // as large as a pixel.
             for n in [8, 50, 64, 100, 400, 1000] {
                 for filter in [Filter::Nearest, Filter::Linear] {
                     let found = coverage(&draw(

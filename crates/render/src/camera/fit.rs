@@ -112,7 +112,8 @@ impl Fit {
         let (half, slant) = (self.half, self.slant());
         let (mut borders, mut front) = ([f64::NEG_INFINITY; 4], f64::NEG_INFINITY);
         if self.steady {
-            // The maximum of x + t z over the points (x, y, z) of the sphere, for the slope t of a clipping plane.
+            // Returns the maximum of x + t z over the points (x, y, z) of the bounding sphere, where t is the slope of
+            // a clipping plane.
             let border = |t: f64| radius * (1.0 + t * t).sqrt();
             let [a, b] = [border(slant.x), border(slant.y)];
             (borders, front) = ([a, a, b, b], radius);
@@ -136,7 +137,8 @@ impl Fit {
         let target = center + x * middle.x + y * middle.y;
         let distance = (extent / half).max_element();
         let (eye, scale, near) = match self.tangent {
-            // A flat scene that is seen edge-on has almost no extent. The camera must still be in front of the scene.
+            // A flat scene that is seen edge-on has almost no extent. Even then, the camera must be in front of the
+            // scene.
             Some(tangent) => {
                 let eye = target + z * distance.max(front + 0.05 * radius);
                 (eye, tangent, 1e-3 * radius)

@@ -221,8 +221,8 @@ fn write_bar(svg: &mut Svg, corner: DVec2, [low, high]: [f64; 2], colors: &[Colo
         while y + strip < height && color_at(1.0 - (y + strip + 0.5) / height) == color {
             strip += 1.0;
         }
-        // Each strip extends to the bottom, under the next strips. Otherwise the background would show between strips
-        // whose borders are not at whole pixels of the picture.
+        // Each strip of the bar extends to the bottom of the bar, and the later strips are drawn over it. Otherwise the
+        // background would show between strips whose borders are not at whole pixels of the picture.
         let size = DVec2::new(width, height - y);
         svg.rectangle(corner + DVec2::Y * y, size, &Paint::fill(color));
         y += strip;
@@ -262,7 +262,7 @@ fn ticks(low: f64, high: f64) -> Vec<Tick> {
     } else {
         high / steps - low / steps
     };
-    // If the ends are nearly equal, the labels of several numbers between them would be the same.
+    // If the two ends of the range are nearly equal, several labels between them would show the same number.
     let largest = low.abs().max(high.abs());
     if rough <= largest * 1e-14 {
         return vec![Tick {
@@ -286,8 +286,8 @@ fn ticks(low: f64, high: f64) -> Vec<Tick> {
         (digit, exponent) = (1, exponent + 1);
     }
     let step = power(format!("{digit}e{exponent}"));
-    // A step is at least 1e-14 times the larger end. Therefore each end divided by the step is small enough to be
-    // rounded to an exact integer in `f64`.
+    // A step is at least 1e-14 times the larger of the absolute values of the two ends. Therefore each end divided by
+    // the step is small enough to be rounded to an exact integer in `f64`.
     #[expect(
         clippy::cast_possible_truncation,
         reason = "the quotients are at most 1e15"
@@ -298,7 +298,8 @@ fn ticks(low: f64, high: f64) -> Vec<Tick> {
     ];
     (first..=last)
         .map(|i| {
-            // The value is parsed from its digits. Therefore 3 steps of 0.1 give exactly 0.3.
+            // The value is parsed from its decimal digits and not computed by a multiplication. Therefore 3 steps
+            // of 0.1 give exactly 0.3.
             let value = power(format!("{}e{exponent}", i * digit));
             Tick {
                 value,

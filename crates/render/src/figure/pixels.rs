@@ -54,7 +54,8 @@ pub fn draw(image: &mut Image, svg: &Svg, scale: f64) {
     let Some(area) = paths.iter().filter_map(PaintedPath::area).reduce(union) else {
         return;
     };
-    // The areas of paths do not always include the caps and dashes of strokes, so one pixel is added on each side.
+    // The bounding box of a path does not always include the caps and dashes of its strokes, so one pixel is added on
+    // each side.
     let span = |low: f32, high: f32, side: u32| {
         let low = (f64::from(low) * scale).floor() - 1.0;
         let high = (f64::from(high) * scale).ceil() + 1.0;

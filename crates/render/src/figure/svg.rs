@@ -124,7 +124,8 @@ impl Run {
 
     /// Creates a superscript of digits above the previous run, which is a subscript of `n_subscript` digits.
     pub fn superscript(text: impl Into<String>, n_subscript: usize) -> Self {
-        // The width of a digit is half the font size. Here the font size is 0.7 of the size of the text.
+        // The width of a digit is half the font size. The font size of subscripts and superscripts is 0.7 times the
+        // size of the text.
         Self {
             size: 0.7,
             raise: 0.42,

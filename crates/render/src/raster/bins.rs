@@ -92,7 +92,7 @@ pub(super) fn bytes(groups: impl Iterator<Item = usize> + Clone, frame: &Frame) 
 /// temporary memory of sorting.
 pub(super) fn clipped_bytes(drawing: &Drawing, view: &View) -> u64 {
     let n_pieces: u64 = drawing.parts.iter().map(|part| n_pieces(part, view)).sum();
-    // While a vector grows, its old and its new memory take up to three times its length.
+    // While a vector grows, its old and its new memory together take up to three times the memory of its elements.
     let vectors = 3 * (size_of::<(u32, ProjectedTriangle)>() + size_of::<(u32, TileRect)>());
     n_pieces * (vectors + 4 * (ENTRIES_PER_ITEM + 1)) as u64
 }
@@ -104,8 +104,8 @@ fn n_pieces(part: &Part, view: &View) -> u64 {
     for &p in &*part.points {
         (min, max) = (min.min(p), max.max(p));
     }
-    // The region in which no triangle is clipped is convex, so it contains all points if it contains the corners of
-    // their bounding box.
+    // The region in which no triangle is clipped is convex. Therefore it contains all points if it contains the corners
+    // of their bounding box.
     let corner = |i: u32| {
         let side = |axis: u32| if i >> axis & 1 == 0 { min } else { max };
         DVec3::new(side(0).x, side(1).y, side(2).z)
@@ -275,7 +275,8 @@ fn tiles_of_triangle(projected: &ProjectedTriangle, frame: &Frame) -> Option<Til
     let range = |axis: usize, end: u32| {
         let [a, b, c] = projected.map(|corner| corner.at[axis]);
         let (min, max) = (a.min(b).min(c), a.max(b).max(c));
-        // A pixel has 16 rows and 16 columns. Samples are in the middle of a row and a column.
+        // Each pixel is divided into 16 rows and 16 columns. Each sample is in the middle of one of the rows and in the
+        // middle of one of the columns.
         let step = GRID / 16;
         let first = (min + step / 2 - 1).div_euclid(step);
         let last = (max - step / 2).div_euclid(step);

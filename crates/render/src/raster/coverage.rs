@@ -109,7 +109,7 @@ fn n_covered(coverage: f32) -> usize {
 /// Returns the position of a sample in the order in which samples are covered. The order starts at the sample
 /// `rotation` and goes in steps of 7 samples, so that the first few samples are spread over the pixel.
 fn rank(sample: usize, rotation: usize) -> usize {
-    // Modulo 16, the inverse of 7 is 7 itself.
+    // A multiplication by 7 undoes the steps of 7 samples, because the inverse of 7 modulo 16 is 7 itself.
     (sample + SAMPLES - rotation % SAMPLES) * 7 % SAMPLES
 }
 

@@ -106,11 +106,11 @@ impl Frame {
 
 /// Returns the memory that [`render`] needs for the pixels of a picture of this size, in bytes.
 pub fn pixel_bytes(size: [u32; 2]) -> u64 {
-    // Sizes that are too large are refused later. Here, the computation must not overflow.
+    // Sizes that are too large are refused later. The sides are limited here so that the computation does not overflow.
     let [width, height] = size.map(|side| u64::from(side.min(1 << 20)));
     let threads = rayon::current_num_threads() as u64;
-    // While a thread waits for other threads, it starts more rows of tiles, so one thread can hold several rows in
-    // memory.
+    // While a thread waits for other threads, it starts more rows of tiles. Therefore one thread can hold several rows
+    // in memory.
     let rows = 4 * threads * (4 * u64::from(TILE) * width + (1 << 18));
     4 * width * height + rows + (1 << 20)
 }
@@ -118,7 +118,7 @@ pub fn pixel_bytes(size: [u32; 2]) -> u64 {
 /// Returns an upper bound of the memory that [`render`] needs for a picture of this view and size, in bytes, in
 /// addition to the drawing.
 pub fn bytes_needed(drawing: &Drawing, view: &View, size: [u32; 2], look: &Look) -> u64 {
-    // The sides are limited as in `pixel_bytes`.
+    // The sides are limited, as in `pixel_bytes`, so that the computation does not overflow.
     let [width, height] = size.map(|side| side.min(1 << 20));
     let frame = Frame::new([width, height]);
     let threads = rayon::current_num_threads() as u64;

@@ -247,7 +247,8 @@ fn draw_triangle(depths: &mut [[f32; 2]], side: usize, [a, b, c]: [MapPoint; 3])
         let y = (row * STEPS + STEPS / 2 - a.at[1]) as f32;
         for column in columns.clone() {
             let x = (column * STEPS + STEPS / 2 - a.at[0]) as f32;
-            // Twice the signed areas of the two triangles that the texel forms with the sides opposite to b and c.
+            // The texel forms a triangle with the side opposite to b, and another with the side opposite to c. `s` and
+            // `t` are twice the signed areas of these two triangles.
             let (s, t) = (x * vy - y * vx, ux * y - uy * x);
             let rest = area - s - t;
             let is_inside = if area > 0.0 {

@@ -135,8 +135,7 @@ impl Tile {
     fn fill<T: Number>(&mut self, id: u32, setup: &Setup, mask: u16) {
         let [x0, y0, x1, y1] = setup.limits;
         let edges = setup.edges.map(Edge::of::<T>);
-        // For each edge function, the differences between its value at the middle of a pixel and its values at the
-        // samples.
+        // For each edge function: its values at the samples minus its value at the middle of the pixel.
         let mut offsets = edges.map(|[a, b, _]| {
             OFFSETS.map(|[x, y]| a * T::of(i64::from(x)) + b * T::of(i64::from(y)))
         });

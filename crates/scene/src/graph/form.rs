@@ -149,9 +149,7 @@ impl Decoder<'_> {
     pub(super) fn index(&mut self, n: u64) -> Result<Option<usize>, DecodeError> {
         let index = self.len()?;
         if index > n {
-            return Err(DecodeError::Expected(
-                "an index of an earlier part of the graph",
-            ));
+            return Err(DecodeError::Expected("a smaller index in the graph"));
         }
         let index = usize::try_from(index).map_err(|_| DecodeError::Truncated)?;
         Ok(index.checked_sub(1))

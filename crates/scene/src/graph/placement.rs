@@ -47,7 +47,7 @@ impl Placement {
                 scale,
             } => {
                 let rotation = DQuat::from_array(rotation);
-                // Files store 32-bit numbers, so the length is only approximately 1.
+                // Files store rotations as 32-bit numbers, so the length of the quaternion is only approximately 1.
                 let length = rotation.length();
                 let rotation = DQuat::from_array(rotation.to_array().map(|x| x / length));
                 DAffine3::from_scale_rotation_translation(

@@ -11,8 +11,8 @@ use crate::sharpness::VertexRule;
 /// the error by more than a third.
 const LEVELS_TO_CONVERGE: usize = 96;
 
-/// A sector of a star: the faces that share one tangent plane. These are `n_faces` faces, counter-clockwise from spoke
-/// `first`.
+/// A sector of a star: the faces that share one tangent plane. The sector has `n_faces` faces, counter-clockwise from
+/// spoke `first`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Sector {
     first: usize,
@@ -99,7 +99,7 @@ impl Star {
     fn smooth_tangents(&self) -> [DVec3; 2] {
         let n = self.spokes.len() as f64;
         let theta = TAU / n;
-        // The weight of the opposite corners relative to the weight of the spokes.
+        // The ratio of the weight of an opposite corner to the weight of a spoke.
         let scale = if self.loop_weights.is_some() {
             0.0
         } else {
@@ -118,13 +118,12 @@ impl Star {
         tangents
     }
 
-    /// Returns a tangent along the crease, and a tangent across it into the k faces of the sector. With θ =
-    /// π/k, the second tangent is the left eigenvector with the weight sin(iθ) at inner spoke i and with the
-    /// weight m (sin(iθ) + sin((i+1)θ)) at the opposite corner between spokes i and i + 1. The factor m depends
-    /// on the scheme and on θ. The weights at the ends of the crease and at the center follow from the other
-    /// weights. (The literature gives the eigenvector for k ≤ 3 and for other crease rules.) If the sector has
-    /// six or more triangles, the surface has no tangent plane there; the returned plane contains the tangent
-    /// of the crease.
+    /// Returns a tangent along the crease, and a tangent across it into the k faces of the sector. With θ = π/k, the
+    /// second tangent is a left eigenvector. Its weight is sin(iθ) at inner spoke i, and m (sin(iθ) + sin((i+1)θ)) at
+    /// the opposite corner between spokes i and i + 1. The factor m depends on the scheme and on θ. The weights at the
+    /// ends of the crease and at the center follow from the other weights. (The literature gives the eigenvector for k
+    /// ≤ 3 and for other crease rules.) If the sector has six or more triangles, the surface has no tangent plane in
+    /// the sector. In this case, the returned plane contains the tangent of the crease.
     fn crease_tangents(&self, sector: Sector) -> [DVec3; 2] {
         let k = sector.n_faces;
         let [first, last] = [0, k].map(|i| self.spoke(sector, i));
@@ -158,9 +157,9 @@ impl Star {
         [along, across]
     }
 
-    /// Returns the directions of the first and the last spoke, which at a corner are tangents of the crease
-    /// curves. The directions are swapped if the corner is concave. If they do not span a plane, or if the
-    /// sector goes all the way around (a cone), returns a plane whose normal is the mean of the face normals.
+    /// Returns the directions of the first and the last spoke, which at a corner are tangents of the crease curves. The
+    /// directions are swapped if the corner is concave. If the directions do not span a plane, or if the sector goes
+    /// all the way around (a cone), returns a plane whose normal is the mean of the face normals.
     fn corner_tangents(&self, sector: Sector) -> [DVec3; 2] {
         let arm = |i: usize| self.spoke(sector, i) - self.center;
         let faces = 0..sector.n_faces;
@@ -190,12 +189,12 @@ impl Star {
         let along = along.normalize_or_zero();
         let normal = along.cross(across).normalize_or_zero();
         let frame = DMat3::from_cols(along, normal.cross(along), normal);
-        // The one-ring shrinks by different factors in different directions. Without a correction, after some
-        // levels only the direction that shrinks most slowly would remain. Orthogonal iteration preserves all
-        // directions: after each level the columns x, y and z are made orthonormal. An upper triangular matrix
-        // converts the orthonormal columns back to the previous columns. The product of these matrices over all
-        // levels is stored, up to a common factor, as the rows (1, b, c), s (0, 1, e) and s q (0, 0, 1). The
-        // first two rows converge to vectors that span the plane.
+        // The one-ring shrinks by different factors in different directions. Without a correction, only the direction
+        // that shrinks most slowly would remain after some levels. Orthogonal iteration preserves all directions: after
+        // each level the columns x, y and z are made orthonormal. An upper triangular matrix converts the orthonormal
+        // columns back to the previous columns. The product of these matrices over all levels is stored without a
+        // common factor. Its rows are (1, b, c), s (0, 1, e) and s q (0, 0, 1). The first two rows converge to vectors
+        // that span the plane.
         let mut star = self.clone();
         let to_frame = frame.transpose();
         for p in star.points() {

@@ -15,7 +15,7 @@ pub(crate) struct Star {
     pub(crate) spokes: Vec<DVec3>,
     /// For Catmull-Clark, the positions of the opposite corners: corner i is in the quad between spokes i and i + 1.
     pub(crate) opposite: Vec<DVec3>,
-    /// Whether the vertex is inside the mesh. In this case, a face also lies between the last spoke and the
+    /// Whether the vertex is inside the mesh. Around an inner vertex, a face also lies between the last spoke and the
     /// first spoke.
     pub(crate) is_inner: bool,
     /// The sharpness of the spokes.
@@ -31,8 +31,8 @@ pub(crate) struct Star {
 
 impl Star {
     /// Replaces this star by the star of vertex `v`. `start` is the half-edge of the vertex; for a boundary vertex,
-    /// `start` is a boundary half-edge. With Catmull-Clark, if not all faces around the vertex are quads, reads the
-    /// star of the next level, which has the same limit.
+    /// `start` is a boundary half-edge. With Catmull-Clark, if a face around the vertex is not a quad, reads the star
+    /// of the next level, which has the same limit.
     pub(crate) fn read(
         &mut self,
         mesh: &Mesh,

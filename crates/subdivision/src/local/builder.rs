@@ -31,8 +31,8 @@ impl<'a> ConnectivityBuilder<'a> {
                 last = pieces.second(h);
                 let m = pieces.on_edge(h.edge());
                 new.origin[last.index()] = m;
-                // The new vertex m on the edge stores the second part of one half of the edge: of the second
-                // half if that half has no face, and otherwise of the first half.
+                // The new vertex on the edge is m. Its stored half-edge is the second part of one half of the edge.
+                // This is the second half if that half has no face, and otherwise the first half.
                 if h.index().is_multiple_of(2) || mesh.face(h).is_none() {
                     new.vertex_half_edge[m.index()] = last;
                 }
@@ -110,8 +110,8 @@ impl<'a> ConnectivityBuilder<'a> {
             let n_to = self.ring.len();
             self.ring.push(across);
             pieces.push_ring_from_middle(before, &mut self.ring);
-            // If the ring has two parts of one half-edge, a hanging vertex lies between them. The face starts
-            // at this vertex.
+            // If the ring of half-edges has two parts of the same half-edge, a hanging vertex lies between these parts.
+            // In this case, the face starts at the hanging vertex.
             let start = match (n_to, self.ring.len() - n_to) {
                 (2, _) => 1,
                 (_, 3) => 3,

@@ -10,9 +10,9 @@ use crate::parallel::BLOCK;
 /// How a face is cut.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Cut {
-    /// The face is not cut. New vertices on its sides become additional corners.
+    /// The face is not cut. New vertices on the sides of the face become additional corners of the face.
     Whole,
-    /// A triangle is not cut but gets a hanging vertex. The first half-edge of the new face starts at this
+    /// A triangle is not cut but gets a hanging vertex. The first half-edge of the new face starts at the hanging
     /// vertex.
     Hanging,
     /// A triangle becomes two. The cut runs from its hanging vertex to the opposite corner.
@@ -44,9 +44,9 @@ pub(super) struct Cuts {
 }
 
 impl Cuts {
-    /// Returns the cuts of a level that cuts the chosen triangles into four, and then, repeatedly, every
-    /// triangle that would get a second hanging vertex. The result does not depend on the order in which
-    /// triangles are visited.
+    /// Returns the cuts of a level that cuts the chosen triangles into four. After these, the level repeatedly cuts
+    /// every triangle that would get a second hanging vertex into four, too. The result does not depend on the order in
+    /// which triangles are visited.
     ///
     /// A face with four corners is a triangle with a hanging vertex.
     pub(super) fn of_triangles(

@@ -1,12 +1,12 @@
 //! The connectivity of the next level if only some faces and edges are cut.
 //!
 //! Elements are in the same order as if all faces were cut (see [`halves`](crate::halves),
-//! [`triangles`](crate::triangles) and [`quads`](crate::quads)): first the parts of edges in order of the edges, then
-//! the edges inside faces in order of the faces. The parts of faces are in order of the faces. The index of the first
-//! part of an element is a prefix sum: the number of parts of all earlier elements of the same kind.
+//! [`triangles`](crate::triangles) and [`quads`](crate::quads)). The parts of edges come first, in order of the edges.
+//! The edges inside faces follow, in order of the faces. The parts of faces are in order of the faces. The index of the
+//! first part of an element is a prefix sum: the number of parts of all earlier elements of the same kind.
 //!
-//! The first half-edge of a triangle with a hanging vertex m starts at m. The triangle is cut as if m were the
-//! new vertex on its side:
+//! The first half-edge of a triangle with a hanging vertex m starts at m. A triangle with a hanging vertex m is cut as
+//! if m were the new vertex on its side:
 //!
 //! ```text
 //!             c                     c                        c

@@ -30,8 +30,8 @@ impl SmoothedElements {
     }
 }
 
-/// The masks of local refinement. Smoothed elements follow the masks of the scheme. Other old vertices stay in
-/// place, and other new vertices lie in the middle of edges.
+/// The masks of local refinement. Smoothed elements follow the masks of the scheme. Old vertices that are not smoothed
+/// stay in place. New vertices on edges that are not smoothed lie in the middle of these edges.
 pub(super) struct LocalMasks<'a> {
     pub(super) pieces: &'a Pieces<'a>,
     pub(super) masks: &'a dyn AnyMasks,

@@ -19,10 +19,10 @@
 //! - 5/12, -1/12, -1/12 for n = 3 and 3/8, 0, -1/8, 0 for n = 4,
 //! - (1/4 + cos(2πj/n) + cos(4πj/n)/2)/n for n ≥ 5.
 //!
-//! If both ends are extraordinary, the new vertex is the mean of both masks. Source: Zorin, Schröder and
-//! Sweldens, "Interpolating Subdivision for Meshes with Arbitrary Topology", 1996. The mask on the boundary is
-//! from Dyn, Levin and Gregory, "A 4-point interpolatory subdivision scheme for curve design", 1987. These
-//! papers leave three cases open:
+//! If both ends of an edge are extraordinary, the new vertex is the mean of the points that the two masks give. Source:
+//! Zorin, Schröder and Sweldens, "Interpolating Subdivision for Meshes with Arbitrary Topology", 1996. The mask on the
+//! boundary is from Dyn, Levin and Gregory, "A 4-point interpolatory subdivision scheme for curve design", 1987. The
+//! two cited papers leave three cases open:
 //!
 //! - If a vertex with weight -1/16 would lie beyond a boundary edge, this vertex is missing. It is replaced by the
 //!   corner opposite that edge, reflected through the middle of the edge. In this way, flat regular parts stay on their
@@ -79,8 +79,8 @@ impl ButterflyMasks<'_> {
         (n != 6 && !self.0.is_boundary_vertex(v)).then_some(n)
     }
 
-    /// The regular mask has one half for each half-edge of the edge. Adds the half that belongs to `h`: the
-    /// origin of `h`, and the vertices on the side of its triangle.
+    /// The regular mask has one half for each half-edge of the edge. Adds the half of the mask that belongs to `h`: the
+    /// origin of `h`, and the vertices on the same side of the edge as the triangle of `h`.
     #[inline]
     fn regular_half(&self, h: HalfEdgeId, add: &mut impl FnMut(usize, f64)) {
         let mesh = self.0;
@@ -116,7 +116,7 @@ impl ButterflyMasks<'_> {
         }
     }
 
-    /// Adds the mask along the boundary. `h` is the half-edge without a face.
+    /// Adds the mask of the new vertex on a boundary edge. `h` is the half-edge without a face.
     fn on_boundary(&self, h: HalfEdgeId, add: &mut impl FnMut(usize, f64)) {
         let mesh = self.0;
         add(mesh.origin(mesh.prev(h)).index(), -0.0625);
@@ -155,8 +155,9 @@ mod tests {
 
     #[test]
     fn quadratic_functions_around_a_vertex_are_reproduced_exactly() {
-        // The new vertex is halfway to the one-ring, at r = 1/2 and t = 0. At this vertex, r cos t is 1/2 and
-        // r² cos 2t is 1/4. The mask reproduces r² cos 2t only with at least five neighbors.
+        // In polar coordinates r and t around the old vertex, the new vertex is at r = 1/2 and t = 0, halfway to the
+        // one-ring. At the new vertex, r cos t is 1/2 and r² cos 2t is 1/4. The mask reproduces r² cos 2t only if the
+        // old vertex has at least five neighbors.
         for n in 5..20 {
             let ring = |k: f64| -> f64 {
                 let at = |j: usize| libm::cos(k * TAU * j as f64 / n as f64);

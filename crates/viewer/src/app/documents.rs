@@ -6,7 +6,7 @@ use eframe::egui::{self, ViewportCommand};
 
 use super::Parts;
 
-/// An action that drops the document.
+/// An action that discards the current document.
 #[derive(Clone, Debug)]
 pub(crate) enum Pending {
     /// Start a new recipe.
@@ -31,7 +31,7 @@ impl Parts {
         }
     }
 
-    /// Performs an action that drops the document. If the document has unsaved changes, asks the user first.
+    /// Performs an action that discards the current document. If the document has unsaved changes, asks the user first.
     pub(crate) fn drop_document(&mut self, pending: Pending, ctx: &egui::Context) {
         if self.editor.document().is_dirty() && self.editor.document().undo_label().is_some() {
             self.pending = Some(pending);

@@ -49,7 +49,7 @@ pub struct Start {
     pub path: Option<PathBuf>,
     /// The folder for the list of recent files and the recovery of texts. If omitted, nothing is stored.
     pub state_folder: Option<PathBuf>,
-    /// Whether dialogs of the system ask for paths of files. If not, a line in the window asks for them.
+    /// Whether dialogs of the system ask for paths of files. If not, a line in the window asks for the paths.
     pub has_dialogs: bool,
 }
 
@@ -101,7 +101,7 @@ pub(crate) struct Parts {
     pub(crate) export: Option<Export>,
     /// What the user wants to do although the recipe has unsaved changes.
     pub(crate) pending: Option<Pending>,
-    /// The start of the run that is in progress.
+    /// The time at which the run in progress started.
     running_since: Option<Instant>,
     /// The places of errors that are shown in the view.
     places: Vec<ErrorLocation>,
@@ -246,7 +246,7 @@ impl Parts {
         }
         if self.editor.is_running() {
             self.running_since.get_or_insert_with(Instant::now);
-            // Progress has no event of its own.
+            // No event reports progress, so a repaint is requested here.
             ctx.request_repaint_after(LONG);
         } else {
             self.running_since = None;
@@ -272,7 +272,7 @@ impl Parts {
         self.keys.of(action).first().cloned().unwrap_or_default()
     }
 
-    /// Whether a dialog has the keyboard.
+    /// Whether a dialog receives the keyboard input.
     fn is_modal(&self) -> bool {
         self.palette.is_some() || self.pending.is_some() || self.prompt.is_some() || self.shows_help
     }

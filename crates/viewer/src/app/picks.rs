@@ -10,14 +10,15 @@ use scene::Scene;
 use super::Parts;
 use crate::view_pane::{Gizmo, Tool, ViewEvent};
 
-/// The initial angle at which picking by angle stops, in degrees. The user can change it in the text of the selection.
+/// The default of the angle at which picking by angle stops, in degrees. The user can change this angle in the text of
+/// the selection.
 const ANGLE: u32 = 30;
 
 impl Parts {
     pub(super) fn view_event(&mut self, event: ViewEvent, scene: &Scene) {
         let picks = matches!(event, ViewEvent::Click { .. } | ViewEvent::Area { .. });
         if picks && self.draft.is_some() && self.editor.is_preview() {
-            // The new step acts on elements of the scene before it, not on elements of its preview.
+            // The new step acts on elements of the scene before this step, not on elements of the preview.
             self.editor.end_preview();
             self.inform("This is the scene before the new step: pick its elements.");
             return;
@@ -112,8 +113,8 @@ impl Parts {
         self.report(result);
     }
 
-    /// Like [`pick_text`](Self::pick_text), but the next step fails if the selection selects another number of
-    /// elements.
+    /// Like [`pick_text`](Self::pick_text), but the next step fails if the selection then selects more or fewer
+    /// elements than now.
     fn pick_checked(&mut self, text: &str) {
         self.pick_text(text);
         let n = self.editor.picked().map(Picked::len);

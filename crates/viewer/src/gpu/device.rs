@@ -5,8 +5,8 @@ use eframe::egui_wgpu::RenderState;
 /// The number of storage buffers from which a vertex shader reads a surface.
 const N_STORAGE_BUFFERS: u32 = 5;
 
-/// Whether a [`Painter`](super::Painter) can draw with this device. OpenGL adapters lack features that the painter
-/// needs.
+/// Whether a [`Painter`](super::Painter) can draw with this device. OpenGL adapters do not have all features that the
+/// painter needs.
 pub fn can_draw(state: &RenderState) -> bool {
     let limits = state.device.limits();
     let properties = state.adapter.get_downlevel_capabilities();

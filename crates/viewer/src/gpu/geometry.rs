@@ -26,16 +26,16 @@ const NO_NORMAL: u32 = 0x8000_8000;
 pub(super) struct Surface {
     /// The positions of the points, relative to the center of the object.
     pub(super) points: Vec<[f32; 3]>,
-    /// Unit vectors in 4 bytes, one for each point. Empty if normals are not per point.
+    /// One unit vector for each point, in 4 bytes. Empty if the normals are not stored for each point.
     pub(super) normals: Vec<u32>,
-    /// sRGB colors, one for each point. Empty if colors are not per point.
+    /// One sRGB color for each point. Empty if the colors are not stored for each point.
     pub(super) colors: Vec<u32>,
     pub(super) chunks: Vec<Chunk>,
 }
 
 /// Triangles that are drawn together.
 pub(super) struct Chunk {
-    /// Three points for each triangle, with [`EDGE`].
+    /// Three points for each triangle, with the bit [`EDGE`] for sides that are edges of the mesh.
     pub(super) triangles: Vec<[u32; 3]>,
     /// Unit vectors in 4 bytes. Empty if the normals are those of the points.
     pub(super) normals: Vec<u32>,
@@ -64,10 +64,10 @@ pub(super) struct SurfaceLook {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct LineInstance {
-    /// The ends, relative to the center of the object. Equal for a dot.
+    /// The positions of the ends of the line, relative to the center of the object. Equal for a dot.
     pub ends: [[f32; 3]; 2],
-    /// Four numbers: the width in pixels; the opacity where the line is hidden; the distance in pixels by which the
-    /// line is moved towards the camera, in addition to the 3 pixels of every line; and an unused number.
+    /// Four numbers: the width in pixels, the opacity where the line is hidden, an offset towards the camera in pixels,
+    /// and an unused number. The line is moved by this offset in addition to the 3 pixels of every line.
     pub look: [f32; 4],
     /// sRGB color and opacity.
     pub color: [u8; 4],
@@ -238,7 +238,7 @@ fn chunk_of(part: &Part, mesh: Option<&Mesh>, material: usize, triangles: &[u32]
     }
 }
 
-/// Encodes the values of points. Empty if the values are not per point.
+/// Encodes the values of points. Empty if the values are not stored for each point.
 fn of_points(channel: &Channel, encode: fn([f32; 3]) -> u32) -> Vec<u32> {
     match channel {
         Channel::Point(values) => map(values.len(), |i| encode(values[i])),
@@ -421,7 +421,7 @@ mod tests {
         let (style, overlays) = (render::Style::default(), render::Overlays::default());
         let (drawing, _) = render::build(&scene, &style, &overlays, &mut |_| None).unwrap();
         let part = &drawing.parts[0];
-        // The position, the normal and the flag of each corner, in the order in which they are drawn.
+        // For each corner, in the order of drawing: its position, its normal and its flag.
         let drawn = |surfaces: &[Surface]| -> Vec<([f32; 3], u32, u32)> {
             let mut corners = Vec::new();
             for surface in surfaces {

@@ -18,7 +18,7 @@ pub(super) fn grid(
     const HALF: f64 = 26.0;
     const SEGMENTS: u32 = 12;
     let [x, up, front] = camera.world_axes();
-    // A power of ten, times 1, 2 or 5.
+    // The distance between two lines of the grid is a power of ten, times 1, 2 or 5.
     let size = radius.max(1e-300) * 0.3;
     let power = libm::pow(10.0, libm::floor(libm::log10(size)));
     let step = power
@@ -65,7 +65,7 @@ pub(super) fn grid(
                 if alpha > 3 {
                     let color = [r, g, b_, alpha];
                     let mut line = LineInstance::new([point(a), point(b)], center, 1.0, 0.0, color);
-                    // The grid is behind surfaces that lie on the ground.
+                    // This depth offset puts the grid behind surfaces that lie on the ground.
                     line.look[2] = -3.5;
                     lines.push(line);
                 }

@@ -39,7 +39,7 @@ pub(super) struct Key {
 }
 
 impl Key {
-    /// Whether both objects have the same color and style, and their buffers otherwise depend only on the geometry.
+    /// Whether both objects have the same color and style, and their buffers depend on nothing else but the geometry.
     pub(super) fn looks_like(&self, other: &Self) -> bool {
         self.color == other.color
             && self.style == other.style
@@ -269,7 +269,7 @@ fn alone(object: &Object, color: Color) -> Scene {
     let mut scene = Scene::new();
     let index = PALETTE.iter().position(|&c| c == color).unwrap_or(0);
     for i in 0..index {
-        // The name differs from the name of the object, because it is longer.
+        // This name is longer than the name of the object, so the two names differ.
         let name = format!("{}-{i}", object.name);
         let empty = Object::new(name, Geometry::Polylines(Vec::new()));
         scene.insert(empty).unwrap_or_default();

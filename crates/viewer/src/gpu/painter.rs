@@ -118,8 +118,8 @@ impl Painter {
         self.bounds.map(sphere)
     }
 
-    /// Returns the upward axis of a scene that stands on a plane: z if the scene stands on the plane z = 0 but not on
-    /// the plane y = 0, else y.
+    /// Returns the upward axis of a scene that stands on a plane. The axis is z if the scene stands on the plane z = 0
+    /// but not on the plane y = 0, else y.
     pub fn up_axis(&self) -> UpAxis {
         let Some([min, max]) = self.bounds else {
             return UpAxis::Y;
@@ -269,7 +269,7 @@ impl Painter {
             grid(bounds, (center, radius), camera, look)
         });
         self.grid = Uploaded::of_lines(&self.device, center, &lines, &[]);
-        // The grid is larger than the scene.
+        // The grid is larger than the scene, so it needs a larger radius.
         let (rotation, projection) =
             camera.matrices(pixels, center, radius * if look.grid { 3.2 } else { 1.2 });
         let background = look.background().map(Color::linear);

@@ -28,7 +28,7 @@ pub(super) struct Simple {
 }
 
 /// Changes the buffers of an object to those of a new mesh. Returns false, and changes nothing, if the meshes differ by
-/// more than the connectivity of a few triangles; the object is then converted again.
+/// more than the connectivity of a few triangles. The caller then converts the whole object again.
 pub(super) fn patch(queue: &wgpu::Queue, uploaded: &Uploaded, new: &Key) -> bool {
     let (Some(simple), Some(old)) = (&uploaded.simple, &uploaded.key) else {
         return false;
@@ -72,8 +72,8 @@ pub(super) fn patch(queue: &wgpu::Queue, uploaded: &Uploaded, new: &Key) -> bool
     true
 }
 
-/// Returns the faces of the half-edges that differ, in the order of their numbers. All of them are triangles of both
-/// meshes. `None` if the meshes differ in other ways.
+/// Returns the faces of the half-edges that differ, in the order of their numbers. All returned faces are triangles of
+/// both meshes. `None` if the meshes differ in other ways.
 fn changed_faces(a: &Mesh, b: &Mesh) -> Option<Vec<FaceId>> {
     let is_same_size = a.is_dense()
         && b.is_dense()

@@ -211,7 +211,7 @@ fn create(
         }),
         multisample: wgpu::MultisampleState {
             count: SAMPLES,
-            // An opaque surface has the alpha 1.
+            // Alpha-to-coverage has no effect on an opaque surface, whose alpha is 1.
             alpha_to_coverage_enabled: !kind.blends,
             ..wgpu::MultisampleState::default()
         },
@@ -222,7 +222,7 @@ fn create(
             targets: &[Some(wgpu::ColorTargetState {
                 format: FORMAT,
                 blend: kind.blends.then_some(wgpu::BlendState::ALPHA_BLENDING),
-                // The picture stays opaque where a surface is not.
+                // The alpha of the picture is not written, so the picture stays opaque where a surface is transparent.
                 write_mask: wgpu::ColorWrites::COLOR,
             })],
         }),

@@ -28,7 +28,7 @@ struct Previewed {
 }
 
 impl Draft {
-    /// Creates a draft. Parameters that are required get the value of the example, except for selections.
+    /// Creates a draft. Required parameters get the value from the example of the operation, except for selections.
     pub(crate) fn new(mut panel: Panel, example: &str) -> Self {
         let parsed = ron_tree::parse(example);
         for field in parsed.value.fields() {
@@ -82,7 +82,7 @@ impl Draft {
                 Some(Change::Set(value) | Change::Drag(value)) => {
                     self.panel.set(&of.name, Some(&value));
                 }
-                // Without a value, the parameter would take the picked elements again.
+                // If this reset left the parameter without a value, the parameter would take the picked elements again.
                 Some(Change::Reset)
                     if picked.as_ref().is_some_and(|(name, _)| of.name == *name) =>
                 {
@@ -110,7 +110,7 @@ pub(super) fn ui(ui: &mut Ui, parts: &mut Parts) {
     draft.fields(ui, selection.as_ref());
     let command = draft.command(selection);
     let problem = if parts.editor.is_searching() {
-        Some("Searching for a short selection of the picked elements..".to_owned())
+        Some("Searching for a short expression that selects the picked elements..".to_owned())
     } else {
         preview(parts, &mut draft, &command)
     };

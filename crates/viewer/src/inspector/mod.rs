@@ -72,7 +72,7 @@ fn known_selection(parts: &mut Parts) -> Option<SelectionText> {
     is_known.then(|| parts.editor.selection()).flatten()
 }
 
-/// What an operation does: in one line, and in full after a click.
+/// What an operation does: in one line or, after a click, in full.
 fn about(ui: &mut Ui, panel: &Panel) {
     weak(ui, &panel.summary);
     let title = RichText::new("About this operation").size(12.0);

@@ -101,7 +101,10 @@ fn nothing_picked(ui: &mut Ui, parts: &mut Parts) {
 /// The selection that the next step uses, which can be edited.
 fn selection(ui: &mut Ui, parts: &mut Parts) {
     if parts.editor.is_searching() {
-        weak(ui, "Searching for a short selection of these elements..");
+        weak(
+            ui,
+            "Searching for a short expression that selects these elements..",
+        );
         ui.ctx().request_repaint_after(Duration::from_millis(50));
         return;
     }
@@ -124,7 +127,9 @@ fn selection(ui: &mut Ui, parts: &mut Parts) {
         let key = parts.editor_key(Action::NextProposal);
         let other = ui.small_button("Other selection");
         if other
-            .on_hover_text(format!("Another selection of the same elements ({key})"))
+            .on_hover_text(format!(
+                "Another expression that selects the same elements ({key})"
+            ))
             .clicked()
         {
             parts.editor.next_proposal();

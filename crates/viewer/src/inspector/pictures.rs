@@ -35,7 +35,7 @@ fn files(operation: &str) -> Vec<(&'static [u8], &'static str)> {
     files.into_iter().flatten().flatten().collect()
 }
 
-/// Returns the decoded pictures. They stay in memory while the window shows the same operation.
+/// Returns the decoded pictures. The decoded pictures stay in memory while the window shows the same operation.
 fn textures(ctx: &Context, operation: &str, files: &[(&[u8], &str)]) -> Vec<TextureHandle> {
     let id = Id::unique("pictures of an operation");
     let kept: Option<(String, Vec<TextureHandle>)> = ctx.data(|data| data.get_temp(id));

@@ -214,7 +214,8 @@ impl ViewPane {
     fn handles(&self, gizmo: Gizmo, length: f64, lines: &[[DVec2; 2]; 3]) -> Vec<Handle> {
         let straight = |axis: usize| {
             let [p, q] = lines[axis];
-            // The lines do not contain the base, where all axes meet.
+            // The lines of all axes meet at the base. Therefore the part of each line near the base does not belong to
+            // its handle.
             let line = vec![p.lerp(q, 0.2), p.lerp(q, 1.1)];
             (p.distance(q) >= SHORTEST).then_some(Handle { axis, line })
         };

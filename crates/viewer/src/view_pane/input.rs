@@ -96,7 +96,7 @@ impl ViewPane {
         {
             let (kind, view) = (self.mode.kind(), self.projection());
             let mut picked = pick_area(scene, &view, &area.area(rect), kind);
-            // Hidden elements are visible only in a wireframe without a surface.
+            // Hidden elements can be seen, and therefore picked, only in a wireframe without a surface.
             if self.look.wireframe != Wireframe::Lines {
                 keep_visible(scene, shown.indexes, &view, &mut picked);
             }
@@ -119,7 +119,7 @@ impl ViewPane {
             });
             if hovered != self.hovered {
                 self.hovered = hovered;
-                // The status was already drawn in this frame, before the view.
+                // The status was drawn before the view in this frame, so it is updated in the next frame.
                 ui.ctx().request_repaint();
             }
         } else if !response.contains_pointer() {

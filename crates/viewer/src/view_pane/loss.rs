@@ -36,7 +36,7 @@ impl Loss {
         self.reason.get().map(String::as_str)
     }
 
-    /// Takes the first of the errors since the last call.
+    /// Removes the errors that occurred since the last call, and returns the first of them.
     pub(crate) fn take_error(&self) -> Option<String> {
         let mut errors = self.errors.lock().unwrap_or_else(PoisonError::into_inner);
         std::mem::take(&mut *errors).into_iter().next()

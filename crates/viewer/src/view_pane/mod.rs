@@ -42,8 +42,8 @@ pub(crate) enum ViewEvent {
     Area {
         /// The elements of each object.
         picked: Vec<Picked>,
-        /// Whether the elements are removed from the picked elements. If not, the elements are added to the picked
-        /// elements.
+        /// Whether the elements are removed from the picked elements. If not, the elements are added to the elements
+        /// that were picked before.
         removes: bool,
     },
     /// A drag of a handle at the picked elements.
@@ -112,7 +112,7 @@ pub(crate) struct ViewPane {
     pub(crate) hovered_point: Option<ControlPoint>,
     /// The device. `None` if there is no graphics adapter that can draw scenes.
     gpu: Option<Gpu>,
-    /// What goes wrong with the device.
+    /// The errors of the graphics device.
     pub(crate) loss: Loss,
     /// The scene that is uploaded, with its look.
     uploaded: Option<(Arc<Scene>, Look)>,

@@ -6,8 +6,8 @@
 //!    a ---- b             along b-d, it is a tetrahedron.
 //! ```
 //!
-//! A half-edge mesh can represent duplicate edges, but a file of triangles cannot. When the file is read, the mesh is
-//! split at these edges.
+//! A half-edge mesh can represent duplicate edges, but a file of triangles cannot. When a file with duplicate edges is
+//! read, the mesh is split at these edges.
 
 use geometry::triangulate::Cut;
 use mesh::{FaceId, Mesh, VertexId, parallel};

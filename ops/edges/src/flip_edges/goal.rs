@@ -8,20 +8,22 @@
 //! ```
 //!
 //! The energy is lowest for the equilateral triangle and grows without bound as the area approaches 0. A flip is an
-//! improvement if the energy of the two new triangles is lower than the energy of the two old ones. The sum over a mesh
-//! is the trace of its cotangent Laplacian (Pinkall and Polthier, "Computing Discrete Minimal Surfaces and Their
-//! Conjugates", 1993). For each vertex, take the Dirichlet energy of the function that is 1 at the vertex and 0 at all
-//! other vertices. The trace is the sum of these energies. In the plane, a flip does not change the Dirichlet energy of
-//! linear functions. For all other functions, a flip changes the Dirichlet energy by a quadratic form of rank 1. The
-//! sign of this form depends on whether the fourth corner is inside the circle through the other three corners (Rippa,
-//! "Minimal Roughness Property of the Delaunay Triangulation", 1990). So in the plane a flip reduces the energy if and
-//! only if the edge is not Delaunay, and flipping such edges ends with the Delaunay triangulation (Lawson, "Software
-//! for C1 Surface Interpolation", 1977). Four times the sum is the harmonic index of Musin, "Properties of the Delaunay
-//! Triangulation", 1997. The energy is also defined for surfaces in space.
+//! improvement if the energy of the two new triangles is lower than the energy of the two old ones. The sum of the
+//! energies of all triangles is the trace of the cotangent Laplacian of the mesh (Pinkall and Polthier, "Computing
+//! Discrete Minimal Surfaces and Their Conjugates", 1993). The hat function of a vertex is 1 at this vertex, 0 at all
+//! other vertices, and linear in each triangle. The trace is the sum of the Dirichlet energies of all hat functions. In
+//! the plane, a flip does not change the Dirichlet energy of linear functions. The change of the Dirichlet energy by a
+//! flip is a quadratic form of rank 1 in the values of the function at the four corners. The sign of this quadratic
+//! form depends on whether the fourth corner of the two triangles is inside the circle through the other three corners
+//! (Rippa, "Minimal Roughness Property of the Delaunay Triangulation", 1990). So in the plane, a flip reduces the
+//! energy if and only if the edge does not satisfy the Delaunay condition. Flipping such edges ends with the Delaunay
+//! triangulation (Lawson, "Software for C1 Surface Interpolation", 1977). Four times the sum of the energies of all
+//! triangles is the harmonic index of Musin, "Properties of the Delaunay Triangulation", 1997. The energy is also
+//! defined for surfaces in space.
 //!
 //! A flip that reduces the number of zero-area triangles is an improvement. If all four corners are collinear, both
-//! diagonals give zero-area triangles, and the shorter diagonal is better. This rule resolves groups of zero-area
-//! triangles.
+//! diagonals give zero-area triangles, and the shorter diagonal is better. This rule lets flips resolve groups of
+//! zero-area triangles.
 //!
 //! **Valence.** A flip is an improvement if it reduces the sum over all vertices of (valence - target)², where the
 //! target is 6 inside and 4 on the boundary. Source: Botsch and Kobbelt, "A Remeshing Approach to Multiresolution
@@ -39,8 +41,8 @@ const NO_AREA: f64 = 1e-14;
 /// 1e-60 to 1e60 scene units.
 const SIZES: Range<f64> = 1e-120..1e120;
 
-/// Energies that differ by less than this fraction count as equal, so that four corners on a circle, such as those of a
-/// square, keep their diagonal.
+/// Energies whose relative difference is less than this value count as equal. Four corners on a circle, such as the
+/// corners of a square, therefore keep their diagonal.
 const TIE: f64 = 1e-12;
 
 /// The energies of two zero-area triangles.
@@ -50,7 +52,7 @@ const BOTH_WITHOUT_AREA: [f64; 2] = [f64::INFINITY; 2];
 pub(crate) enum Goal {
     /// The lowest sum of cotangents.
     Delaunay,
-    /// Valences close to their targets.
+    /// Vertex valences close to their targets, which are 6 inside the surface and 4 on the boundary.
     Valence {
         /// For each vertex, its valence minus its target.
         excess: Vec<i32>,
@@ -58,7 +60,7 @@ pub(crate) enum Goal {
 }
 
 impl Goal {
-    /// Creates the goal of regular valences for this mesh.
+    /// Creates the goal that brings the valences of this mesh close to their targets.
     pub(crate) fn valence(mesh: &Mesh) -> Self {
         let mut excess = vec![0; mesh.positions().len()];
         for v in mesh.vertices() {
@@ -70,13 +72,13 @@ impl Goal {
         Self::Valence { excess }
     }
 
-    /// Whether flipping the edge between these triangles is an improvement.
+    /// Whether flipping the edge between the two triangles of `quad` is an improvement.
     ///
-    /// For both goals, the sequence of improving flips is finite, regardless of rounding. For `Valence`, the sum of
-    /// squares is an integer that decreases. For `Delaunay`, the computed energy of a triangle depends only on its
-    /// three vertices. Three values are compared in this order: the number of zero-area triangles, the exact sum of the
-    /// other energies, and the sum of the squared lengths of all edges. The first of these values that a flip changes
-    /// becomes smaller.
+    /// For both goals, the sequence of improving flips is finite, regardless of rounding. For `Valence`, each improving
+    /// flip decreases the sum of the squares, which is an integer. For `Delaunay`, the computed energy of a triangle
+    /// depends only on its three vertices. Three values are compared in this order: the number of zero-area triangles,
+    /// the exact sum of the energies of all other triangles, and the sum of the squared lengths of all edges. An
+    /// improving flip decreases the first of these three values that it changes.
     pub(crate) fn is_improvement(&self, mesh: &Mesh, quad: &Quad) -> bool {
         match self {
             Self::Delaunay => {
@@ -92,7 +94,7 @@ impl Goal {
                 let [a, b, c, d] = [quad.a, quad.b, quad.c, quad.d].map(|v| excess[v.index()]);
                 // The flip reduces the valences of a and b by 1 and increases the valences of c and d by 1. The square
                 // of an excess x changes by (x - 1)² - x² = 1 - 2x or by (x + 1)² - x² = 1 + 2x. If a, b, c, d stand
-                // for the four excesses, the sum of the four changes is 4 - 2 (a + b - c - d), and the flip is an
+                // for the four excesses, the sum of the four changes is 4 - 2 (a + b - c - d). The flip is an
                 // improvement if this sum is below 0.
                 a + b - c - d > 2
                     && quad.flipped().energies(mesh).iter().all(|x| x.is_finite())
@@ -101,7 +103,7 @@ impl Goal {
         }
     }
 
-    /// Updates the goal after a flip of the edge between these triangles.
+    /// Updates the goal after a flip of the edge between the two triangles of `quad`.
     pub(crate) fn flipped(&mut self, quad: &Quad) {
         if let Self::Valence { excess } = self {
             for v in [quad.a, quad.b] {
@@ -114,7 +116,7 @@ impl Goal {
     }
 }
 
-/// The corners of the triangles a b c and b a d beside the edge from a to b.
+/// The four corners of two triangles a b c and b a d that share the edge from a to b.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Quad {
     pub(crate) a: VertexId,
@@ -158,9 +160,9 @@ impl Quad {
             .distance_squared(mesh.position(self.b))
     }
 
-    /// Whether the normals of both new triangles point to the same side as the sum of the two area vectors (normals
-    /// multiplied by areas). This sum is the same before and after a flip. In the plane, the result is true if and only
-    /// if the quad is convex.
+    /// Whether the normals of both new triangles point to the same side as the sum of their area vectors, where an area
+    /// vector is a normal multiplied by an area. The sum of the area vectors is the same before and after a flip. In
+    /// the plane, the result is true if and only if the quad is convex.
     fn flips_without_fold(&self, mesh: &Mesh) -> bool {
         let [a, b, c, d] = [self.a, self.b, self.c, self.d].map(|v| mesh.position(v));
         let (left, right) = ((c - d).cross(a - d), (d - c).cross(b - c));

@@ -1,10 +1,10 @@
 //! Flips edges as long as flips improve the mesh.
 //!
 //! A pass checks edges in order of their ids. The first pass checks all edges. Each later pass checks only edges near
-//! vertices whose edges changed, because at all other edges the check would have the same result as in the previous
-//! pass. (A flip is refused if an edge already joins the two opposite corners. If the joining edge is flipped away, the
-//! edges of both corners change, so both corners count as changed vertices.) A pass without a flip is the last one.
-//! Refused edges are checked again in every pass, so the refusals of the last pass are complete.
+//! vertices whose edges changed. At all other edges, the check would have the same result as in the previous pass. (A
+//! flip is refused if an edge already joins the two opposite corners. If this joining edge is flipped, both of its
+//! former ends count as changed vertices.) A pass without a flip is the last one. Refused edges are checked again in
+//! every pass, so the refusals of the last pass are complete.
 
 use mesh::{EdgeId, EditError, FaceId, Mesh, VertexId};
 use op::{Context, OpError, Report};
@@ -15,7 +15,7 @@ use crate::flip_edges::goal::{Goal, Quad};
 ///
 /// # Errors
 ///
-/// [`OpError::Cancelled`]. Some edges may already be flipped.
+/// [`OpError::Cancelled`]. After this error, some edges may already be flipped.
 pub(crate) fn flip_until(
     mesh: &mut Mesh,
     edges: &[EdgeId],
@@ -119,8 +119,8 @@ impl ChangedNeighborhood {
         }
     }
 
-    /// Returns the edges that end at the collected vertices, the edges opposite to them in a triangle, and
-    /// `additional`, in order of their ids. Removes the collected vertices.
+    /// Returns the edges that end at the collected vertices, the edges opposite to these vertices in their triangles,
+    /// and the edges in `additional`, in order of their ids. Removes the collected vertices from the collector.
     fn take_edges(&mut self, mesh: &Mesh, additional: impl Iterator<Item = EdgeId>) -> Vec<EdgeId> {
         let mut edges = Vec::new();
         let mut collect = |e: EdgeId| {

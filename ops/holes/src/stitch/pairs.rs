@@ -10,13 +10,13 @@ use op::{Context, OpError};
 
 /// The boundary edges that coincide, as half-edges without a face.
 pub(crate) struct Pairs {
-    /// Pairs of edges that coincide only with each other, in order of the lower half-edge.
+    /// Pairs of edges that coincide only with each other, sorted by the lower half-edge id of each pair.
     pub(crate) pairs: Vec<[HalfEdgeId; 2]>,
-    /// Edges that coincide with several edges, in order of the half-edges.
+    /// Edges that coincide with several edges, sorted by half-edge id.
     pub(crate) ambiguous: Vec<HalfEdgeId>,
 }
 
-/// A boundary half-edge with its ends, in its cell of the grid.
+/// A boundary half-edge with its ends and its cell of the grid.
 #[derive(Clone, Copy)]
 struct Rim {
     cell: [i64; 3],
@@ -41,8 +41,9 @@ impl Pairs {
         let total = rims.len() as u64;
         cx.advance("find coinciding edges", 0, total)?;
         let mut matches = vec![Matches::None; rims.len()];
-        // The rows of three cells around an edge begin at these positions. The positions only increase, because the
-        // edges are visited in the order of their cells.
+        // The cells around an edge form nine rows of three cells. `begins` has the positions in `rims` at which these
+        // rows begin. From edge to edge, these positions only increase, because the edges are visited in the order of
+        // their cells.
         let mut begins = [0; 9];
         for (i, rim) in rims.iter().enumerate() {
             matches[rim.number] = matches_of(&rims, rim, &mut begins, distance);
@@ -78,8 +79,8 @@ fn sorted_rims(
     let midpoints = || outer.iter().map(|h| midpoint(ends(h)));
     let least = midpoints().reduce(DVec3::min).unwrap_or_default();
     let most = midpoints().reduce(DVec3::max).unwrap_or_default();
-    // The side of a cell is twice the distance, which leaves a margin for rounding. The second argument of `max` limits
-    // the number of cells along an axis.
+    // The side of a cell is twice the distance, which leaves a margin for rounding. The second argument of `max` bounds
+    // the number of cells along an axis, even if the distance is tiny.
     let size = (2.0 * distance).max(1e-9 * (most - least).max_element());
     let size = if size > 0.0 { size } else { 1.0 };
     let rim = |(number, h)| Rim {
@@ -88,7 +89,7 @@ fn sorted_rims(
         ends: ends(h),
     };
     let mut rims: Vec<Rim> = outer.iter().enumerate().map(rim).collect();
-    // Short parts are sorted and then merged, so that progress is reported and the run can be canceled in between. Two
+    // Short parts are sorted first and then merged. In between, progress is reported and the run can be canceled. Two
     // sorted parts are merged by sorting their concatenation.
     let mut width = 1 << 16;
     loop {
@@ -107,15 +108,16 @@ fn sorted_rims(
     }
 }
 
-/// Returns the cell of a point whose coordinates are in units of the size of a cell.
+/// Returns the cell that contains a point. The unit of the coordinates is the size of a cell.
 #[expect(clippy::cast_possible_truncation, reason = "at most 1e12")]
 fn cell(place: DVec3) -> [i64; 3] {
-    // The limit of 1e12 applies only if the division by the size overflows. Then the point is in the last cell.
+    // The limit of 1e12 applies only if the division by the size overflows. If the division overflows, the point is in
+    // the last cell.
     place.to_array().map(|x| x.floor().min(1e12) as i64)
 }
 
-/// Returns the boundary half-edges that coincide with `rim`, by their indices. `begins` contains the positions at which
-/// the rows of cells around the previous edge begin.
+/// Returns the boundary half-edges that coincide with `rim`, by their indices. For each of the nine rows of cells
+/// around the previous edge, `begins` contains the index in `rims` at which the row begins.
 fn matches_of(rims: &[Rim], rim: &Rim, begins: &mut [usize; 9], distance: f64) -> Matches {
     let mut matches = Matches::None;
     let [x, y, z] = rim.cell;
@@ -142,7 +144,8 @@ fn midpoint(ends: [DVec3; 2]) -> DVec3 {
     0.5 * ends[0] + 0.5 * ends[1]
 }
 
-/// Whether corresponding ends are within `distance`. Matching half-edges have opposite directions.
+/// Whether the corresponding ends of two boundary half-edges are at most `distance` apart. Matching half-edges have
+/// opposite directions.
 fn coincide(a: &Rim, b: &Rim, distance: f64) -> bool {
     // The difference is divided by `distance` before it is squared, so that squares neither overflow nor underflow.
     let is_near = |p: DVec3, q: DVec3| {

@@ -50,8 +50,8 @@ pub(crate) fn appended(parts: &[&Object], numbers: &[Vec<i32>], report: &mut Rep
     all
 }
 
-/// Replaces the material indices of the faces with the indices of the merged materials. Faces without a material get
-/// -1. If only some parts have the attribute, all faces of the other parts also get -1.
+/// Replaces the material indices of the faces with the indices of the merged materials. Faces without a material
+/// get -1. If only some parts have material indices, all faces of the parts without material indices get -1.
 fn renumber_materials(
     columns: &mut [Attributes],
     numbers: &[Vec<i32>],
@@ -124,7 +124,7 @@ fn names(columns: &[Attributes], predicate: impl Fn(&Column) -> bool) -> Vec<(Do
     names
 }
 
-/// Whether part `i` has elements of a domain, but not this column.
+/// Whether part `i` has elements of the domain, but no column `name` in this domain.
 fn lacks(columns: &[Attributes], parts: &[&Object], i: usize, domain: Domain, name: &str) -> bool {
     let n = parts[i].as_mesh().map_or(0, |mesh| mesh.domain_len(domain));
     n > 0 && columns[i].column(domain, name).is_none()

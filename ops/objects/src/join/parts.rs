@@ -3,7 +3,8 @@
 use mesh::{Connectivity, DVec3, Mesh};
 use op::{Context, OpError};
 
-/// The largest number of elements of one kind: 2^32 - 2. Every id then fits into 32 bits and is not `NONE`.
+/// The largest number of elements of one kind: 2^32 - 2. With at most this number of elements, every id fits into 32
+/// bits and is not `NONE`.
 pub(crate) const MAX_ELEMENTS: u64 = u32::MAX as u64 - 1;
 
 pub(crate) fn too_many(n: u64) -> String {
@@ -12,8 +13,8 @@ pub(crate) fn too_many(n: u64) -> String {
     )
 }
 
-/// Joins dense meshes into one mesh without attributes. The ids of a part are shifted by the counts of all earlier
-/// parts.
+/// Joins dense meshes into one mesh without attributes. The ids of the elements of a part are increased by the numbers
+/// of elements in all earlier parts.
 pub(crate) fn connected(parts: &[&Mesh], cx: &Context) -> Result<Mesh, OpError> {
     let total = |count: fn(&Mesh) -> usize| -> usize { parts.iter().map(|m| count(m)).sum() };
     let n_half_edges = total(Mesh::n_half_edges);

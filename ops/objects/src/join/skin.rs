@@ -1,8 +1,9 @@
 //! Joining skinned meshes.
 //!
-//! If all skinned parts have the same skin and a single node each, the joined mesh keeps this skin. The other parts
-//! follow the first joint. Their points are mapped by the inverse of the map of this joint, so that the points do not
-//! move in the scene. Otherwise the parts are joined in the pose of their joints, and the skins are lost.
+//! If all skinned parts have the same skin and a single node each, the joined mesh keeps this skin. The parts without a
+//! skin follow the first joint of this skin. The points of the parts without a skin are mapped by the inverse of the
+//! map of the first joint, so that they do not move in the scene. Otherwise the parts are joined in the pose of their
+//! joints, and the skins are lost.
 
 use std::sync::Arc;
 
@@ -26,7 +27,7 @@ pub(super) enum LostSkin {
 pub(super) struct KeptSkin {
     /// The name of the first skinned part. The node and the morph weights of this part are kept.
     pub(super) part: String,
-    /// The map of the first joint. It maps points from the space in which the skin binds them to scene space.
+    /// The map of the first joint. It maps points from the space in which the skin binds points to scene space.
     first_joint: DAffine3,
 }
 
@@ -143,9 +144,9 @@ pub(super) fn morphed<'a>(parts: &[&'a Object]) -> Vec<&'a str> {
     morphed.map(|part| part.name.as_str()).collect()
 }
 
-/// Returns the names and default weights of morph targets that all parts with morph targets share; `None` if the names
-/// or default weights differ, or if a node of a part has weights that are not the default weights. `morphed` are the
-/// names of these parts.
+/// Returns the names and default weights of morph targets that all parts with morph targets share. Returns `None` if
+/// the names or default weights differ, or if a node of a part has weights that are not the default weights. `morphed`
+/// contains the names of the parts with morph targets.
 pub(super) fn shared_label(graph: &Graph, morphed: &[&str]) -> Option<MeshLabel> {
     let mut shared = None;
     for part in morphed {
@@ -166,7 +167,7 @@ pub(super) fn shared_label(graph: &Graph, morphed: &[&str]) -> Option<MeshLabel>
     Some(shared.unwrap_or_default())
 }
 
-/// Reports the changes of skins and morph targets. Without a skin, the joined mesh loses the weights of joints.
+/// Reports the changes of skins and morph targets. If the joined mesh has no skin, it loses the joint weights.
 pub(super) fn report(
     scene: &Scene,
     parts: &[&Object],

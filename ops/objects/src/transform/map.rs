@@ -35,7 +35,7 @@ impl Map {
         self.linear * (p - center) + center + self.shift
     }
 
-    /// Returns the image of a difference of points.
+    /// Returns the image of the vector between two points.
     pub(crate) fn vector(&self, v: DVec3) -> DVec3 {
         self.linear * v
     }
@@ -44,9 +44,9 @@ impl Map {
     /// a mirror turns the faces over. The mesh is reversed afterwards, which negates the normal again.
     ///
     /// Normals are transformed by the inverse transpose of R S, which is R S^-1 (Turkowski, "Properties of
-    /// Surface-Normal Transformations", 1990). Only the direction of the result matters, so S^-1 is multiplied by the
-    /// smallest factor of the nonzero coordinates. Then no coordinate overflows, and at least one coordinate does not
-    /// underflow.
+    /// Surface-Normal Transformations", 1990). Only the direction of the result matters. S^-1 is therefore multiplied
+    /// by the smallest absolute scale factor among the axes on which the normal has a nonzero coordinate. With this
+    /// multiplication, no coordinate of the result overflows, and at least one does not underflow.
     pub(crate) fn normal(&self, n: DVec3) -> DVec3 {
         let zero = n.cmpeq(DVec3::ZERO);
         if zero.all() {
@@ -83,7 +83,7 @@ impl Map {
         (x < 0.0) ^ (y < 0.0) ^ (z < 0.0)
     }
 
-    /// Returns the z coordinate of the image of the plane z = 0, or `None` if it is not constant.
+    /// Returns the z coordinate of the image of the plane z = 0, or `None` if this coordinate is not constant.
     pub(crate) fn height_of_plane(&self, center: DVec3) -> Option<f64> {
         let level = self.linear.x_axis.z == 0.0 && self.linear.y_axis.z == 0.0;
         level.then(|| self.point(DVec3::new(center.x, center.y, 0.0), center).z)

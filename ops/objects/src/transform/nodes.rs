@@ -4,9 +4,9 @@
 //!   scene <-- P -- parent <-- L -- node <-- points of the object
 //! ```
 //!
-//! L places the node in its parent, and P places the parent in the scene. A map M in scene space moves a point from P L
-//! p to M P L p. So the new placement of the node is P'^-1 M P L, where P' places the parent after the move. If M also
-//! moves the parent, P' = M P, and the placement of the node does not change.
+//! L places the node in its parent, and P places the parent in the scene. A map M in scene space moves a point p of the
+//! object from P L p to M P L p. So the new placement of the node is P'^-1 M P L, where P' places the parent after the
+//! move. If M also moves the parent, P' = M P, and the placement of the node does not change.
 
 use glam::{DAffine3, DVec3};
 use op::{Context, OpError, Plan, PlanContext, Problem, Report};
@@ -26,7 +26,7 @@ impl Transform {
         cx: &Context,
     ) -> Result<Report, OpError> {
         let graph = scene.graph();
-        // For each node, the map in scene space by which the node must move.
+        // For each node: the map, in scene space, by which the node must move.
         let mut maps: Vec<Option<DAffine3>> = vec![None; graph.nodes().len()];
         let mut n_points = 0;
         let nodes_of = graph.nodes_of_objects();
@@ -82,7 +82,7 @@ impl Transform {
             return None;
         }
         let map = Map::new(self);
-        // The center of an object is not known in the plan. It affects only the translations of the nodes.
+        // The center of an object is not known in the plan. The center affects only the translations of the nodes.
         let affine = map.affine(self.center(std::iter::empty()));
         let mut maps: Vec<Option<DAffine3>> = vec![None; graph.nodes().len()];
         let mut may_be_skinned = false;
@@ -109,8 +109,8 @@ impl Transform {
             result = move_by(graph, &maps, map.only_moves());
         });
         let error = result.err()?;
-        // With `About::Center`, the translations of the run differ from those of the plan, so an overflow in the plan
-        // does not prove that the run overflows.
+        // With `About::Center`, the translations of the run differ from those of the plan. Therefore an overflow in the
+        // plan does not prove that the run overflows.
         let is_certain = self.about != About::Center || matches!(error, OpError::Object(_));
         (is_certain && !may_be_skinned).then(|| Problem::error(error.to_string()))
     }
@@ -155,7 +155,7 @@ fn move_by(graph: &mut Graph, maps: &[Option<DAffine3>], only_moves: bool) -> Re
     let nodes = graph.nodes();
     let mut placements: Vec<Placement> = nodes.iter().map(|node| node.placement).collect();
     let mut new: Vec<DAffine3> = Vec::with_capacity(nodes.len());
-    // For each node, the map in scene space by which the node has moved.
+    // For each node: the map, in scene space, by which the node has moved.
     let mut moved: Vec<Option<DAffine3>> = Vec::with_capacity(nodes.len());
     for (i, node) in nodes.iter().enumerate() {
         let of_parent = node.parent.and_then(|parent| moved[parent]);

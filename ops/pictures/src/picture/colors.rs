@@ -1,4 +1,4 @@
-//! Checks and inputs of the parameter `color_by`.
+//! Checks the parameter `color_by` and reads its inputs.
 
 use mesh::Mesh;
 use mesh_io::ReadOptions;
@@ -6,7 +6,7 @@ use op::{Context, OpError, Plan, PlanContext, PlannedGeometry, Problem};
 use scene::Scene;
 use view::{ColorBy, Quantity, existing_attributes, missing_attribute};
 
-/// Returns the problems of the parameter, and adds the file that it reads to the plan.
+/// Returns the problems of the parameter `color_by`, and adds the file that this parameter reads to the plan.
 pub(crate) fn plan(by: &ColorBy, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
     let mut problems = Vec::new();
     if let Some([low, high]) = by.range

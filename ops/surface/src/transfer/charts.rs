@@ -1,7 +1,7 @@
-//! The charts of the source: its parts between seams.
+//! The charts of the source mesh, which are its parts between seams.
 //!
-//! A chart can have seams inside it, such as the single seam of a cylinder. Near such a seam, a face of the target
-//! takes its values from one side of the seam:
+//! A chart can have seams inside it, such as the single seam of a cylinder. Near a seam inside a chart, a face of the
+//! target takes its values from one side of the seam:
 //!
 //! ```text
 //!    target    +-----------+           the center of the face is above side a, so both corners take values
@@ -16,8 +16,8 @@ use geometry::surface_index::{SurfaceIndex, nearest_on_triangle, triangle_distan
 use mesh::{DVec3, Domain, FaceId, HalfEdgeId, Mesh, Values};
 use op::{Cancelled, Progress};
 
-/// Corners are moved toward the center of their face by this fraction of the distance. For a corner at a seam, the
-/// nearest face of the source is then on the same side of the seam as the face of the corner.
+/// Corners are moved toward the center of their face by this fraction of the distance. After this move, the face of the
+/// source that is nearest to a corner at a seam is on the same side of the seam as the face of the corner.
 const INSET: f64 = 1e-6;
 
 /// The largest number of pairs of triangles for which the distance between two polygons is computed. With more pairs,
@@ -118,8 +118,9 @@ impl<'a> Charts<'a> {
     }
 
     /// Returns the first candidate, unless the distance of another candidate from the face `f` is less than half of the
-    /// distance of the first candidate. In this case, returns the nearest candidate. The distance between a chart and a
-    /// face is the largest distance of a corner or the center of the face from the chart.
+    /// distance of the first candidate. If there is such a candidate, returns the candidate that is nearest to `f`. The
+    /// distance between a chart and a face is the largest distance of a corner or the center of the face from the
+    /// chart.
     pub(super) fn nearest(
         &mut self,
         candidates: &[usize],
@@ -146,12 +147,13 @@ impl<'a> Charts<'a> {
         Ok(chart)
     }
 
-    /// Returns the faces of `chart` that are on the same side of its seams as the center of the face `f` of the target;
-    /// `None` if the chart has no seam near this face. `farthest` is the largest distance of a corner or the center
-    /// from the source.
+    /// Returns the faces of `chart` that are on the same side of its seams as the center of the face `f` of the target.
+    /// Returns `None` if the chart has no seam near `f`. `farthest` is the largest distance of a corner or the center
+    /// of `f` from the source.
     ///
-    /// First finds the source under the face: the nearest faces that connect the center with all corners. Then returns
-    /// the faces among them that are connected with the center without crossing a seam.
+    /// First finds the part of the source under the face: the nearest faces of the source that connect the center of
+    /// the face with all of its corners. Then returns the faces of this part that are connected with the center without
+    /// crossing a seam.
     pub(super) fn side_under(
         &mut self,
         chart: usize,
@@ -266,7 +268,7 @@ impl<'a> Charts<'a> {
     }
 }
 
-/// Divides a polygon into triangles at its first corner.
+/// Divides a polygon into a fan of triangles around its first corner.
 fn fan(corners: &[DVec3]) -> Vec<[DVec3; 3]> {
     let pairs = corners[1..].windows(2);
     pairs.map(|pair| [corners[0], pair[0], pair[1]]).collect()

@@ -13,7 +13,7 @@ pub(super) type Origin = Option<[(usize, f64); 3]>;
 pub(super) struct Source<'a> {
     pub(super) mesh: &'a Mesh,
     pub(super) index: &'a SurfaceIndex,
-    /// The largest distance from the source.
+    /// The largest distance from the source at which an element has an origin.
     pub(super) within: f64,
 }
 
@@ -33,8 +33,8 @@ impl Source<'_> {
         Some([(face, 1.0), (face, 0.0), (face, 0.0)])
     }
 
-    /// Returns the origins of all corners. `vertices` and `faces` are the nearest points of the vertices and of the
-    /// centers of the faces of the target.
+    /// Returns the origins of all corners. `vertices` and `faces` contain the points of the source that are nearest to
+    /// the vertices and to the face centers of the target.
     pub(super) fn of_corners(
         &self,
         target: &Mesh,

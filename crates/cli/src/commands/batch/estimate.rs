@@ -1,12 +1,13 @@
-//! `meshwright batch --estimate N`: estimates the memory of N parts, and runs nothing. The scheduler of a cluster can
-//! then reserve the memory of each part. `--report FILE.json` writes one object:
+//! `meshwright batch --estimate N`: estimates the memory of N parts, and runs nothing. With this estimate, the
+//! scheduler of a cluster can reserve memory for each part of the batch. `--report FILE.json` writes the estimates as
+//! one JSON object:
 //!
 //! ```text
 //! {"parts": [{"part": 1, "runs": 12, "bytes": 34603008}]}
 //! ```
 //!
-//! `bytes` is the largest of the estimates for the runs of the part. This is the memory of a process that makes one run
-//! at a time (`--threads 1`).
+//! `bytes` is the largest of the estimates for the runs of the part. A process that makes one run at a time
+//! (`--threads 1`) needs this memory.
 
 use anyhow::ensure;
 use op::readable_bytes;
@@ -72,9 +73,10 @@ pub(super) fn run(batch: &Batch, n: u32) -> anyhow::Result<bool> {
 }
 
 /// Returns the estimated memory of a run: the peak memory of the forecast, plus the memory of a copy of the meshes. The
-/// copy is needed because a step holds both the meshes before it and the meshes after it. For each pair of consecutive
-/// steps, the size of the copy is the smaller of their two forecasts. The largest of these copies is added. Each of the
-/// two terms is at most the budget, because meshes cannot exceed the budget.
+/// copy is included because a step holds the meshes before the step and the meshes after it at the same time. For each
+/// pair of consecutive steps, the copy is as large as the smaller one of the two forecasts for these steps. The memory
+/// of the largest copy is added to the peak memory. Neither the peak memory nor the memory of the copy can exceed the
+/// memory budget, because meshes cannot exceed the budget.
 fn memory(forecast: &Forecast, budget: u64) -> u64 {
     let steps = forecast.steps.windows(2);
     let smaller = steps.map(|pair| pair[0].bytes.max.min(pair[1].bytes.max));

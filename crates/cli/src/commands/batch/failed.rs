@@ -7,13 +7,14 @@ use super::plan::Batch;
 use super::row::Row;
 use crate::output::{shell_quoted, write_atomically};
 
-/// Returns the folder for failures.
+/// Returns the folder for the files that describe failures.
 pub(super) fn folder(out: &Path) -> PathBuf {
     out.join("failed")
 }
 
-/// Returns the path of the file for one failure. The name of the file consists of the name of the input, shortened and
-/// limited to characters that all file systems allow, and a digest that distinguishes inputs of the same name.
+/// Returns the path of the file for one failure. The name of this file begins with the name of the input file,
+/// shortened and limited to characters that all file systems allow. A digest follows, which distinguishes input files
+/// of the same name.
 fn path(batch: &Batch, file: &Input) -> PathBuf {
     let name = file.relative.file_name().unwrap_or("set".as_ref());
     let mut name = name.to_string_lossy().into_owned();
@@ -27,7 +28,7 @@ fn path(batch: &Batch, file: &Input) -> PathBuf {
     folder(&batch.args.out).join(format!("{name}-{}.txt", &digest[..8]))
 }
 
-/// Writes the failure of an input file; `text` has the full error messages.
+/// Writes the file that describes the failure of an input file. `text` has the full error messages.
 pub(super) fn write(batch: &Batch, file: &Input, row: &Row, text: &str) -> anyhow::Result<()> {
     let step = row.step.as_ref().map(|s| format!(" at {s}"));
     let step = step.unwrap_or_default();
@@ -46,13 +47,13 @@ pub(super) fn read(batch: &Batch, file: &Input) -> std::io::Result<String> {
     std::fs::read_to_string(path(batch, file))
 }
 
-/// Removes the file of an earlier failure, if there is one.
+/// Removes the file that describes an earlier failure of the input file, if there is one.
 pub(super) fn remove(batch: &Batch, file: &Input) {
     // Usually the file does not exist.
     let _ = std::fs::remove_file(path(batch, file));
 }
 
-/// Returns the command that runs the recipe on this file alone.
+/// Returns the command that runs the recipe on this input file alone.
 fn command(batch: &Batch, file: &Input) -> String {
     let values = &batch.args.values;
     let recipe = batch.path.display().to_string();

@@ -11,7 +11,8 @@ use super::sets::{ParameterSet, label};
 /// An input file of a batch.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Input {
-    /// The path, which starts with the same folders as the pattern. Empty if the recipe runs without an input file.
+    /// The path of the input file. The path begins with the folder in which the pattern starts. The path is empty if
+    /// the recipe runs without an input file.
     pub(crate) path: String,
     /// The path relative to the folder in which the pattern starts.
     pub(crate) relative: PathBuf,
@@ -41,8 +42,9 @@ impl Input {
         hasher.finalize()
     }
 
-    /// Returns the part that the file belongs to, from 1. The part depends only on the path and on the number of the
-    /// parameter set, so that adding a file does not move other files to different parts.
+    /// Returns the number of the part to which the file belongs, counted from 1. The part of a file depends only on the
+    /// path of the file and on the number of its parameter set. So if a file is added, no other file moves to a
+    /// different part.
     pub(super) fn part(&self, of: u32) -> u32 {
         let mut first = [0; 8];
         first.copy_from_slice(&self.digest().as_bytes()[..8]);
@@ -51,8 +53,8 @@ impl Input {
     }
 }
 
-/// Lists the files that the patterns match, without duplicates. The files of each pattern are sorted by path, and
-/// follow the files of the previous pattern.
+/// Lists the files that the patterns match, without duplicates. The patterns are handled in their given order. The
+/// files of each pattern are sorted by path.
 pub(crate) fn list(patterns: &[String]) -> anyhow::Result<Vec<Input>> {
     let mut inputs = Vec::new();
     for pattern in patterns {
@@ -81,7 +83,7 @@ pub(crate) fn list(patterns: &[String]) -> anyhow::Result<Vec<Input>> {
 }
 
 /// Finds the files that match one pattern. Does not follow links to folders, since they can form cycles. Finds hidden
-/// files only if a name in the pattern begins with a dot.
+/// files only if the name of a file or folder in the pattern begins with a dot.
 fn search(pattern: &str, inputs: &mut Vec<Input>) -> anyhow::Result<()> {
     let (base, rest) = split(pattern);
     let invalid = || format!("{pattern} is not a valid file pattern");
@@ -129,7 +131,7 @@ fn search(pattern: &str, inputs: &mut Vec<Input>) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Splits a pattern into the folder in which it starts and the rest.
+/// Splits a pattern into two parts: the folder in which the pattern starts, and the rest of the pattern.
 fn split(pattern: &str) -> (&str, &str) {
     let special = pattern
         .find(['*', '?', '[', '{', '\\'])
@@ -141,7 +143,8 @@ fn split(pattern: &str) -> (&str, &str) {
     }
 }
 
-/// Returns every input with every set. Without inputs, the list has one entry for each set.
+/// Returns every combination of an input file and a parameter set. If there are no input files, the list has one entry
+/// for each parameter set.
 pub(super) fn combined(inputs: Vec<Input>, sets: &[ParameterSet]) -> Vec<Input> {
     let inputs = if inputs.is_empty() {
         vec![Input::default()]

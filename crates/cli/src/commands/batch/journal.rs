@@ -1,20 +1,22 @@
 //! The journal of a batch: records finished files, so that an interrupted batch can be resumed.
 //!
-//! Each line is one JSON object. Lines that are appended together are written in one piece and synced to disk before
-//! the next lines are written. An incomplete last line is ignored and overwritten.
+//! Each line is one JSON object. Lines that are appended together are written with one call. The written lines are
+//! synced to disk before further lines are appended. If the last line of a journal is incomplete, it is ignored and
+//! overwritten.
 //!
 //! ```text
 //! {"meshwright": "0.1.0", "process": 4711}                 a process started on the batch
 //! {"key": "1f2e..", "time": 1767225600000, "row": {..}}    a file is finished or has failed; see row.rs
 //! ```
 //!
-//! The key is a digest of everything that the row depends on: the recipe, the parameters, the path and content of
-//! every file that is read, the paths of outputs, the version of the program, and for failures the memory budget.
+//! The key is a digest of everything that the row depends on: the recipe, the parameters, the path and content of every
+//! file that is read, the paths of outputs, and the version of the program. For a failure, the key also depends on the
+//! memory budget.
 //!
-//! Each part of a divided batch writes a journal of its own, so that parts can run at the same time. A batch reads the
-//! journals of all parts in its folder. Therefore the batch can be resumed with a different number of parts. If several
-//! entries are about the same file, the latest entry counts, because the outputs of the last run replaced the outputs
-//! of earlier runs.
+//! If a batch is divided into parts, each part writes its own journal, so that several parts can run at the same time.
+//! A batch reads the journals of all parts in its folder. Therefore the batch can be resumed with a different number of
+//! parts. If several entries are about the same input file, the latest entry is used, because each run replaces the
+//! outputs of earlier runs.
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry as Slot;
@@ -32,7 +34,7 @@ use super::row::{Row, json_lines};
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub(super) struct Entry {
     pub(super) key: String,
-    /// When the entry was made, in milliseconds since 1970.
+    /// The time at which the entry was made, in milliseconds since 1970.
     #[serde(default)]
     time: u64,
     pub(super) row: Row,
@@ -50,7 +52,7 @@ impl Entry {
     }
 }
 
-/// The first line that each process writes.
+/// The first line that each process writes to the journal.
 #[derive(Deserialize, Serialize)]
 struct ProcessStart {
     meshwright: String,
@@ -61,7 +63,8 @@ struct ProcessStart {
 pub(super) struct Journal {
     path: PathBuf,
     file: File,
-    /// The entries of earlier runs, by the path of the input and the number of the parameter set.
+    /// The entries of earlier runs. The key of the map is the path of the input file and the number of the parameter
+    /// set.
     pub(super) known: HashMap<(String, usize), Entry>,
     /// The ids of the processes that wrote to the journal before.
     pub(super) processes: Vec<u32>,
@@ -132,8 +135,8 @@ impl Journal {
     }
 }
 
-/// Adds an entry, unless a later entry about the same file is known. The new entry replaces an entry that is earlier or
-/// has the same time.
+/// Adds an entry, unless the map has a later entry about the same input file. If the map has an earlier entry about the
+/// file, or an entry with the same time, the new entry replaces it.
 fn insert(known: &mut HashMap<(String, usize), Entry>, entry: Entry) {
     let (input, set) = entry.row.key();
     match known.entry((input.to_owned(), set)) {
@@ -144,7 +147,7 @@ fn insert(known: &mut HashMap<(String, usize), Entry>, entry: Entry) {
     }
 }
 
-/// Returns the journals of other parts of the batch, in the order of their names.
+/// Returns the paths of the journals of the other parts of the batch, sorted by name.
 fn others(path: &Path) -> Vec<PathBuf> {
     let folder = path.parent().unwrap_or(Path::new("."));
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();

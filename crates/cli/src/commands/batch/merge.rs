@@ -38,13 +38,14 @@ pub(super) fn run(args: &BatchArgs) -> anyhow::Result<bool> {
     Ok(header.failed == 0 && header.skipped == 0 && header.missing_shards.is_empty())
 }
 
-/// Returns the number of parts, as recorded in the first report that covers only a part.
+/// Returns the number of parts of the batch, as recorded in the first report that covers only one part.
 fn n_parts(reports: &[(&Path, Report)]) -> Option<u32> {
     let shards = reports.iter().filter_map(|(_, r)| r.header.shard);
     shards.map(|shard| shard.of).next()
 }
 
-/// Merges reports. Prints rows that contradict each other, and fails if there are any.
+/// Merges reports. If two rows about the same input file and parameter set contradict each other, prints the rows and
+/// fails.
 fn merge(reports: &[(&Path, Report)]) -> anyhow::Result<Report> {
     let Some((first_path, first)) = reports.first() else {
         bail!("expected at least one report to merge");
@@ -89,13 +90,13 @@ fn merge(reports: &[(&Path, Report)]) -> anyhow::Result<Report> {
     }
     ensure!(
         contradictions == 0,
-        "{}, so no report was written: leave out the outdated reports",
+        "{} between the reports, so no merged report was written: leave out the outdated reports",
         counted(contradictions, "contradiction")
     );
     let missing = n_parts(reports).map_or(Vec::new(), |of| {
         let has = |index: u32| {
             let mut shards = reports.iter().map(|(_, r)| r.header.shard);
-            // A report without a part covers all parts.
+            // A report whose header names no part of the batch covers all parts.
             shards.any(|s| s.is_none_or(|s| s.index == index))
         };
         (1..=of).filter(|&index| !has(index)).collect()
@@ -109,7 +110,7 @@ fn merge(reports: &[(&Path, Report)]) -> anyhow::Result<Report> {
     Ok(Report::new(header, rows))
 }
 
-/// Returns what differs between the batches of two reports, if anything.
+/// If two reports belong to different batches, returns in what the batches differ.
 fn difference(a: &Header, b: &Header) -> Option<&'static str> {
     if a.recipe_digest != b.recipe_digest {
         Some("different recipes")
@@ -126,7 +127,7 @@ fn difference(a: &Header, b: &Header) -> Option<&'static str> {
     }
 }
 
-/// Describes a row, for the error about rows that contradict each other.
+/// Returns a description of a row, for the error message about rows that contradict each other.
 fn description(row: &Row) -> String {
     match (&row.message, &row.digest) {
         (Some(message), _) => format!("{} ({})", row.state.name(), escape_control(message)),

@@ -6,10 +6,10 @@
 //!                                                             +------ journal <-----+
 //! ```
 //!
-//! Prints a line for each processed file, in the order of the list, and a summary. [`row`] describes the reports, and
-//! [`journal`] describes how an interrupted batch is resumed. Outputs, reports and failures are written to temporary
-//! files and renamed. If the disk is full, the files that are being processed count as failed. If the journal cannot be
-//! written, no further file is started.
+//! Prints a line for each processed file, in the order of the list of files, and then a summary. The module [`row`]
+//! describes the reports. The module [`journal`] describes how an interrupted batch is resumed. Outputs, reports and
+//! descriptions of failures are first written to temporary files, which are then renamed. If the disk is full, the
+//! files that are being processed count as failed. If the journal cannot be written, the batch starts no further files.
 
 mod estimate;
 mod failed;
@@ -78,7 +78,8 @@ pub(crate) fn run(args: &BatchArgs, engine: &Engine) -> anyhow::Result<bool> {
     Ok(header.failed == 0 && header.skipped == 0)
 }
 
-/// Returns the results as JUnit XML. The text of a failure is the content of its file in the folder of failures.
+/// Returns the results of the batch as a report in the format JUnit XML. The text of each failure is read from the file
+/// that describes this failure in the folder of failures.
 fn junit_report(batch: &Batch, rows: &[Row]) -> String {
     let files = batch.files_of_part();
     let labels: Vec<String> = files.iter().map(|file| file.label()).collect();
@@ -129,7 +130,7 @@ fn summary(report: &Report, kept: usize, args: &BatchArgs) -> String {
 enum Task {
     /// Keep this row from an earlier run.
     Keep(Row),
-    /// Run the recipe, with this estimated peak memory in bytes.
+    /// Run the recipe. The number is its estimated peak memory in bytes.
     Run(Box<Loaded>, u64),
     /// Report a failure, because the recipe cannot be run on this file.
     Fail(FileResult),
@@ -139,7 +140,7 @@ enum Task {
 #[derive(Clone, Default)]
 struct FileResult {
     row: Row,
-    /// The key for the journal; `None` if the row is not recorded there.
+    /// The key of the row in the journal, or `None` if the row is not recorded in the journal.
     key: Option<String>,
     /// The full error messages of a failure.
     text: String,
@@ -155,7 +156,7 @@ impl FileResult {
     }
 }
 
-/// Files that are checked and then run.
+/// Input files for which the recipe is checked and then run.
 struct Chunk<'b> {
     batch: &'b Batch<'b>,
     files: &'b [&'b Input],
@@ -257,7 +258,7 @@ impl<'b> Chunk<'b> {
         }
     }
 
-    /// Converts the end of a job to the result of its file.
+    /// Returns the result of an input file, given how its job ended.
     fn result(&self, i: usize, end: JobEnd<FileResult>) -> FileResult {
         many::job_result(end).unwrap_or_else(|panicked| match &self.tasks[i] {
             Task::Keep(row) => FileResult::unrecorded(row.clone()),
@@ -287,7 +288,7 @@ impl<'b> Chunk<'b> {
     }
 }
 
-/// Decides what to do with a file.
+/// Decides whether to run the recipe on an input file, to keep its row from an earlier run, or to report a failure.
 fn check(batch: &Batch, file: &Input, known: Option<&Entry>) -> Task {
     let loaded = match batch.load(file) {
         Ok(loaded) => loaded,
@@ -313,8 +314,8 @@ fn check(batch: &Batch, file: &Input, known: Option<&Entry>) -> Task {
     Task::Run(Box::new(loaded), bytes)
 }
 
-/// Returns the key of a row for the journal. The key of a failure includes the memory budget, since a larger budget can
-/// avoid the failure.
+/// Returns the key under which a row is recorded in the journal. The key of a failure includes the memory budget,
+/// because a run with a larger budget may succeed.
 fn journal_key(key: String, row: &Row, batch: &Batch) -> String {
     match row.state {
         State::Failed => format!("{key}-{}", batch.args.many.budget),
@@ -371,7 +372,7 @@ fn row(file: &Input, loaded: &Loaded, outcome: &Outcome) -> Row {
     row
 }
 
-/// Formats the line of a file for the terminal.
+/// Formats the line that is printed on the terminal for an input file.
 fn line(row: &Row) -> String {
     let label = row.label();
     let input = escape_control(&label);

@@ -21,7 +21,7 @@ use engine::Loaded;
 pub(super) struct Batch<'a> {
     pub(super) args: &'a BatchArgs,
     pub(super) path: &'a Path,
-    /// The parameter that receives the input file, if there are input files.
+    /// The name of the recipe's parameter that receives the path of the input file, if there are input files.
     param: Option<String>,
     engine: &'a Engine<'a>,
     /// The text of the recipe, read once for all files.
@@ -33,8 +33,8 @@ pub(super) struct Batch<'a> {
 }
 
 impl<'a> Batch<'a> {
-    /// Reads the recipe, lists the input files, and checks that their outputs do not collide. If the text of the recipe
-    /// has errors, prints them and returns `None`.
+    /// Reads the recipe, lists the input files, and checks that no output would overwrite an input file or the output
+    /// of another file. If the text of the recipe has errors, prints them and returns `None`.
     pub(super) fn plan(
         args: &'a BatchArgs,
         engine: &'a Engine<'a>,
@@ -85,13 +85,15 @@ impl<'a> Batch<'a> {
 
     /// Fails if two files would write the same output, or if an output would overwrite an input file.
     ///
-    /// Output paths depend on the input file only through placeholders, in this recipe and in the recipes that it
-    /// calls. So the recipe is checked only once for each parameter set, with a marker as the file name. In the output
-    /// paths of this check, the marker is then replaced by the name of each file.
+    /// In this recipe and in the recipes that it calls, an output path depends on the input file only through
+    /// placeholders. So the recipe is checked only once for each parameter set, with a marker in place of the name of
+    /// the input file. For each input file, the marker in the resulting output paths is then replaced by the name of
+    /// the file.
     fn check_outputs(&self) -> anyhow::Result<()> {
         let [stem, name] = ["\u{1}", "\u{1}.\u{2}"];
         let below = |path: &PathBuf| path.strip_prefix(&self.args.out).unwrap_or(path).to_owned();
-        // For each parameter set, the outputs for the marker.
+        // Maps the number of a parameter set to its output paths. In these paths, a marker stands for the name of the
+        // input file.
         let mut marked: HashMap<usize, Vec<PathBuf>> = HashMap::new();
 
         let place = |path: &Path| absolute(path).unwrap_or_else(|_| path.to_path_buf());
@@ -151,7 +153,7 @@ impl<'a> Batch<'a> {
         out
     }
 
-    /// Returns the values of the parameters for an input file.
+    /// Returns the values of the recipe's parameters for a run on an input file.
     pub(super) fn values(&self, file: &Input) -> ValueArgs {
         let mut values = self.args.values.clone();
         let own = file.set.iter().flat_map(|set| set.values.clone());
@@ -185,7 +187,8 @@ impl<'a> Batch<'a> {
         load_text(&self.source, &self.values(file), out, checking, self.engine)
     }
 
-    /// Returns the digest of everything that the row of an input file depends on; `None` if an input cannot be read.
+    /// Returns the digest of everything that the row of an input file depends on. Returns `None` if a file that the
+    /// recipe reads cannot be read.
     pub(super) fn key(&self, file: &Input, loaded: &Loaded) -> Option<String> {
         let mut hasher = blake3::Hasher::new();
         // The length of each hashed piece of data is also hashed, so that different lists of pieces have different
@@ -250,7 +253,7 @@ impl<'a> Batch<'a> {
         }
     }
 
-    /// Returns the header of the report, without counts.
+    /// Returns the header of the report, in which the counts of rows are still zero.
     pub(super) fn header(&self) -> Header {
         let mut listed = blake3::Hasher::new();
         for file in &self.inputs {
@@ -272,7 +275,7 @@ impl<'a> Batch<'a> {
     }
 }
 
-/// Returns the name of the parameter that receives the input file.
+/// Returns the name of the recipe's parameter that receives the path of the input file.
 fn parameter(args: &BatchArgs, parameters: &[Parameter]) -> anyhow::Result<String> {
     let is_path = |p: &&Parameter| matches!(p.param, Param::Path { .. });
     let paths = parameters.iter().filter(is_path);

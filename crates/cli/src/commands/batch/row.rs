@@ -1,7 +1,8 @@
 //! The rows of a batch, and its reports.
 //!
-//! `--report FILE.json` writes one object. `.jsonl` has the same object without `rows` in its first line, followed by a
-//! line for each row. `.csv` has only the rows, with the items of lists joined by `; `.
+//! `--report FILE.json` writes one JSON object. A report with the extension `.jsonl` begins with a line that has the
+//! object of a `.json` report without its field `rows`. The lines after the first line have one row each. A report with
+//! the extension `.csv` has only the rows. In a cell that is a list, the items are joined by `; `.
 //!
 //! ```text
 //! {
@@ -77,7 +78,7 @@ pub(super) struct Output {
 }
 
 impl Row {
-    /// Creates a row without counts and outputs.
+    /// Creates a row that has no element counts and no outputs.
     pub(super) fn without_outputs(input: &Input, state: State, message: Option<String>) -> Self {
         let set = input.set.clone();
         Self {
@@ -100,14 +101,14 @@ impl Row {
         label(&self.input, &self.values)
     }
 
-    /// Whether two rows are equal except for the time.
+    /// Whether two rows are equal, apart from the time that the run took.
     pub(super) fn is_same(&self, other: &Self) -> bool {
         let mut other = other.clone();
         other.seconds = self.seconds;
         *self == other
     }
 
-    /// Whether all outputs still exist with their recorded sizes.
+    /// Whether all outputs of the row still exist and have their recorded sizes.
     pub(super) fn has_outputs(&self) -> bool {
         self.outputs.iter().all(|output| {
             let file = Path::new(&output.path).metadata();
@@ -152,7 +153,7 @@ impl State {
     }
 }
 
-/// The batch that the rows belong to, and their counts.
+/// The description of the batch to which the rows belong, and the number of rows in each state.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
 #[serde(expecting = "an object")]
 pub(super) struct Header {
@@ -175,7 +176,7 @@ pub(super) struct Header {
     pub(super) skipped: usize,
 }
 
-/// A report of a batch or of a part.
+/// A report of a batch, or of one part of a batch.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 #[serde(expecting = "an object")]
 pub(super) struct Report {
@@ -193,7 +194,7 @@ pub(super) enum ReportFormat {
 }
 
 impl ReportFormat {
-    /// Returns the format for the extension of a path.
+    /// Returns the format that belongs to the extension of a path.
     pub(super) fn of(path: &Path) -> anyhow::Result<Self> {
         match path.extension().and_then(|e| e.to_str()) {
             Some("csv") => Ok(Self::Csv),

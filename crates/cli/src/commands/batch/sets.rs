@@ -1,4 +1,5 @@
-//! The parameter sets of a batch. The file of `--sets` is a list of objects, each with values of parameters:
+//! The parameter sets of a batch. The file of `--sets` is a list of JSON objects. Each object has the values of one
+//! parameter set:
 //!
 //! ```text
 //! [
@@ -17,9 +18,10 @@ use serde_json::Value as Json;
 /// A set of parameter values with which the recipe is run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct ParameterSet {
-    /// The position of the set in its file, from 1. The outputs of the set are in a folder named after this number.
+    /// The position of the parameter set in its file, counted from 1. The outputs of the parameter set are written to a
+    /// folder that is named after this number.
     pub(super) number: usize,
-    /// The values, written as for `--set`.
+    /// The values of the parameters, in the form in which `--set` expects them.
     pub(super) values: BTreeMap<String, String>,
 }
 
@@ -27,8 +29,8 @@ pub(crate) struct ParameterSet {
 ///
 /// # Errors
 ///
-/// If the file is not a list of objects, the recipe has no parameter of a given name, a parameter already has a value,
-/// or a value has the wrong type.
+/// Returns an error if the file is not a list of objects, or if a parameter does not exist, already has a value, or
+/// gets a value of the wrong type.
 pub(super) fn read(
     path: &Path,
     parameters: &[Parameter],
@@ -66,7 +68,7 @@ pub(super) fn read(
     Ok(all)
 }
 
-/// Returns a value as text, as on the command line.
+/// Returns a value in the form in which it is written on the command line.
 fn plain(value: &Json) -> Option<String> {
     Some(match value {
         Json::String(text) => text.clone(),

@@ -14,10 +14,10 @@ use crate::listener::INTERRUPT;
 use crate::loading::load_text;
 use crate::many::{JobResult, error_message, first_error, run_all};
 
-/// The cells of a sweep, and how they are run.
+/// Checks and runs the cells of a sweep.
 pub(super) struct Cells<'a> {
     pub(super) args: &'a SweepArgs,
-    /// The cache, so that a cell can use the results of the same steps in earlier cells.
+    /// The step cache. With it, a cell can use the results of equal steps in earlier cells.
     pub(super) cache: Option<&'a Cache>,
     pub(super) engine: &'a Engine<'a>,
     /// The text of the recipe.
@@ -28,7 +28,8 @@ pub(super) struct Cells<'a> {
     pub(super) keep: &'a [(Metric, Span)],
     /// Whether the recipe's expectations are checked.
     pub(super) expects: bool,
-    /// Receives the scene of each cell and the estimated peak memory of its run in bytes. `None` if no sheet is drawn.
+    /// A function that receives the scene of each cell, and the estimated peak memory of the cell's run in bytes.
+    /// `None` if no sheet is drawn.
     pub(super) collect: Option<&'a (dyn Fn(Scene, u64) -> CellScene + Sync)>,
 }
 
@@ -52,14 +53,15 @@ pub(super) struct CellResult {
     pub(super) error: Option<String>,
     /// The scene for the sheet, if one is drawn and the cell succeeded.
     pub(super) scene: Option<CellScene>,
-    /// Whether Ctrl-C prevented or canceled the run of the cell.
+    /// Whether Ctrl-C canceled the run of the cell, or prevented its start.
     pub(super) is_not_run: bool,
 }
 
-/// The scene of a cell that succeeded, for the sheet.
+/// The scene of a cell that succeeded, which is drawn on the sheet of the sweep.
 #[derive(Debug)]
 pub(super) struct CellScene {
-    /// The extent of the scene for the camera and the colors, or the reason why the scene cannot be drawn.
+    /// The extent of the scene, from which the camera and the colors are chosen, or the reason why the scene cannot be
+    /// drawn.
     pub(super) extent: Result<Extent, String>,
     /// The scene, if there is enough memory to keep it.
     pub(super) scene: Option<Scene>,
@@ -111,7 +113,7 @@ impl Cells<'_> {
         Ok(loaded)
     }
 
-    /// Runs a cell. The error is the first problem of the cell, or `None` if Ctrl-C cancels the run.
+    /// Runs a cell. If the cell fails, the error is its first problem. If Ctrl-C cancels the run, the error is `None`.
     pub(super) fn run(&self, task: &Task) -> JobResult<CellResult> {
         let loaded = task.0.as_ref().map_err(|error| Some(error.clone()))?;
         if loaded.has_errors() {
@@ -132,8 +134,8 @@ impl Cells<'_> {
         })
     }
 
-    /// Runs a checked cell and returns its outcome. If the run fails, returns its first error. If Ctrl-C cancels the
-    /// run, returns `None`.
+    /// Runs a cell whose recipe was checked before, and returns the outcome of the run. If the run fails, returns its
+    /// first error. If Ctrl-C cancels the run, returns `None`.
     fn outcome(&self, loaded: &Loaded, keeps: bool) -> JobResult<Outcome> {
         let cache = self.cache.map(|cache| Caching {
             cache,

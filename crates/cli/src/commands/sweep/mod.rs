@@ -1,8 +1,9 @@
 //! `meshwright sweep`: runs one recipe with many parameter values and tabulates the results.
 //!
-//! [`recipe::read_sweep`] describes the file. The table has a row for each cell, in the order of the grid. A row has
-//! the number of the cell, the values of the varying parameters, the values of `keep`, and the error of a failed
-//! cell. `--out FILE.csv` writes the table. `--out FILE.json` and `--format json` write one object:
+//! The documentation of [`recipe::read_sweep`] describes the format of the sweep file. The table has a row for each
+//! cell, in the order of the grid. A row consists of the number of the cell, the values of the varying parameters, and
+//! the measured values that `keep` lists. If the cell has failed, the row also has its error. `--out FILE.csv` writes
+//! the table. `--out FILE.json` and `--format json` write one JSON object:
 //!
 //! ```text
 //! {
@@ -110,7 +111,7 @@ pub(crate) fn run(args: &SweepArgs, engine: &Engine) -> anyhow::Result<bool> {
     Ok(finish(args, &plan, &results)? && sheet_is_written)
 }
 
-/// Draws and writes the sheet. Returns whether the sheet shows every cell that succeeded.
+/// Draws and writes the sheet. Returns whether every cell that succeeded is drawn on the sheet.
 fn write_sheet(
     sheet: &Sheet,
     plan: &Plan,
@@ -140,13 +141,14 @@ struct Plan {
     source: Source,
     /// The text of the recipe.
     recipe: Source,
-    /// The recipe with the values that all cells share.
+    /// The recipe, in which the parameters have the values that are the same in all cells.
     loaded: Loaded,
     grid: Grid,
 }
 
 impl Plan {
-    /// Reads the sweep and its recipe, and checks that they match. If there are errors, prints them and returns `None`.
+    /// Reads the sweep file and its recipe, and checks that the sweep fits the recipe. If there are errors, prints them
+    /// and returns `None`.
     fn read(args: &SweepArgs, engine: &Engine) -> anyhow::Result<Option<Self>> {
         expect_kind(&args.sweep, FileKind::Sweep)?;
         let source = Source::open(&args.sweep)?;
@@ -208,7 +210,7 @@ impl Plan {
     }
 }
 
-/// Checks that every file that cells are compared with exists.
+/// Checks that every file exists with which the scenes of cells are compared.
 fn check_files(sweep: &Sweep, loaded: &Loaded, diagnostics: &mut Vec<Diagnostic>) {
     for (metric, span) in &sweep.keep {
         if let Some(OtherMesh::File(path)) = Metric::other(metric) {
@@ -293,7 +295,7 @@ fn rows(plan: &Plan, results: &[CellResult]) -> Vec<Vec<String>> {
     rows
 }
 
-/// Formats the value of a parameter for a table: strings have no quotes.
+/// Formats the value of a parameter for a table. The quotes around strings are left out.
 fn plain(setting: &Setting) -> String {
     match setting.json() {
         Json::String(text) => text,
@@ -310,8 +312,8 @@ fn short(text: &str) -> String {
     }
 }
 
-/// Shortens the table for a terminal. An error is replaced by a mark, because the errors are printed below the table.
-/// Numbers are shortened.
+/// Shortens the cells of the table, so that it fits a terminal better. In the table, an error is replaced by a mark,
+/// because all errors are printed in full below the table. Numbers are shortened.
 fn on_a_terminal(rows: Vec<Vec<String>>) -> Vec<Vec<String>> {
     rows.into_iter()
         .map(|mut row| {

@@ -1,4 +1,4 @@
-//! The sheet of a sweep: the final scenes of its cells in one image.
+//! The sheet of a sweep: one image with the final scenes of all cells.
 //!
 //! ```text
 //!   cell by cell: scene --> extent (small) ---join---> extent of all
@@ -30,7 +30,8 @@ use crate::commands::picture::{SHEET_CELL, check_names, parameters};
 use crate::listener::{INTERRUPT, is_interrupted};
 use crate::many::{error_message, run_in_order};
 
-/// Maximum number of lines below a cell: for its parameter values, and for its values of `keep`.
+/// Maximum number of lines of text below the image of a cell. The first number is for its parameter values, and the
+/// second for its values of `keep`.
 const MAX_LINES: [usize; 2] = [2, 3];
 
 /// The color of errors.
@@ -42,17 +43,17 @@ pub(super) struct Sheet<'a> {
     picture: Picture,
     files: Files,
     layout: Layout,
-    /// The sum of the peak memory of the runs whose scenes are kept until all cells have run, in bytes. It is an upper
-    /// limit for the memory of these scenes.
+    /// The sum of the peak memory of certain runs, in bytes: the runs whose scenes are kept until all cells have run.
+    /// This sum is an upper limit for the memory of the scenes that are kept.
     kept: AtomicU64,
 }
 
 /// The finished sheet.
 pub(super) struct DrawnSheet {
     pub(super) image: Image,
-    /// The indices of cells that succeeded but cannot be drawn, with the reason.
+    /// The cells that succeeded but cannot be drawn: the index of each cell, and the reason.
     pub(super) errors: Vec<(usize, String)>,
-    /// Notes on parts of the scenes that the images do not show.
+    /// Notes that say which parts of the scenes are missing from the images.
     pub(super) notes: BTreeSet<String>,
 }
 
@@ -129,8 +130,8 @@ impl<'a> Sheet<'a> {
         Ok(())
     }
 
-    /// Takes the scene of a cell. The estimated peak memory of its run is `bytes`. Keeps the scene if the budget
-    /// allows.
+    /// Takes the scene of a cell. `bytes` is the estimated peak memory of the cell's run. Keeps the scene if the memory
+    /// budget for scenes is large enough.
     pub(super) fn collect(&self, scene: Scene, bytes: u64) -> CellScene {
         let check = check_names(&self.args.draw.on, &[&scene]);
         let extent = check.map_err(|e| e.to_string()).and_then(|()| {
@@ -225,7 +226,8 @@ impl<'a> Sheet<'a> {
         })
     }
 
-    /// Draws a cell. Returns the image of the cell, and notes on parts of the scene that the image does not show.
+    /// Draws a cell. Returns the image of the cell, and notes that say which parts of the scene are missing from the
+    /// image.
     fn image(
         &self,
         cells: &Cells,
@@ -265,7 +267,7 @@ fn with_legend(sheet: &Image, legend: &Legend, background: Color) -> Result<Imag
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
-        reason = "the size of a legend is positive and limited by its text"
+        reason = "the width and the height of a legend are positive, and the length of its text limits them"
     )]
     let [width, height] = [figure.width, figure.height].map(|side| (side + MARGIN).ceil() as u32);
     let mut wide = Image::filled(
@@ -281,7 +283,8 @@ fn with_legend(sheet: &Image, legend: &Legend, background: Color) -> Result<Imag
     Ok(wide)
 }
 
-/// Returns the part of the memory budget for scenes that wait to be drawn. Runs use the rest.
+/// Returns the part of the memory budget that is reserved for scenes that are kept until they are drawn. Runs use the
+/// rest.
 pub(super) fn kept_bytes(budget: u64) -> u64 {
     budget / 4
 }
@@ -289,12 +292,12 @@ pub(super) fn kept_bytes(budget: u64) -> u64 {
 /// The positions of cells on a sheet, in order from left to right and from top to bottom.
 struct Layout {
     columns: usize,
-    /// The labels of rows and columns, if exactly two axes have several values and `--columns` is not given; otherwise
-    /// empty.
+    /// The labels of the rows and the columns of the sheet. The lists are empty if `--columns` is given, or if the
+    /// number of axes with several values is not two.
     heads: [Vec<String>; 2],
 }
 
-/// The maximum number of cells that are placed in one row.
+/// Cells without labels of rows and columns are placed in one row if there are at most this many of them.
 const MAX_SINGLE_ROW: usize = 6;
 
 impl Layout {
@@ -328,8 +331,9 @@ impl Layout {
         Headings { columns, rows }
     }
 
-    /// Returns the text below a cell: its parameter values, unless they are labels of rows and columns, and its values
-    /// of `keep` that fit. Times are left out, since they differ between runs.
+    /// Returns the text below the image of a cell. The text has the parameter values, unless these are the labels of
+    /// rows and columns. The text also has as many values of `keep` as fit. Values of `keep` that are times are left
+    /// out, because they differ from run to run.
     fn caption(&self, plan: &Plan, cell: usize, result: &CellResult, width: u32) -> String {
         let style = SheetStyle::default();
         let (size, room) = (f64::from(style.font_size), f64::from(width + style.gap / 2));
@@ -362,7 +366,7 @@ impl Layout {
     }
 }
 
-/// Formats the values of an axis in a cell, such as `size = 0.5`.
+/// Formats the values that the parameters of an axis have in a cell, such as `size = 0.5`.
 fn values(plan: &Plan, axis: &Axis, cell: usize) -> Vec<String> {
     let grid = &plan.grid;
     let settings = &grid.cells[cell][axis.parameters.clone()];

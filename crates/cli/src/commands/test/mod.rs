@@ -1,6 +1,7 @@
-//! `meshwright test`: runs recipes as tests, several at once.
+//! `meshwright test`: runs recipes as tests, several of them at the same time.
 //!
-//! Prints a line for each recipe, in the order of their paths, and a summary. With `--format json`, prints one object:
+//! Prints a line for each recipe, sorted by path, and then a summary. If the option `--format json` is given, prints
+//! one JSON object:
 //!
 //! ```text
 //! {
@@ -111,7 +112,7 @@ pub(crate) fn run(args: &TestArgs, engine: &Engine) -> anyhow::Result<bool> {
     Ok(failed == 0 && not_run == 0 && passed > 0)
 }
 
-/// Returns the recipes that are tested by themselves, below the given folders and with the given paths.
+/// Returns the recipes among the given paths, and below the given folders, that are run as tests of their own.
 pub(crate) fn tested(paths: &[PathBuf], engine: &Engine) -> anyhow::Result<Vec<PathBuf>> {
     let recipes = recipes(paths)?;
     let limits = JobLimits {
@@ -129,7 +130,7 @@ pub(crate) fn tested(paths: &[PathBuf], engine: &Engine) -> anyhow::Result<Vec<P
     Ok(tests.iter().map(|test| test.found.path.clone()).collect())
 }
 
-/// Reads and checks the recipes, and keeps the recipes that the filter selects.
+/// Reads and checks the recipes. Recipes that the filter does not select are left out.
 fn tests<'a>(
     recipes: &'a [RecipeFile],
     args: &TestArgs,
@@ -198,8 +199,8 @@ struct Test<'a> {
     found: &'a RecipeFile,
     /// The loaded recipe, or an error if it cannot be read.
     loaded: Result<Loaded, String>,
-    /// Whether the recipe was found in a folder and another tested recipe calls it. If so, the recipe is not run by
-    /// itself.
+    /// Whether the recipe was found in a folder and another tested recipe calls it. If so, the recipe is not run as a
+    /// test of its own.
     is_called: bool,
 }
 
@@ -213,17 +214,17 @@ impl<'a> Test<'a> {
         }
     }
 
-    /// Returns the recipe if it can and should be run.
+    /// Returns the recipe if it has no errors and is to be run as a test of its own.
     fn to_run(&self) -> Option<&Loaded> {
         let loaded = self.loaded.as_ref().ok()?;
         let runs = !loaded.has_errors() && !self.is_called && expects(loaded);
         runs.then_some(loaded)
     }
 
-    /// If the recipe is not run by itself, returns the reason.
+    /// If the recipe is not run as a test of its own, returns the reason.
     ///
-    /// A recipe that other recipes call may need objects of its callers, so errors from checking the recipe alone are
-    /// ignored.
+    /// A recipe that other recipes call may need objects that its callers create. If checking such a recipe alone finds
+    /// errors, these errors are ignored.
     fn reason_not_to_run(&self) -> Option<State> {
         let loaded = self.loaded.as_ref().ok().filter(|loaded| loaded.is_read)?;
         match (self.is_called, expects(loaded)) {
@@ -295,7 +296,7 @@ impl<'a> Test<'a> {
         }
     }
 
-    /// Prints the line of the recipe, and its errors.
+    /// Prints the line with the result of the recipe, and then its errors.
     fn show(&self, result: &TestResult) -> anyhow::Result<()> {
         let path = self.found.path.display();
         let word = match result.state {
@@ -386,11 +387,11 @@ struct TestResult {
     /// The digest of the final scene, if the recipe was run.
     digest: Option<String>,
     time: Duration,
-    /// The changes that `--update` made, one line for each.
+    /// The changes that `--update` made. Each change is described in one line.
     changes: Vec<String>,
     /// The problems of the recipe or of its run.
     diagnostics: Vec<Diagnostic>,
-    /// An error that is not a diagnostic of the recipe.
+    /// The message of an error that is not one of the problems in `diagnostics`.
     message: Option<String>,
     /// The pictures of the failures.
     pictures: Pictures,

@@ -23,11 +23,11 @@ use request::{Refusal, Request};
 /// The interval for checking whether Ctrl-C was pressed.
 const POLL_INTERVAL: Duration = Duration::from_millis(50);
 
-/// The maximum time that a connection waits in one read or write.
+/// The maximum time for which one read or write of a connection can wait.
 const TIMEOUT: Duration = Duration::from_secs(10);
 
-/// The headers of all responses. The first two headers isolate pages from other origins. Browsers share memory between
-/// threads only on isolated pages.
+/// The headers of all responses. The first two headers isolate the page from pages of other origins. On a page that is
+/// not isolated, browsers do not allow threads to share memory.
 const HEADERS: &str = "\
 Cross-Origin-Opener-Policy: same-origin\r
 Cross-Origin-Embedder-Policy: require-corp\r

@@ -1,4 +1,4 @@
-//! Requests of browsers, and the files that they ask for.
+//! Parses the requests of browsers, and finds the files that the browsers request.
 
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::{Component, Path, PathBuf};
@@ -13,7 +13,7 @@ pub(super) struct Request {
     target: String,
     host: String,
     accepts_brotli: bool,
-    /// Whether only the headers of the response are wanted.
+    /// Whether the browser requests only the headers of the response.
     pub(super) is_head: bool,
 }
 
@@ -31,8 +31,8 @@ pub(super) struct Found {
 pub(super) enum Refusal {
     /// The request is not valid, or too long.
     BadRequest,
-    /// The request names a host other than this computer. Without this check, a page of another host could read the
-    /// files, because the name of that host can be made to point to this computer (DNS rebinding).
+    /// The request names a host other than this computer. Without this check, a page from another host could read the
+    /// files. The owner of that host can let its name point to this computer (DNS rebinding).
     Host,
     /// The folder does not contain the file.
     NotFound,
@@ -41,7 +41,7 @@ pub(super) enum Refusal {
 }
 
 impl Request {
-    /// Reads a request. Returns `None` if it is not valid.
+    /// Reads a request. Returns `None` if the request is not valid.
     pub(super) fn read(stream: impl Read) -> io::Result<Option<Self>> {
         let mut reader = BufReader::new(stream.take(MAX_REQUEST));
         let mut request = Self::default();
@@ -86,7 +86,7 @@ impl Request {
         }
     }
 
-    /// Finds the file in a folder, whose path must be canonical.
+    /// Finds the requested file in `folder`. The path of this folder must be canonical.
     pub(super) fn find(&self, folder: &Path) -> Result<Found, Refusal> {
         let name = self
             .host
@@ -120,9 +120,9 @@ fn inside(folder: &Path, path: &Path) -> Option<PathBuf> {
     (real.starts_with(folder) && real.is_file()).then_some(real)
 }
 
-/// Returns the path for a request target, such as `/a%20b.html?c`, relative to the folder. If the path ends with a
-/// slash, it is the path of a folder, and `index.html` is appended. Returns `None` if the path is not valid or leads
-/// out of the folder.
+/// Converts the target of a request, such as `/a%20b.html?c`, to a path relative to the folder that is served. If the
+/// path ends with a slash, it names a folder, so `index.html` is appended. Returns `None` if the path is not valid or
+/// leads out of the folder that is served.
 fn relative_path(target: &str) -> Option<PathBuf> {
     let path = target.split(['?', '#']).next().unwrap_or_default();
     let path = percent_decoded(path.strip_prefix('/')?)?;

@@ -109,7 +109,7 @@ fn contradicting_reports_are_not_merged() {
             "error: models/m000.obj is ok (digest ",
             "a.json and ok",
             "b.json\n",
-            "1 contradiction, so no report was written",
+            "1 contradiction between the reports, so no merged report was written",
         ]);
     assert!(!folder.path("c.json").exists());
 

@@ -4,7 +4,7 @@ use crate::sparse::symbolic::Supernode;
 use mesh::parallel;
 
 /// The number of columns of a tile. All columns of a tile are updated together. Each step subtracts `TILE` pivot
-/// columns, each times a factor, from them.
+/// columns, each times a factor, from the columns of a tile.
 const TILE: usize = 4;
 /// The number of pivot columns that are updated in parallel.
 const BLOCK: usize = 64;
@@ -48,8 +48,9 @@ impl Front {
         self.values.shrink_to_fit();
     }
 
-    /// Eliminates the pivots of a supernode. Takes the updates of its children from the end of `updates`, and appends
-    /// the update for its parent, if there is one. Fails with a column and its pivot if the pivot is not positive.
+    /// Eliminates the pivots of a supernode. The updates of the children are taken from the end of `updates`. If the
+    /// supernode has a parent, the update for the parent is appended. If a pivot is zero, negative, infinite or NaN,
+    /// returns its column and the pivot as the error.
     pub(super) fn eliminate<I: Iterator<Item = (u32, f64)>>(
         &mut self,
         supernode: &Supernode,
@@ -116,8 +117,8 @@ fn packed_start(n: usize, column: usize) -> usize {
     column * n - column * column.saturating_sub(1) / 2
 }
 
-/// Factors the columns of a panel with `m` rows: replaces them by columns of L, and stores the pivots. If a
-/// pivot is zero, negative, infinite or NaN, fails with its column and the pivot.
+/// Factors the columns of a panel with `m` rows: replaces them by columns of L, and stores the pivots. If a pivot is
+/// zero, negative, infinite or NaN, returns its column and the pivot as the error.
 fn factor_panel(panel: &mut [f64], m: usize, pivots: &mut [f64]) -> Result<(), (usize, f64)> {
     let k = pivots.len();
     for block in (0..k).step_by(BLOCK) {

@@ -44,17 +44,18 @@ pub(super) fn elements_in_block(stride: usize) -> usize {
     (BLOCK_BYTES / stride / GROUP * GROUP).min(BLOCK)
 }
 
-/// A lower bound for the size of a stream of `count` elements of `stride` bytes. The stride is at most 256. The
-/// shortest blocks contain zeros. In version 0, such a block needs 2 bits for each group of 16 differences. In version
-/// 1, it needs 2 bits for each byte of an element, and the number of elements in the block does not matter.
+/// A lower bound for the size of a stream of `count` elements of `stride` bytes. The stride is at most 256. A block is
+/// shortest if it contains only zeros. In version 0, a block of zeros needs 2 bits for each group of 16 differences. In
+/// version 1, a block of zeros needs 2 bits for each byte of an element, regardless of the number of elements in the
+/// block.
 pub(super) fn shortest(count: u64, stride: u64) -> u64 {
     let stride = usize::try_from(stride).unwrap_or(BLOCK).clamp(1, BLOCK);
     let block = elements_in_block(stride) as u64;
     let controls = (stride / 4) as u64;
     let mut tail = (stride + stride / 4).max(24);
     if count == 0 {
-        // The tail of version 0 can be shorter, but its blocks are longer. Therefore, version 0 gives the shortest
-        // stream only if there are no blocks.
+        // In version 0 of the format, the tail can be shorter than in version 1, but the blocks are longer. Therefore,
+        // version 0 gives the shortest stream only if there are no blocks.
         tail = tail.min(stride.max(32));
     }
     let around = 1 + tail as u64;

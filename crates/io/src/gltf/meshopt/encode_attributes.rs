@@ -3,7 +3,7 @@
 use super::attributes::{BLOCK, GROUP, elements_in_block};
 use mesh::parallel;
 
-/// The minimum size of the tail. If an element is longer, the tail is as long as the element.
+/// The minimum size of the tail. If an element is longer than this, the tail is as long as the element.
 const TAIL: usize = 32;
 
 /// Encodes elements of `stride` bytes. The stride is a multiple of 4 from 4 to 256. The length of `elements` is a
@@ -54,8 +54,8 @@ fn encode_groups(differences: &[u8], out: &mut Vec<u8>) {
     out.resize(kinds + groups.len().div_ceil(4), 0);
     for (g, group) in groups.iter().enumerate() {
         let large = |most: u8| group.iter().filter(|&&d| d >= most).count();
-        // The sizes of the group with 0, 2, 4 and 8 bits for each difference. The smallest size is chosen. Of equal
-        // sizes, the one with the fewest bits is chosen.
+        // The sizes of the group if each difference is stored with 0, 2, 4 or 8 bits. The smallest size is chosen. If
+        // several sizes are equal, the one with the fewest bits for each difference is chosen.
         let sizes = [
             if large(1) == 0 { 0 } else { usize::MAX },
             4 + large(3),
@@ -73,7 +73,8 @@ fn encode_groups(differences: &[u8], out: &mut Vec<u8>) {
     }
 }
 
-/// Encodes differences of 2 or 4 bits. Differences that do not fit follow as full bytes.
+/// Encodes differences of 2 or 4 bits. Differences that do not fit into these bits follow after the group as full
+/// bytes.
 fn encode_few_bits(group: &[u8; GROUP], bits: usize, out: &mut Vec<u8>) {
     let most = (1 << bits) - 1;
     for together in group.chunks(8 / bits) {

@@ -98,12 +98,12 @@ fn to_bytes(values: [u16; 4]) -> [u8; 8] {
 
 /// Returns the unit vector at (x, y) of the unfolded octahedron, multiplied by `largest` and rounded.
 ///
-/// The third argument is the integer that represents 1. Cigolle et al., "A Survey of Efficient Representations for
-/// Independent Unit Vectors", 2014, section 3.3.
+/// `one` is the integer that represents 1. Cigolle et al., "A Survey of Efficient Representations for Independent Unit
+/// Vectors", 2014, section 3.3.
 fn octahedral([x, y, one]: [f32; 3], largest: f32) -> [f32; 3] {
     let (x, y) = (x / one, y / one);
     let z = 1.0 - x.abs() - y.abs();
-    // The lower half is folded over the edges of the upper half.
+    // In the octahedral encoding, the lower half of the sphere is folded over the edges of the upper half.
     let fold = z.min(0.0);
     let (x, y) = (x - fold.copysign(x), y - fold.copysign(y));
     let length = (x * x + y * y + z * z).sqrt();
@@ -112,8 +112,8 @@ fn octahedral([x, y, one]: [f32; 3], largest: f32) -> [f32; 3] {
 
 /// Returns the unit quaternion whose largest component was left out, multiplied by 32767 and rounded.
 ///
-/// The last argument is the integer that represents 1. Its lowest two bits are replaced by the index of the largest
-/// component.
+/// The argument `last` is the integer that represents 1. The lowest two bits of `last` are replaced by the index of the
+/// largest component.
 fn quaternion([x, y, z, last]: [i16; 4]) -> [f32; 4] {
     let one = f32::from(last | 3);
     let [x, y, z] = [x, y, z].map(|x| f32::from(x) / one * std::f32::consts::FRAC_1_SQRT_2);

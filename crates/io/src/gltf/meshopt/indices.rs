@@ -1,11 +1,12 @@
 //! Decodes a sequence of arbitrary indices. The decoder keeps two base indices, which are 0 at first. Each index is
-//! stored as the difference from one of the base indices. After that, the index replaces this base index.
+//! stored as the difference from one of the base indices. After each index, the base index that was used is replaced by
+//! this index.
 //!
 //! ```text
 //! 0xd1 | a number for each index | 4 bytes
 //! ```
 //!
-//! The lowest bit of a number selects the base index, and the other bits are the difference.
+//! The lowest bit of each number in the stream selects the base index, and the other bits are the difference.
 
 use super::input::{Input, header, zigzag};
 use crate::fault::Fault;

@@ -13,7 +13,7 @@ impl<'a> Input<'a> {
     ///
     /// # Errors
     ///
-    /// If the stream is shorter than `tail + 1` bytes.
+    /// Returns an error if the stream is shorter than `tail + 1` bytes.
     pub(super) fn new(stream: &'a [u8], tail: usize) -> Result<Self, Fault> {
         let end = stream.len().checked_sub(tail).filter(|&end| end > 0);
         let end = end.ok_or_else(|| {
@@ -59,7 +59,7 @@ impl<'a> Input<'a> {
     ///
     /// # Errors
     ///
-    /// If bytes are left.
+    /// Returns an error if bytes are left.
     pub(super) fn end(&self) -> Result<(), Fault> {
         let left = self.bytes.len() - self.at;
         if left > 0 {

@@ -133,8 +133,8 @@ impl Compressed {
     ///
     /// # Errors
     ///
-    /// If the extension at `pointer` is invalid, does not match the view, or declares more data than a stream of its
-    /// size can contain.
+    /// Returns an error if the extension at `pointer` is invalid, does not match the view, or declares more data than a
+    /// stream of its size can contain.
     pub(super) fn decoded_length(&self, view: &View, pointer: &str) -> Result<u64, Fault> {
         let (stride, count) = (self.byte_stride, self.count);
         let (allowed, expected) = match self.mode {
@@ -161,7 +161,7 @@ impl Compressed {
         } else if !filter_fits {
             let filter = self.filter;
             format!(
-                "the filter {filter:?} does not support elements of {stride} bytes in this mode"
+                "in this mode, the filter {filter:?} does not support elements of {stride} bytes"
             )
         } else if self.mode == Mode::Triangles && !count.is_multiple_of(3) {
             format!("expected count to be a multiple of 3, found {count}")

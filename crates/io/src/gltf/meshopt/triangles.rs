@@ -162,7 +162,7 @@ impl State<'_> {
 /// The last 16 values.
 pub(super) struct Recent<T> {
     all: [T; 16],
-    /// The total number of values so far.
+    /// The number of values that were added so far.
     n: usize,
 }
 

@@ -26,7 +26,7 @@ const LINE: f64 = 24.0;
 
 /// Returns the entries in lines, with each line centered in `width` pixels.
 pub(super) fn entries(panels: &[Panel], width: f64) -> Vec<Vec<Entry>> {
-    // The lines of entries, and the width of each line.
+    // For each line of the legend: its entries, and its width.
     let mut lines: Vec<(Vec<Entry>, f64)> = Vec::new();
     for (symbol, text) in symbols(panels) {
         let entry_width = SYMBOL + text_width(&text);
@@ -60,7 +60,7 @@ fn symbols(panels: &[Panel]) -> Vec<(Option<Paint>, Text)> {
         let dashed = Paint::stroke(FAINT, 2.4).with_dashes(&[6.0, 5.0]);
         entries.push((Some(dashed), plain("before")));
     }
-    // The degree of each curve with a construction, and the last level that is drawn.
+    // For each curve with a construction: its degree, and the last level that is drawn.
     let constructed = || {
         panels.iter().filter(|p| p.t.is_some()).map(|p| {
             let degree = p.curve.degree();

@@ -41,7 +41,7 @@ impl LabelPlacement {
                 let angle = f64::from(i) / f64::from(DIRECTIONS) * std::f64::consts::TAU;
                 let (sin, cos) = libm::sincos(angle);
                 let direction = DVec2::new(cos, sin);
-                // The distance from the middle of the label to its border, in this direction.
+                // The distance from the middle of the label to the border of the label, along `direction`.
                 let inner = (half / direction.abs()).min_element();
                 let middle = point + direction * (radius + distance + inner);
                 let cost =

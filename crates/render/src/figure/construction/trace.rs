@@ -40,8 +40,8 @@ fn pieces(curve: &Curve<DVec2>) -> Vec<[DVec2; 3]> {
     while let Some((t, halvings)) = remaining.pop() {
         let h = 1.0 / f64::from(1_u32 << halvings);
         let piece = hermite(curve, t, h);
-        // An interval is halved at least twice. Without this rule, the three tested points of a symmetric curve could
-        // be near the curve by chance.
+        // An interval is halved at least twice. Without this rule, the test at three points could accept a bad piece of
+        // a symmetric curve by chance.
         if halvings >= 2 && (halvings == MAX_HALVINGS || is_near(curve, &piece, t, h)) {
             let [_, b, c, d] = piece;
             pieces.push([b, c, d]);
@@ -91,7 +91,8 @@ mod tests {
                 end = d;
             }
             assert_eq!(end, *curve.points().last().unwrap());
-            // A fine polyline on the curve replaces the curve, because the distance from a polyline is easy to compute.
+            // Distances are measured from a fine polyline on the curve, because the distance from a polyline is easy to
+            // compute.
             let fine: Vec<DVec2> = curve.sample(20_000).collect();
             let distance = |p: DVec2, a: DVec2, b: DVec2| {
                 let edge = b - a;

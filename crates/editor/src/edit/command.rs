@@ -20,8 +20,8 @@ pub struct Command {
     /// The selection that becomes the value of the first parameter that selects elements, if this parameter has no
     /// value.
     pub selection: Option<SelectionText>,
-    /// The object that the step acts on. If `None`, the step acts on all objects or, if the scene has several meshes,
-    /// on the object of the selection.
+    /// The object that the step acts on. If `None`, the step acts on the object of the selection if the scene has
+    /// several meshes, and on all objects otherwise.
     pub on: Option<String>,
 }
 
@@ -52,7 +52,7 @@ pub enum CommandError {
         /// The kind of elements.
         kind: &'static str,
     },
-    /// A parameter of the operation is missing or has an invalid value.
+    /// A parameter of the operation is unknown or missing, or has an invalid value.
     #[error("{operation}: {message}")]
     Parameter {
         /// The operation.
@@ -329,9 +329,8 @@ impl Editor {
     }
 }
 
-/// Returns the first parameter that selects elements, and the kind of elements that it selects. A command sets the
-/// first parameter that selects elements to the selection of the picked elements. Returns `None` if this parameter
-/// already has a value.
+/// Returns the first parameter that selects elements, and the kind of elements that it selects. A command sets this
+/// parameter to the selection of the picked elements. Returns `None` if the parameter already has a value.
 fn unset_selection(panel: &Panel) -> Option<(&PanelField, Option<ElementKind>)> {
     let first = panel
         .fields
@@ -345,8 +344,8 @@ fn unset_selection(panel: &Panel) -> Option<(&PanelField, Option<ElementKind>)> 
 
 impl Panel {
     /// Returns the name of the parameter that a command with this selection sets, and the new value of the parameter as
-    /// RON. Returns `None` if no parameter can be set to a selection, or if the parameter needs elements of a different
-    /// kind.
+    /// RON. Returns `None` if no parameter selects elements, or if the first parameter that selects elements already
+    /// has a value.
     pub fn picked_value(&self, selection: &SelectionText) -> Option<(String, String)> {
         let (field, kind) = unset_selection(self)?;
         Some((field.name.clone(), converted(selection, kind)?))

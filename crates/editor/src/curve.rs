@@ -92,8 +92,8 @@ impl Editor {
     ///
     /// # Errors
     ///
-    /// Returns [`CommandError::NoControlPoints`] if the object is neither a curve nor patches. All errors of
-    /// [`Editor::apply`] are also possible.
+    /// Returns [`CommandError::NoControlPoints`] if the object is neither a curve nor patches. Also returns the errors
+    /// of [`Editor::apply`].
     pub fn move_control_point(
         &mut self,
         object: &str,

@@ -230,8 +230,7 @@ impl Document {
         Ok(self.save_as(store, &self.path.clone())?)
     }
 
-    /// Saves the text to another file. After saving, this file is the file of the document. An existing file is
-    /// replaced.
+    /// Saves the text to a file, which becomes the file of the document. An existing file is replaced.
     ///
     /// # Errors
     ///

@@ -48,13 +48,14 @@ pub struct HalfEdgeInfo {
     pub origin: VertexId,
     /// The vertex that the half-edge leads to.
     pub target: VertexId,
-    /// The number of edges that end at the origin of the half-edge.
+    /// The number of edges at the origin of the half-edge.
     pub valence: usize,
     /// The number of corners of the half-edge's face. `None` if the half-edge is on the boundary.
     pub degree: Option<usize>,
     /// The length, in scene units.
     pub length: f64,
-    /// The angle between the normals of the two faces at the edge, in degrees. `None` if the edge is on the boundary.
+    /// The angle between the normals of the two faces at the edge, in degrees. `None` if the edge is on the boundary,
+    /// or if the area of a face is zero.
     pub dihedral_angle: Option<f64>,
     /// The attributes of the half-edge's origin, corner, edge and face.
     pub attributes: Vec<AttributeInfo>,

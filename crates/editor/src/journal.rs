@@ -130,8 +130,7 @@ impl Recovery {
         let _ = store.remove_folder(&self.folder);
     }
 
-    /// Returns a document with the unsaved text. If the document's last change is undone, the document has the text of
-    /// its file.
+    /// Returns a document with the unsaved text. An undo restores the text of the file.
     pub(crate) fn document(&self, store: &dyn Store) -> Document {
         let opened = self
             .has_file

@@ -66,7 +66,8 @@ pub enum Action {
     New,
     /// Close the window.
     Quit,
-    /// Close the help, the list or the dialog that is open. If none is open, cancel the run.
+    /// Close the help, the list of operations, the dialog or the new step that is open. If none of them is open, cancel
+    /// the run or, if no run is in progress, pick nothing.
     Cancel,
     /// Show the next selection that describes the picked elements.
     NextProposal,

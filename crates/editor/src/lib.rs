@@ -11,7 +11,7 @@
 //! the recipe. To undo a change, the editor goes back to an earlier text in its history of texts. The editor keeps the
 //! scenes after the steps of recent texts in memory. So when a change is undone, usually no step has to run. This crate
 //! opens no window. A program that uses it draws the scenes that [`Editor`] returns, and passes the input of the user
-//! to it.
+//! to the editor.
 //!
 //! | task | items |
 //! | --- | --- |

@@ -23,8 +23,7 @@ const LOOP: &str = "LoopSubdivide";
 pub struct Play {
     mesh: Mesh,
     edits: Vec<PlayedEdit>,
-    /// For each edit, a change of the mesh. If the edit is done, the change undoes it. If the edit is not done, the
-    /// change does it.
+    /// For each edit, the change that undoes the edit if it is done, or does it if it is not.
     changes: Vec<Option<Change>>,
     at: usize,
 }
@@ -193,8 +192,8 @@ impl Play {
         self.changes.push(change);
     }
 
-    /// Returns the mesh after the edits that are done. If an edit removes elements, their numbers are not used again.
-    /// Because numbers are not used again, there can be gaps between the numbers of the mesh's elements.
+    /// Returns the mesh after the edits that are done. The numbers of removed elements are not used again, so there can
+    /// be gaps between the numbers of the mesh's elements.
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
     }

@@ -1,6 +1,6 @@
 //! Runs recipes for the program, the editor, the Python package and browsers. The engine opens the recipe and its input
-//! files in a store. The engine applies parameter values and the memory budget, and can use a step cache. Runs can be
-//! canceled. The language itself is in the crate `recipe`.
+//! files in a store, applies parameter values and the memory budget, and can use a step cache. Runs can be canceled.
+//! The language itself is in the crate `recipe`.
 //!
 //! ```text
 //! Engine --open--> Source --load--> Loaded --run--> Outcome      (diagnostics and forecast are in Loaded)

@@ -2,8 +2,8 @@
 //!
 //! A column has one value for each element of its domain, and a [`Rule`] that defines what edits do with the values.
 //! The value of a corner is stored at its half-edge: the one that leaves the corner's vertex and lies on the corner's
-//! face. A half-edge without a face also has a value, but this value has no meaning. Edits keep the value of a
-//! half-edge without a face at zero where this is cheap.
+//! face. A half-edge without a face also has a value, but this value has no meaning. Edits keep that value at zero
+//! where this is cheap.
 //!
 //! Well-known attributes have constants ([`UV`], [`VERTEX_NORMAL`], ...). Programs may use any other name.
 

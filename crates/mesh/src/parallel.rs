@@ -51,8 +51,8 @@ pub fn map<R: Send>(n: usize, make: impl Fn(usize) -> R + Sync) -> Vec<R> {
     results(n, &make)
 }
 
-// If a function takes a `dyn` closure, it is not compiled again for each closure. It is compiled once for each type of
-// results or elements.
+// A function that takes a `dyn` closure is compiled once for each type of results or elements, and not once for each
+// closure.
 
 fn results<R: Send>(n: usize, make: &(dyn Fn(usize) -> R + Sync)) -> Vec<R> {
     let mut results: Vec<Mutex<Option<R>>> = Vec::with_capacity(n);
@@ -103,7 +103,7 @@ pub fn collect<T: Send>(n: usize, value: impl Fn(usize) -> T + Sync) -> Vec<T> {
     });
     #[expect(
         unsafe_code,
-        reason = "types may have no zero value, so safe code would collect the blocks separately and copy all values once more"
+        reason = "a type may have no zero value, so safe code would collect blocks and then copy all values once more"
     )]
     // SAFETY: the capacity is at least n, and `fill` has passed each of the first n slots to the closure, which wrote
     // it. If the closure `value` panics, `set_len` is not called.

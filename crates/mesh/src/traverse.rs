@@ -108,8 +108,8 @@ impl Mesh {
         prev.expect("an orbit contains its start")
     }
 
-    /// Returns the half-edge from `v` to `w`, if they share an edge. If several half-edges have `h` as their `next`,
-    /// returns the first of them in the order of [`vertex_half_edges`](Self::vertex_half_edges).
+    /// Returns the half-edge from `v` to `w`, if they share an edge. If there are several such half-edges,
+    /// returns the first in the order of [`vertex_half_edges`](Self::vertex_half_edges).
     pub fn find_half_edge(&self, v: VertexId, w: VertexId) -> Option<HalfEdgeId> {
         self.vertex_half_edges(v).find(|&h| self.target(h) == w)
     }

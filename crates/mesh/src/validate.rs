@@ -216,7 +216,8 @@ impl Mesh {
         check_entry("face_half_edge", f, has_edge, report);
     }
 
-    /// Checks invariants 3 and 4 of the crate's documentation at one half-edge, except that `next` is a permutation.
+    /// Checks invariants 3 and 4 of the crate's documentation at one half-edge, but not whether `next` is a
+    /// permutation.
     fn check_links(&self, h: HalfEdgeId, report: ReportDefect) {
         let (next, twin) = (self.next(h), h.twin());
         if self.face(next) != self.face(h) {

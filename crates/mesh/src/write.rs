@@ -82,14 +82,13 @@ impl Mesh {
         }
     }
 
-    /// Copies all attribute values of element `from` to element `to`, even of attributes whose rule does not copy
-    /// values.
+    /// Copies all attribute values of element `from` to element `to`, regardless of their rules.
     #[inline]
     pub(crate) fn copy_values<I: Id>(&mut self, from: I, to: I) {
         self.edit_values(to, |column| column.values.copy(from.index(), to.index()));
     }
 
-    /// Exchanges the attribute values of two elements, even of attributes whose rule does not copy values.
+    /// Exchanges the attribute values of two elements, regardless of their rules.
     pub(crate) fn swap_values<I: Id>(&mut self, a: I, b: I) {
         self.edit_values(b, |_| {});
         self.edit_values(a, |column| column.values.swap(a.index(), b.index()));
@@ -115,7 +114,7 @@ impl Mesh {
     }
 
     /// Merges the attribute values of edge `from` into edge `to`, when the two become one edge. For a floating-point
-    /// number, the larger of the two values is kept. For a tag, `to` gets the tag if either edge has it. Values of
+    /// number, the larger of the two values is kept. A tag is set if either edge has it. Values of
     /// other types are not changed.
     pub(crate) fn merge_values(&mut self, from: EdgeId, to: EdgeId) {
         let (source, target) = (from.index(), to.index());

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use progress::Progress;
 use store::{Entry, NewFile, Store, StoreError};
 
-/// The number of bytes after which a write checks for cancellation.
+/// The maximum number of bytes that are written between two checks for cancellation.
 const PIECE: usize = 1 << 20;
 
 /// A store that reports progress while it writes files. If the run is canceled, the write fails.

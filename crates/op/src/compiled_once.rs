@@ -3,9 +3,9 @@
 /// Implements `Deserialize` and `Serialize` for a type that derives them with the attribute
 /// `#[serde(remote = "Self")]`.
 ///
-/// The code that Serde derives is generic over the format. The derived code would therefore be compiled again in every
-/// crate that has a step with a field of this type. The implementations call the derived code through trait objects.
-/// The code is therefore compiled only once, in this crate.
+/// The code that Serde derives is generic over the format, so it would be compiled again in every crate that has a step
+/// with a field of this type. These implementations call the derived code through trait objects, so it is compiled only
+/// once, in this crate.
 macro_rules! compiled_once {
     ($name:ident) => {
         impl<'de> serde::Deserialize<'de> for $name {

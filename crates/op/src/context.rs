@@ -1,4 +1,5 @@
-//! The context in which an operation runs: progress reports, cancellation, random seeds, files and the memory budget.
+//! The context in which an operation runs: progress, cancellation, the label that seeds random selections, files, and
+//! the memory budget.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -14,9 +15,9 @@ pub struct Context<'a> {
     files: &'a Files,
     /// The objects named in the step's `on:`; `None` if the step acts on all objects that it supports.
     pub on: Option<&'a [String]>,
-    /// The label of the step in the recipe. The selection `Random` combines this label with its own `seed`, so two
-    /// steps with the same seed select different elements. Random positions and numbers, such as those of `Scatter` and
-    /// `Displace`, depend only on their `seed`.
+    /// The label of the step in the recipe. The selection `Random` is seeded with this label and with its own `seed`,
+    /// so two steps with the same seed select different elements. Random positions and numbers, such as those of
+    /// `Scatter` and `Displace`, depend only on their `seed`.
     pub stream: &'a str,
     /// The memory budget of meshes, in bytes.
     pub budget: u64,
@@ -47,8 +48,8 @@ impl<'a> Context<'a> {
         }
     }
 
-    /// Reports to the user that `done` of `total` parts of the work are finished. Every operation calls this method
-    /// before its first change and at least every few milliseconds.
+    /// Reports that `done` of `total` parts of the work are finished. Every operation calls this method before its
+    /// first change and at least every few milliseconds.
     ///
     /// # Errors
     ///
@@ -57,7 +58,7 @@ impl<'a> Context<'a> {
         Ok(self.progress.report(what, done, total)?)
     }
 
-    /// Sets the object that the step changes and whose elements selections select. Also stores the materials of this
+    /// Sets the object that the step changes, and on which selections are evaluated. Also stores the materials of this
     /// object, and the other objects of the scene for [`other_mesh`](Self::other_mesh). The context shares the meshes
     /// of the other objects with the scene until [`clear_object`](Self::clear_object) is called.
     pub fn set_object(&mut self, scene: &Scene, name: &str) {
@@ -81,8 +82,8 @@ impl<'a> Context<'a> {
         self.others.clear();
     }
 
-    /// Returns the mesh of another object of the scene, in its state before the step. `user` is the name of the calling
-    /// operation in error messages, such as `Project`.
+    /// Returns the mesh of another object of the scene, in its state before the step. `user` is the name of the
+    /// operation or selection that needs the mesh, for error messages, such as `Project`.
     ///
     /// # Errors
     ///

@@ -107,7 +107,7 @@ impl<E: EditTarget> EditTarget for [E; 2] {
     }
 }
 
-/// Edits the elements in order. Each edit is checked against the mesh as the edits before it have changed it.
+/// Edits the elements in order. Each edit is checked against the mesh as edited so far.
 ///
 /// The report counts the edits and, for [`OnRefusal::Skip`], the refused edits by reason. If an earlier edit of the
 /// same call has removed an element, the edit of that element counts as refused. `what` is the name of the task that

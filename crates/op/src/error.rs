@@ -202,8 +202,7 @@ impl OpError {
         }
     }
 
-    /// Stores where the elements of the error are, if the error is a refusal. `object` is the name of the object with
-    /// the mesh.
+    /// Sets the locations of the elements, if the error is a refusal. `object` is the name of the object with the mesh.
     #[must_use]
     pub(crate) fn placed(mut self, object: &str, mesh: &Mesh) -> Self {
         if let Self::Refused {

@@ -1,4 +1,4 @@
-//! The files of a run: where a recipe may read and write, and a log of each use of a file.
+//! The files of a run: the paths that a recipe may read and write, and a log of each use of a file.
 //!
 //! Paths of input files are relative to the folder of the recipe. Output files are always inside the output folder. An
 //! output path that leads out of the output folder is refused.
@@ -128,7 +128,7 @@ impl Files {
 
     /// Logs that a file was read. The file can be one whose path [`to_read`](Self::to_read) returned, or another file
     /// that such a file refers to. A step can be cached only if its operation calls this method for every input path
-    /// that it requested. If a step is cached, its result must depend only on the contents of files that were logged.
+    /// that it requested. The result of a cached step must not depend on the contents of any other file.
     pub fn has_read(&self, path: impl Into<PathBuf>) {
         self.log.note(FileUse::Read(path.into()));
     }

@@ -1,8 +1,8 @@
 //! The traits that operations implement, and everything that operations share: the registry, the context in which an
-//! operation runs, plans, reports, errors, selections and parameter types. This crate itself contains no operations.
+//! operation runs, plans, reports, errors, selections and parameter types. This crate contains no operation.
 //!
 //! An operation is a struct whose fields are its parameters. Most operations change one mesh and implement
-//! [`MeshOperation`]. [`MeshOperation`] then provides the choice of objects (`on:`), the reports of lost data and the
+//! [`MeshOperation`]. The trait then provides the choice of objects (`on:`), the reports of lost data and the
 //! rollback after an error. Operations that need the whole scene implement [`Operation`].
 //!
 //! ```

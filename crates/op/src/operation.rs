@@ -191,8 +191,8 @@ impl<T: MeshOperation> Operation for T {
             }
         }
         for (name, change) in changes {
-            // The change can contain a whole mesh. The change is dropped here, so that its memory is free before
-            // compacting allocates memory.
+            // The change can contain a whole mesh. It is dropped here so that its memory is free before compacting
+            // allocates memory.
             drop(change);
             mesh_mut(scene, name)?.compact();
         }

@@ -379,8 +379,8 @@ pub struct PlannedObject {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Plan {
     objects: Vec<PlannedObject>,
-    /// Maps the name of each object to its index. The map is empty after [`objects_mut`](Self::objects_mut) was called
-    /// and until the next [`insert`](Self::insert).
+    /// Maps the name of each object to its index. [`objects_mut`](Self::objects_mut) empties the map, and the next
+    /// [`insert`](Self::insert) or [`free_name`](Self::free_name) fills it again.
     index_by_name: HashMap<String, usize>,
     /// Maps each name that was passed to [`free_name`](Self::free_name) to the last number that `free_name` chose for
     /// it. All lower numbers are taken. This map and `index_by_name` are always cleared together.

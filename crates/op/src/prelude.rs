@@ -1,5 +1,5 @@
 //! The items that nearly every operation uses, imported with `use op::prelude::*;`. [`Operation`](crate::Operation) is
-//! not included: every [`MeshOperation`] also implements it, and `Self::NAME` would be ambiguous.
+//! not included, because every [`MeshOperation`] also implements it, so `Self::NAME` would be ambiguous.
 
 pub use mesh::Mesh;
 pub use scene::Scene;

@@ -8,7 +8,7 @@ use schemars::{Schema, SchemaGenerator};
 
 use crate::{Context, Loss, OpError, Operation, Plan, PlanContext, Problem, Report};
 
-/// An error: two operations have the same name.
+/// The error for two operations that have the same name.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("two operations are named {0}: rename one, or register the second with `with_override`")]
 pub struct DuplicateOperation(pub String);

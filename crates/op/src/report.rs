@@ -158,7 +158,7 @@ impl Report {
         self
     }
 
-    /// Adds the note "`what`: `n`" to the report, unless `n` is 0.
+    /// Adds the note `what: n`, unless `n` is 0.
     #[must_use]
     pub fn count(self, what: &str, n: usize) -> Self {
         if n > 0 {
@@ -190,7 +190,7 @@ impl Report {
     ///
     /// # Errors
     ///
-    /// Returns `error` as it is if it is not [`OpError::Refused`].
+    /// Returns `error` unless it is [`OpError::Refused`].
     pub fn refuse(&mut self, error: OpError) -> Result<(), OpError> {
         let OpError::Refused {
             reason, message, ..
@@ -202,7 +202,7 @@ impl Report {
         Ok(())
     }
 
-    /// Adds the counts, losses and notes of a report for another part of the step.
+    /// Adds the report of another part of the step.
     pub fn merge(&mut self, other: Self) {
         self.changed += other.changed;
         for refused in other.refused {

@@ -1,5 +1,4 @@
-//! Helpers for operations on a whole scene. The helpers support operations that create an object, and check the names
-//! of objects.
+//! Helpers for operations that work on a whole scene: sources, which create an object, and checks of object names.
 
 use std::collections::HashSet;
 
@@ -71,8 +70,8 @@ impl<'a> Source<'a> {
     }
 
     /// Scales the mesh along each axis by a factor above 0, and then moves it from the origin to the point `center`.
-    /// The point `center` is a parameter of the operation. `parameters` contains the names of the parameters that
-    /// determine the scale factors, for error messages.
+    /// This point is the value of the operation's parameter `center`. `parameters` contains the names of the parameters
+    /// that determine the scale factors, for error messages.
     #[must_use]
     pub fn placed(mut self, parameters: &'static str, scale: [f64; 3], center: Vector) -> Self {
         self.scale_parameters = parameters;

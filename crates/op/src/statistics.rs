@@ -1,4 +1,4 @@
-//! Statistics of the values of an attribute or of other values of elements.
+//! Statistics of values of elements, such as the values of an attribute.
 
 use mesh::parallel;
 

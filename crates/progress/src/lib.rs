@@ -38,7 +38,7 @@ pub trait Progress: Sync {
     }
 }
 
-/// Counts the parts of one computation that several threads have finished, and reports the total.
+/// Counts the parts of one computation that its threads have finished, and reports this number.
 pub struct Meter<'a> {
     listener: &'a dyn Progress,
     task: &'static str,

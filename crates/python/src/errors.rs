@@ -1,11 +1,11 @@
-//! The exceptions. The exception classes are written in Python.
+//! The exceptions. Their classes are written in Python.
 
 use mesh::EditError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use recipe::{Diagnostic, LineIndex, Source};
 
-/// Creates an exception of a class in the Python module `meshwright._errors`. The class has the name `name`.
+/// Creates an exception of the class `name` of the Python module `meshwright._errors`.
 fn exception<'py, A>(py: Python<'py>, name: &str, arguments: A) -> PyErr
 where
     A: pyo3::call::PyCallArgs<'py>,

@@ -17,8 +17,8 @@ pub(crate) struct Recipe(Loaded);
 
 #[pymethods]
 impl Recipe {
-    /// Reads and checks a recipe. If no text is given, reads the file `path`. Relative paths in `set` start at the
-    /// working directory.
+    /// Reads and checks a recipe. If no text is given, reads the file `path`. Relative paths in `set` are relative to
+    /// the working directory.
     #[new]
     #[pyo3(signature = (text, path, set, preset, out, budget))]
     #[expect(clippy::needless_pass_by_value, reason = "Python passes new values")]

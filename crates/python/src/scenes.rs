@@ -197,8 +197,8 @@ impl Scene {
         Ok(Self(scene))
     }
 
-    /// A scene with the objects of both scenes, and the nodes that place them. `names` maps names of objects to new
-    /// names.
+    /// A scene with the objects of both scenes, and the nodes that place them. `names` maps names of objects of `other`
+    /// to new names.
     fn joined(&self, other: &Self, names: BTreeMap<String, String>) -> PyResult<Self> {
         let message = |error: scene::DuplicateName| PyValueError::new_err(error.to_string());
         let (mut scene, mut other) = (self.0.clone(), other.0.clone());

@@ -210,8 +210,8 @@ fn color_combo(ui: &mut Ui, view: &mut ViewPane, scene: &scene::Scene) {
         .map_or_else(|| "Material".to_owned(), Quantity::title);
     let combo = ComboBox::from_id_salt("color")
         .selected_text(name)
-        // A long name is truncated. It would move the controls after it to a second row. The legend shows the whole
-        // name.
+        // A long name is truncated, because it would move the controls after it to a second row. The legend shows the
+        // whole name.
         .truncate()
         .width(90.0)
         .show_ui(ui, |ui| {

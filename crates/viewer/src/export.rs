@@ -11,8 +11,8 @@ use render::animation::{Timing, to_apng, to_gif};
 
 use crate::app::Parts;
 
-/// The maximum number of images of an animation, not counting the image after the last edit. If there are too many
-/// edits, several edits are done between two images.
+/// The maximum number of images of an animation, not counting the image after the last edit. If there are at least this
+/// many edits, several edits are done between two images.
 const MAX_IMAGES: usize = 300;
 
 /// An animation that is being written.

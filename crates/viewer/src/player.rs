@@ -87,7 +87,7 @@ impl Parts {
     pub(crate) fn play(&mut self, step: usize) {
         let Some((object, play)) = self.editor.play(step) else {
             self.inform(
-                "These edits cannot be played: the step must flip, split or collapse edges of a mesh, and must not use `until`.",
+                "These edits cannot be played: the step must flip, split or collapse edges of a mesh, without `until`.",
             );
             return;
         };

@@ -20,8 +20,8 @@ pub struct Command {
     /// The selection that becomes the value of the first parameter that selects elements, if this parameter has no
     /// value.
     pub selection: Option<SelectionText>,
-    /// The object that the step acts on. If `None`, the step acts on all objects or, if the scene has several meshes,
-    /// on the object of the selection.
+    /// The object that the step acts on. If `None`, the step acts on the object of the selection if the scene has
+    /// several meshes, and on all objects otherwise.
     pub on: Option<String>,
 }
 
@@ -52,7 +52,7 @@ pub enum CommandError {
         /// The kind of elements.
         kind: &'static str,
     },
-    /// A parameter of the operation is missing or has an invalid value.
+    /// A parameter of the operation is unknown or missing, or has an invalid value.
     #[error("{operation}: {message}")]
     Parameter {
         /// The operation.
@@ -356,9 +356,8 @@ impl Editor {
     }
 }
 
-/// Returns the first parameter that selects elements, and the kind of elements that it selects. A command sets the
-/// first parameter that selects elements to the selection of the picked elements. Returns `None` if this parameter
-/// already has a value.
+/// Returns the first parameter that selects elements, and the kind of elements that it selects. A command sets this
+/// parameter to the selection of the picked elements. Returns `None` if the parameter already has a value.
 fn unset_selection(panel: &Panel) -> Option<(&PanelField, Option<ElementKind>)> {
     let first = panel
         .fields

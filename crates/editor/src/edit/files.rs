@@ -1,4 +1,4 @@
-//! Opens and saves the files of an editor: recipes, models, and unsaved texts that are recovered.
+//! Opens recipes and models, saves recipes, and recovers unsaved texts.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -97,8 +97,8 @@ impl Editor {
         Ok(())
     }
 
-    /// Saves the recipe to another file. After saving, this file is the file of the document. If the file is in another
-    /// folder, relative paths of input files in the recipe are changed to fit the new folder.
+    /// Saves the recipe to a file, which becomes the file of the document. If this file is in another folder, the
+    /// relative paths of input files in the recipe are changed to fit the new folder.
     ///
     /// # Errors
     ///

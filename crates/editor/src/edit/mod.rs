@@ -35,8 +35,8 @@ pub struct Settings {
     pub out: PathBuf,
     /// The memory budget for the meshes of a run, in bytes. Defaults to [`engine::BUDGET`].
     pub budget: u64,
-    /// The maximum memory, in bytes, for the scenes after steps that are kept so that these steps need not run again.
-    /// Defaults to 4 GiB.
+    /// The maximum memory, in bytes, for the scenes that are kept after steps have run, so that these steps need not
+    /// run again. Defaults to 4 GiB.
     pub memory: u64,
     /// The folder for journals, from which unsaved texts are recovered after a crash. If `None`, which is the default,
     /// no journal is written.
@@ -234,8 +234,7 @@ impl Editor {
         &self.run
     }
 
-    /// Whether [`run`](Self::run) belongs to the current text. If the run belongs to the current text, the spans in the
-    /// state of the run fit the text.
+    /// Whether [`run`](Self::run) belongs to the current text, so that its spans fit the text.
     pub fn is_run_current(&self) -> bool {
         self.run_version == Some(self.document.version())
     }
@@ -455,7 +454,7 @@ impl Editor {
             .clone()
             .unwrap_or_else(|| self.document.text().clone());
         self.requested = self.preview.is_none().then(|| self.document.version());
-        // The existing results come from an earlier version of the text.
+        // The existing results belong to an earlier request.
         self.run_version = None;
         self.runner.request(Request {
             number: self.number,

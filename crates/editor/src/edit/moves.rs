@@ -142,8 +142,7 @@ impl Editor {
     ///
     /// # Errors
     ///
-    /// Returns [`CommandError::NothingPicked`] if no elements are picked. All errors of [`Editor::apply`] are also
-    /// possible.
+    /// Returns [`CommandError::NothingPicked`] if no elements are picked. Also returns the errors of [`Editor::apply`].
     pub fn move_picked(
         &mut self,
         movement: Movement,

@@ -40,8 +40,8 @@ impl Editor {
         self.proposals = Proposals::default();
     }
 
-    /// Returns the selections that describe the picked elements, the best first. The list is computed only once for the
-    /// same picked elements.
+    /// Returns the selections that describe the picked elements, the best first. The list is computed only once for
+    /// each pick.
     pub fn proposals(&mut self) -> &[Proposal] {
         self.search();
         self.proposals = match std::mem::take(&mut self.proposals) {
@@ -90,7 +90,7 @@ impl Editor {
 
     /// Whether the search for the selections that describe several picked elements is still in progress. In a large
     /// mesh, the search takes long. Commands wait for the end of the search. A window calls this function before it
-    /// shows a selection, so that it does not wait.
+    /// shows a selection, so that the window need not wait.
     pub fn is_searching(&mut self) -> bool {
         let is_one = self.picked.as_ref().is_some_and(|picked| picked.len() == 1);
         if !is_one && self.first_proposal.is_none() {
@@ -100,7 +100,7 @@ impl Editor {
     }
 
     /// Whether there may be another selection that describes the picked elements. The selections are computed only when
-    /// they are requested, because this takes long in a large mesh.
+    /// they are requested, because their computation takes long in a large mesh.
     pub fn may_have_other_proposal(&self) -> bool {
         match &self.proposals {
             Proposals::Known(proposals) => proposals.len() > 1,
@@ -108,8 +108,7 @@ impl Editor {
         }
     }
 
-    /// Chooses the next selection that describes the picked elements. If the last selection is chosen now, chooses the
-    /// first selection.
+    /// Chooses the next selection that describes the picked elements. After the last selection, chooses the first.
     pub fn next_proposal(&mut self) {
         let first = self.first_proposal.take();
         self.proposals();
@@ -125,9 +124,9 @@ impl Editor {
 
     /// Picks the elements that a typed selection selects. The text has the form of a selection in a recipe. Commands
     /// then use this text. If elements are picked, the text is read as a selection of elements of their kind. If
-    /// nothing is picked, the text is read as a selection of elements of the given kind. If the text does not fit one
-    /// kind of elements, the other kinds are tried. The elements are selected on the object with the picked elements
-    /// or, if nothing is picked, on the first mesh.
+    /// nothing is picked, the text is read as a selection of elements of the given kind. If the text does not fit this
+    /// kind, the other kinds are tried. The elements are selected on the object with the picked elements or, if nothing
+    /// is picked, on the first mesh.
     ///
     /// # Errors
     ///

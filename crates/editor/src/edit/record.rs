@@ -1,4 +1,4 @@
-//! Records a test: adds expectations to the recipe that its scene meets now.
+//! Records a test: adds to the recipe the expectations that its scene meets now.
 
 use engine::{FileReader, Silent};
 use op::Files;

@@ -1,5 +1,5 @@
-//! The panel of an operation: a list of fields, generated from the schema of its parameters. With its values, a panel
-//! writes the text of a step.
+//! The panel of an operation: a list of fields, generated from the schema of its parameters. A panel turns its values
+//! into the text of a step.
 
 mod kind;
 mod parts;
@@ -176,7 +176,8 @@ impl Panel {
     }
 }
 
-/// Joins the lines of each paragraph to one line. Each item of a list and each row of a table remains a separate line.
+/// Joins the lines of each paragraph into one line. Each item of a list and each row of a table remains a separate
+/// line.
 fn unwrapped(doc: &str) -> String {
     let mut text = String::with_capacity(doc.len());
     for line in doc.lines() {

@@ -108,8 +108,8 @@ impl Projection {
         )
     }
 
-    /// Returns a rectangle of pixels in which a box in space is seen. Returns `None` if the box reaches behind the
-    /// viewer, because its picture is then not bounded.
+    /// Returns the rectangle of pixels that contains the picture of a box in space. Returns `None` if the box reaches
+    /// behind the viewer, because its picture is then not bounded.
     pub(crate) fn bounds(&self, min: DVec3, max: DVec3) -> Option<[DVec2; 2]> {
         let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
         for i in 0..8 {

@@ -188,7 +188,7 @@ fn take_known(state: &mut RunState, keys: &StepKeys, snapshots: &mut Snapshots) 
     known
 }
 
-/// Adds the results of the expectations that a run has checked to the state. `is_whole` says whether the run has
+/// Adds to the state the results of the expectations that a run has checked. `is_whole` says whether the run has
 /// completed all of its steps.
 fn take_verdicts(
     state: &mut RunState,

@@ -40,7 +40,7 @@ pub(crate) struct Request {
     pub(crate) keep_outputs: bool,
     /// The memory budget for meshes, in bytes.
     pub(crate) budget: u64,
-    /// The maximum memory for the scenes after steps that are kept, in bytes.
+    /// The maximum memory, in bytes, for the scenes that are kept after steps have run.
     pub(crate) memory: u64,
 }
 

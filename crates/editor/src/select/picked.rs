@@ -84,8 +84,8 @@ impl Picked {
         self.half_edge = other.half_edge.or(self.half_edge);
     }
 
-    /// If all elements of another set are already in this set, removes them. If not all of them are in this set, adds
-    /// them. A click with Shift has this effect. If the other set is of another object or kind, it replaces this set.
+    /// If all elements of another set are already in this set, removes them. Otherwise, adds them. A click with Shift
+    /// has this effect. If the other set is of another object or kind, it replaces this set.
     pub fn toggle(&mut self, other: &Self) {
         let before = self.clone();
         self.add(other);

@@ -320,8 +320,8 @@ fn path_ends(mesh: &Mesh, list: &[EdgeId]) -> Option<(usize, usize)> {
 }
 
 /// Returns a limit that is less than all values of picked elements and greater than all values of other elements. The
-/// limit has as few digits as possible. Returns `None` if no limit separates the picked elements from the other
-/// elements, or if the gap between their values is as small as a rounding error.
+/// limit has few digits if the gap between these values allows it. Returns `None` if no limit separates the picked
+/// elements from the other elements, or if the gap between their values is as small as a rounding error.
 fn threshold(values: impl Iterator<Item = (f64, bool)>) -> Option<String> {
     let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
     for (value, is_picked) in values {

@@ -165,8 +165,7 @@ pub(super) fn remove_entry(text: &str, entries: &[Span], at: usize) -> Edits {
         return vec![(Span::new(line - 1, tail.end), String::new())];
     }
     if let Some(before) = at.checked_sub(1).filter(|_| at + 1 == entries.len()) {
-        // If the last entry is removed, the comma before it is removed too. If the last entry has a comma of its own,
-        // the comma before it stays.
+        // If the last entry is removed and has no comma of its own, the comma before it is removed too.
         let comma = super::entries::tail(text, entries[before].end).comma;
         let start = if tail.comma.is_some() {
             comma

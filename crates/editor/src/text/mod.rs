@@ -26,9 +26,7 @@ pub(crate) type Edits = Vec<(Span, String)>;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum TextError {
     /// The text has no list `steps`, for example because of a syntax error.
-    #[error(
-        "the list `steps: [..]` of the recipe is missing or cannot be read; correct the text of the recipe first"
-    )]
+    #[error("the list `steps: [..]` is missing or cannot be read; correct the recipe's text first")]
     NoSteps,
     /// The step does not exist.
     #[error("step {0} does not exist (number of steps: {1})")]

@@ -117,8 +117,8 @@ pub(crate) fn move_step(
     let comment = &text[end.comma.unwrap_or(step.end)..end.end];
     let block = format!("{}{}", &text[start..step.end], ",");
     let removed = Span::new(start.saturating_sub(1), end.end);
-    // The step moves to the line after the step that will precede it. If it becomes the first step, it moves to before
-    // the comments of the current first step.
+    // The step moves to the line after the step that will precede it. If it becomes the first step, it moves before the
+    // comments of the current first step.
     let mut edits = vec![(removed, String::new())];
     if let Some(before) = target.checked_sub(1) {
         let before_tail = tail(text, entries[before].end);

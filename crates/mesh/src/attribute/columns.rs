@@ -176,8 +176,8 @@ impl Attributes {
             .any(|c| !c.values.are_equal(a.index(), b.index()))
     }
 
-    /// Removes the columns whose rule is [`Rule::Drop`]. Every function that changes connectivity must remove the
-    /// columns with this rule.
+    /// Removes the columns whose rule is [`Rule::Drop`]. Every function that changes connectivity must remove these
+    /// columns.
     pub fn drop_by_rule(&mut self) {
         for columns in &mut self.columns {
             columns.retain(|c| c.rule != Rule::Drop);

@@ -198,7 +198,7 @@ pub fn build(
     corners: &[u32],
     non_manifold: NonManifold,
 ) -> Result<BuildOutput, BuildError> {
-    // The largest total size of the arrays that exist at the same time, without the input.
+    // The largest total size of the arrays that exist at the same time, not counting the input.
     crate::require_memory(32 * corners.len() + 16 * positions.len());
     let degenerate = check(&positions, offsets, corners)?;
     if degenerate.is_empty() {

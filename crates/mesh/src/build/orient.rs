@@ -26,8 +26,8 @@ use crate::parallel::BLOCK;
 pub(super) struct Orientation {
     /// The polygons to reverse, in order.
     pub(super) reversed: Vec<usize>,
-    /// For each part without a consistent orientation, its first polygon. No polygon of a part without a consistent
-    /// orientation is reversed.
+    /// For each part without a consistent orientation, its first polygon. No polygon of these parts is
+    /// reversed.
     pub(super) unorientable: Vec<usize>,
 }
 

@@ -154,8 +154,7 @@ impl Mesh {
         }
         self.check_outer_faces(e)?;
 
-        // The third corners of the triangles beside the edge. Only the third corners of these triangles may be
-        // neighbors of both ends of the edge.
+        // The third corners of the triangles beside the edge. Only these corners may be neighbors of both ends.
         let apexes = [ab, ba].map(|h| {
             self.is_beside_triangle(h)
                 .then(|| self.target(self.next(h)))

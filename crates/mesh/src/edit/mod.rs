@@ -48,8 +48,8 @@ pub enum EditError {
     /// The edit needs an edge with a face on both sides.
     #[error("{0} is on the boundary")]
     Boundary(EdgeId),
-    /// The edit needs a half-edge without a face, but this half-edge has one. Nevertheless, the edge is on the boundary
-    /// if its other half-edge has no face.
+    /// The edit needs a half-edge without a face, but this half-edge has one. The edge can still be on the
+    /// boundary, if its other half-edge has no face.
     #[error("{0} has a face, so it is not a boundary half-edge")]
     NotBoundary(HalfEdgeId),
     /// The edit needs a vertex inside the surface.

@@ -140,7 +140,7 @@ impl Mesh {
     /// Merges the edges of two half-edges without faces. The edge with the lower id remains.
     fn merge_edges(&mut self, [h, g]: Pair) -> EdgeId {
         let (kept, removed) = (h.min(g), h.max(g));
-        // One half of the removed edge has a face. The kept half-edge takes the place of the half that has a face.
+        // One half of the removed edge has a face. The kept half-edge takes the place of this half.
         let old = removed.twin();
         let (before, after, face) = (self.prev(old), self.next(old), self.face(old));
         self.set_next(before, kept);

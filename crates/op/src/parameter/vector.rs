@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 #[serde(rename = "Vector")]
 struct Coordinates(f64, f64, f64);
 
-/// An error: three numbers are not a valid value of the vector type.
+/// The error for three numbers that are not a valid value of their type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("expected finite {0}")]
 pub struct BadVector(&'static str);

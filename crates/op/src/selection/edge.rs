@@ -65,7 +65,7 @@ selection! {
         },
         /// The longest edges. If several edges have the same length, the edges with the lowest ids are chosen.
         Longest {
-            /// The number of edges. If fewer edges are available, all of them are selected.
+            /// The number of edges. If fewer are available, all are selected.
             #[serde(default = "super::one")]
             count: u32,
             /// The selection to choose from.

@@ -75,27 +75,21 @@ macro_rules! selection {
                 "The ", $elements, " of all connected components of the mesh that this selection touches."
             )]
             Component(Box<Self>),
-            /// A random choice. In the same step, the same seed always makes the same choice.
+            /// A random choice. The same seed in the same step gives the same choice.
             Random {
-                #[doc = concat!(
-                    "The number of ", $elements, ". If fewer ", $elements,
-                    " are available, all of them are selected."
-                )]
+                #[doc = concat!("The number of ", $elements, ". If fewer are available, all are selected.")]
                 count: u32,
                 /// The selection to choose from.
                 #[serde(default)]
                 of: Box<Self>,
-                /// The seed. A different seed makes a different choice.
+                /// The seed. A different seed gives a different choice.
                 seed: u64,
             },
             #[doc = $nearest]
             Nearest {
                 /// The point.
                 to: $crate::Vector,
-                #[doc = concat!(
-                    "The number of ", $elements, ". If fewer ", $elements,
-                    " are available, all of them are selected."
-                )]
+                #[doc = concat!("The number of ", $elements, ". If fewer are available, all are selected.")]
                 #[serde(default = "super::one")]
                 count: u32,
                 /// The selection to choose from.

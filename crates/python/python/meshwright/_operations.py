@@ -51,20 +51,21 @@ class SceneOperations:
         Formats: ``.obj``, ``.gltf``, ``.glb``, ``.ply``, ``.stl``, ``.off``, ``.dae``, ``.bez`` (Bezier patches),
         ``.bzc`` (a Bezier curve) and ``.mws`` (a complete scene). A file compressed with gzip has ``.gz`` after its
         extension, as in ``.obj.gz``; ``.glb`` and ``.mws`` files cannot be compressed this way. An OBJ file becomes one
-        object, and its objects (``o a``) and groups (``g a``) become the face tags ``o="a"`` and ``a``. A glTF file
-        gives an object for each mesh that a node references. The object is named after the node if only one node
-        references the mesh. Unless ``placements`` is ``Bake``, the nodes, cameras, lights, skins, morph targets and
-        animations of the file are kept. A COLLADA file gives an object for each node with a mesh. The report counts and
-        lists the content that the scene cannot hold. Images of materials are read from files next to the model. A
-        corner that repeats the previous corner is removed, and a face that still contains a vertex twice is left out.
+        object of the scene. The objects (``o a``) and groups (``g a``) in the file become the face tags ``o="a"`` and
+        ``a``. A glTF file gives an object for each mesh that a node references. The object is named after the node if
+        only one node references the mesh. Unless ``placements`` is ``Bake``, the nodes, cameras, lights, skins, morph
+        targets and animations of the file are kept. A COLLADA file gives an object for each node with a mesh. The
+        report counts and lists the content that the scene cannot hold. Images of materials are read from files next to
+        the model. A corner that repeats the previous corner is removed, and a face that still contains a vertex twice
+        is left out.
 
         Example: ``scene.load(path="teapot.bez")``, in a recipe ``Load(path: "teapot.bez")``
 
         :param path: The file. For a scene, a relative path is relative to the working directory; in a recipe, to the
             folder of the recipe.
-        :param name: The name for objects that have no name in the file, and for the only object of an ``.mws`` file. If
-            omitted, objects without a name get the name of the file without its extension, and the object of an
-            ``.mws`` file keeps its name.
+        :param name: The name for objects that have no name in the file, and for the object of an ``.mws`` file with
+            only one object. If omitted, objects without a name get the name of the file without its extension, and the
+            object of an ``.mws`` file keeps its name.
         :param non_manifold: What to do if more than two faces share an edge, or if the faces at a vertex form several
             groups that have no common edge. Defaults to ``"Split"``.
             ``"Split"``: Split edges and vertices until the faces form a manifold, and list the splits.
@@ -112,9 +113,10 @@ class SceneOperations:
         The extension determines the format: ``.obj``, ``.gltf``, ``.glb``, ``.ply``, ``.stl`` or ``.off`` for meshes,
         ``.bez`` for Bezier patches, ``.bzc`` for a curve, and ``.mws`` for a complete scene without any loss. ``.csv``
         is a table of the positions and attributes of vertices, faces or corners, and ``.npz`` has the arrays of a mesh
-        for ``NumPy``. These two formats cannot be read. If the name ends with ``.gz``, as in ``a.obj.gz``, the file is
-        compressed with gzip, which is not possible for ``.glb``, ``.mws`` and ``.npz``. The report lists the content
-        that the format cannot store. A recipe creates the file only if all of its steps and expectations succeed.
+        for ``NumPy``. ``load()`` cannot read ``.csv`` and ``.npz`` files. If the name ends with ``.gz``, as in
+        ``a.obj.gz``, the file is compressed with gzip. Files in the formats ``.glb``, ``.mws`` and ``.npz`` cannot be
+        compressed with gzip. The report lists the content that the format cannot store. A recipe creates the file only
+        if all of its steps and expectations succeed.
 
         Example: ``scene.save(path="a.obj")``, in a recipe ``Save(path: "a.obj")``
 
@@ -131,8 +133,9 @@ class SceneOperations:
             geometry is not compressed.
             ``"Meshopt"``: The extension ``EXT_meshopt_compression``.
         :param quantize: The number of bits for each attribute of the geometry in ``.glb`` and ``.gltf`` files. If
-            omitted, numbers are stored as 32-bit floats. ``quantize={}`` uses the default of each attribute. The report
-            states the largest errors of positions, of normals and tangents, and of texture coordinates.
+            omitted, numbers are stored as 32-bit floats. ``quantize={}`` uses the default number of bits for each
+            attribute. The report states the largest errors of positions, of normals and tangents, and of texture
+            coordinates.
             ``"position"``: The number of bits of each coordinate of a position. Positions are rounded to a grid that
                 covers the bounding box of the object and has the same step along all axes. The longest side of the box
                 has 2^bits - 1 steps. Positions of objects with joints or morph targets are not quantized. Defaults to
@@ -168,10 +171,11 @@ class SceneOperations:
         """Creates a mesh from points and faces.
 
         Point i becomes vertex i, and polygon i becomes face i. If the orientations of connected faces do not agree, the
-        faces with the less frequent orientation are reversed. They are reversed only if all orientations then agree. If
-        the faces do not form a manifold, edges and vertices are split: an edge keeps two faces with consistent
-        orientations, and a vertex keeps one fan of faces. The other faces get copies of the vertices. The copies get
-        the highest ids. The report and the command ``check`` list the reversed and split elements.
+        faces with the less frequent orientation are reversed. Faces are reversed only if all orientations then agree.
+        If the faces do not form a manifold, edges and vertices are split: an edge keeps two faces with consistent
+        orientations, and a vertex keeps one fan of faces. All other faces at the edge or vertex get copies of its
+        vertices. The copies of vertices get the highest ids. The report and the command ``check`` list the reversed and
+        split elements.
 
         Example: ``scene.polygons(name="new", points=[(0, 0, 0), (1, 0, 0), (0, 1, 0)], faces=[[0, 1, 2]])``, in a
         recipe ``Polygons(name: "new", points: [(0, 0, 0), (1, 0, 0), (0, 1, 0)], faces: [[0, 1, 2]])``
@@ -200,9 +204,9 @@ class SceneOperations:
         """Creates a cube.
 
         The cube has 8 vertices and 6 squares. In the order of their ids, the squares are on the sides -z, +z, -y, +x,
-        +y and -x. Their vertices are (0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (1, 3, 7, 5), (3, 2, 6, 7) and (2, 0, 4,
-        6). The id of a vertex is (x > center) + 2 (y > center) + 4 (z > center), where a true comparison counts as 1
-        and a false comparison as 0.
+        +y and -x. In the same order, the vertices of the squares are (0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (1, 3,
+        7, 5), (3, 2, 6, 7) and (2, 0, 4, 6). The id of a vertex is (x > center) + 2 (y > center) + 4 (z > center),
+        where a true comparison counts as 1 and a false comparison as 0.
 
         Example: ``scene.cube(name="new", size=3, center=(1, 2, 3))``, in a recipe ``Cube(name: "new", size: 3, center:
         (1, 2, 3))``
@@ -212,8 +216,8 @@ class SceneOperations:
         :param size: The length of the edges, in scene units. More than 0. Defaults to ``2.0``.
         :param center: The center of the cube, in scene units.
         :param triangles: Whether to cut each square (a, b, c, d) along its diagonal from a to c into the triangles (a,
-            b, c) and (a, c, d). Square f becomes the faces 2 f and 2 f + 1. The diagonals are 0-3, 4-7, 0-5, 1-7, 3-6
-            and 2-4. Defaults to ``False``.
+            b, c) and (a, c, d). Square f becomes the faces 2 f and 2 f + 1. The diagonals of the squares are 0-3, 4-7,
+            0-5, 1-7, 3-6 and 2-4. Defaults to ``False``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
             `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
@@ -231,8 +235,8 @@ class SceneOperations:
     ) -> Self:
         """Creates a regular tetrahedron with 4 vertices and 4 triangles.
 
-        The vertices are four of the eight corners of a cube with the same center. The signs of their coordinates
-        relative to the center are (+, +, +), (-, -, +), (-, +, -) and (+, -, -), in this order.
+        The vertices are four of the eight corners of a cube with the same center. The signs of the coordinates of the
+        vertices, relative to the center, are (+, +, +), (-, -, +), (-, +, -) and (+, -, -), in this order.
 
         Example: ``scene.tetrahedron(name="new")``, in a recipe ``Tetrahedron(name: "new")``
 
@@ -377,8 +381,8 @@ class SceneOperations:
         """Creates a cylinder around the z axis.
 
         The vertices of the rim at -z come first, and then the vertices of the rim at +z. Each rim is counter-clockwise
-        seen from +z and starts in the direction +x. The first ``around`` faces are rectangles. With ``caps``, two
-        polygons with ``around`` corners follow, first at -z and then at +z.
+        seen from +z and starts in the direction +x. The first ``around`` faces are rectangles. With ``caps``, the last
+        two faces are polygons with ``around`` corners, first at -z and then at +z.
 
         Example: ``scene.cylinder(name="new", around=6, radius=1, height=2, caps=True)``, in a recipe ``Cylinder(name:
         "new", around: 6, radius: 1, height: 2, caps: true)``
@@ -409,8 +413,8 @@ class SceneOperations:
     ) -> Self:
         """Creates a sphere of meridians and rings, with poles at -z and +z.
 
-        Vertex 0 is the pole at -z. The circles of vertices follow, in order from -z to +z. Each circle starts in the
-        direction +x and is counter-clockwise seen from +z. The last vertex is the pole at +z.
+        Vertex 0 is the pole at -z. The vertices between the poles follow, circle by circle from -z to +z. Each circle
+        starts in the direction +x and is counter-clockwise seen from +z. The last vertex is the pole at +z.
 
         Example: ``scene.uv_sphere(name="new", around=8, rings=4, radius=2)``, in a recipe ``UvSphere(name: "new",
         around: 8, rings: 4, radius: 2)``
@@ -645,17 +649,18 @@ class SceneOperations:
     ) -> Self:
         """Joins meshes into one object.
 
-        Each mesh becomes a part of the result. The ids of vertices, edges and faces follow the parts, in the order of
-        the list. The parts are not connected, even where they touch. The result replaces the first mesh of the list in
-        the scene; the other meshes are removed. If nodes place a part, the result contains a copy of the part for each
-        node, with the transform of the node applied to its points. If there are skinned parts, and they all have the
-        same skin and one node each, the result keeps this skin and one of these nodes. The parts without a skin then
-        follow the first joint of the skin. In all other cases, no node places the result. The names and default weights
-        of morph targets are kept if they are the same for all parts with morph targets.
+        Each mesh becomes a part of the result. Vertices, edges and faces are numbered part by part, in the order of the
+        list. The parts are not connected, even where they touch. In the scene, the result replaces the first mesh of
+        the list. The other meshes of the list are removed. If nodes place a part, the result contains a copy of the
+        part for each node, with the transform of the node applied to its points. If there are skinned parts, and they
+        all have the same skin and one node each, the result keeps this skin and one of these nodes. If the result keeps
+        a skin, the parts without a skin follow the first joint of this skin. If the result does not keep a skin, no
+        node places the result. The names and default weights of morph targets are kept if they are the same for all
+        parts with morph targets.
 
-        If a part lacks an attribute that another part has, the elements of this part get the value zero, or -1 (no
-        material) for material indices. Normals are dropped and reported as lost unless all parts have them. If an
-        attribute of a part has a different type than in earlier parts, the attribute of this part is dropped and
+        If a part lacks an attribute that another part has, the elements of this part get the value zero. Missing
+        material indices become -1 (no material). Normals are dropped and reported as lost unless all parts have them.
+        If an attribute of a part has a different type than in earlier parts, the attribute of this part is dropped and
         reported as lost. Equal materials become one material.
 
         Example: ``scene.join(objects=["mesh", "other"], name="joined")``, in a recipe ``Join(objects: ["mesh",
@@ -687,12 +692,11 @@ class SceneOperations:
         all materials. Vertices without a face are dropped. The report counts them. The step fails if the mesh has no
         faces.
 
-        Nodes that placed the object place the first part instead. Each of these nodes gets children that place the
+        Nodes that placed the object place the first part instead. Each of these nodes gets child nodes that place the
         other parts.
 
-        If parts of one component are separated, the edges and vertices between two parts are copied, so that each part
-        has its own. If the faces of a part around a vertex form several fans, each fan gets a separate copy of the
-        vertex.
+        If parts of one component are separated, each part gets its own copies of the edges and vertices between two
+        parts. If the faces of a part around a vertex form several fans, each fan gets a separate copy of the vertex.
 
         Example: ``scene.separate(object="mesh")``, in a recipe ``Separate(object: "mesh")``
 
@@ -702,9 +706,9 @@ class SceneOperations:
             ``"Material"``: One part for each material that a face has, in order of the materials.
             ``choice.Tag(..)``: The first part has the faces with the tag of this name, and the second part all other
                 faces.
-        :param count: The expected number of parts. The step fails if the number differs. If omitted, the names of the
-            parts are not known before the recipe runs, so the object names in later steps cannot be checked before the
-            run.
+        :param count: The expected number of parts. The step fails if the number of parts is not ``count``. If omitted,
+            the names of the parts are not known before the recipe runs, so the object names in later steps cannot be
+            checked before the run.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
             `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
@@ -727,26 +731,26 @@ class SceneOperations:
 
         Points are first scaled, then rotated, then moved. The step changes the points of meshes, patches, curves and
         polylines. If nodes place an object and ``space`` is ``Scene``, the step changes the placements of these nodes
-        instead, and everything below the nodes also moves. A skinned mesh then moves with its joints. A node whose
-        placement is animated gets a parent, which is moved instead. With ``space="Scene"`` and without ``on:``, all
-        other root nodes also move, for example those of cameras and lights, unless ``about`` is ``Center``. A curve
-        must stay in the plane z = 0.
+        instead of the points. Everything below these nodes also moves. With ``space="Scene"``, a skinned mesh moves
+        with its joints. If the placement of a node is animated, the node gets a new parent, and the step moves this
+        parent instead. If ``space`` is ``Scene``, ``on:`` is omitted and ``about`` is not ``Center``, all other root
+        nodes also move, for example the nodes of cameras and lights. A curve must stay in the plane z = 0.
 
         Ids do not change. If the points of a mesh change, its normals, tangents and deltas of morph targets are also
         transformed; other attributes do not change. If the points are mirrored (one or three negative factors in
-        ``scale``), the faces are also reversed, so that they stay counter-clockwise seen from outside. The first corner
-        of a face stays first, and the other corners follow in reverse order. In mirrored patches, u and v are
-        exchanged, so that the outside stays the outside. Like any step that changes the connectivity, mirroring the
-        points drops attributes whose edit rule is ``Drop``, such as tangents of corners.
+        ``scale``), the faces are also reversed, so that they stay counter-clockwise seen from outside. In a reversed
+        face, the first corner stays first, and the other corners follow in reverse order. In mirrored patches, u and v
+        are exchanged, so that the same side of the surface remains the outside. Like any step that changes the
+        connectivity, mirroring the points drops attributes whose edit rule is ``Drop``, such as tangents of corners.
 
         Example: ``scene.transform(scale=(2, 1, 1), rotate=[{"axis": "Z", "angle": 90}], move=(3, 1, 0))``, in a recipe
         ``Transform(scale: (2, 1, 1), rotate: [(axis: Z, angle: 90)], move: (3, 1, 0))``
 
-        :param scale: The scale factors along x, y and z. No factor may be 0; a negative factor mirrors.
+        :param scale: The scale factors along x, y and z. Factors must not be 0. A negative factor mirrors.
         :param rotate: The rotations, applied in order.
             ``"axis"``: The direction of the axis.
-            ``"angle"``: The angle in degrees, counter-clockwise when the axis points towards the viewer. Rotations by
-                multiples of 90 degrees are exact.
+            ``"angle"``: The angle of the rotation, in degrees. A positive angle is counter-clockwise if the axis points
+                towards the viewer. Rotations by multiples of 90 degrees have no rounding errors.
         :param move: The distances to move along x, y and z, in scene units.
         :param about: The fixed point of scaling and rotation. Defaults to ``"Origin"``.
             ``"Origin"``: The origin.
@@ -778,12 +782,12 @@ class SceneOperations:
 
         Exactly ``count`` points are chosen so that no two of them are close together (Yuksel, "Sample Elimination for
         Generating Poisson Disk Sample Sets", 2015). Each copy is a node that references the object (an instance), so
-        copies need almost no memory, and almost no space in ``.gltf``, ``.glb`` and ``.mws`` files. The node moves the
-        origin of the object to the point. To make one mesh of all copies, use ``join()`` afterwards. If no node placed
-        the object before the step, the object then appears only at the points.
+        copies need almost no memory, and almost no space in ``.gltf``, ``.glb`` and ``.mws`` files. The node of each
+        copy moves the origin of the object to one of the points. To make one mesh of all copies, use ``join()``
+        afterwards. If no node placed the object before the step, the object then appears only at the points.
 
-        Without ``object``, the result is a mesh that consists of the points and has no faces. The normals of its
-        vertices are those of the surface.
+        Without ``object``, the result is a mesh that consists of the points and has no faces. The vertex normals of
+        this mesh are the normals of the surface at the points.
 
         Example: ``scene.scatter(surface="mesh", count=20, seed=7)``, in a recipe ``Scatter(surface: "mesh", count: 20,
         seed: 7)``
@@ -815,15 +819,15 @@ class SceneOperations:
     ) -> Self:
         """Merges vertices that are close together, and joins the faces at them.
 
-        Vertices at most ``distance`` apart are linked, and vertices that are connected by a chain of links merge into
-        one, even if the ends of the chain are farther apart than ``distance``. The merged vertex has the position and
-        the values of the vertex with the lowest id. The other vertices are removed, so the ids of the vertices after
-        them change. Edges between the same two vertices become one edge with the values of the first edge. Corner
-        values stay with their corners, so UV seams are kept.
+        Vertices at most ``distance`` apart are linked. Vertices that are connected by a chain of links merge into one,
+        even if the ends of the chain are farther apart than ``distance``. The merged vertex has the position and the
+        values of the vertex with the lowest id. The other vertices are removed, so the ids of the vertices after them
+        change. Edges between the same two vertices become one edge with the values of the first edge. Corner values
+        stay with their corners, so UV seams are kept.
 
         If neighboring corners of a face merge, the face loses a corner. A face is removed if it has fewer than three
         corners left or would contain a vertex twice. Joined faces may have opposite orientations. If the orientations
-        in a connected part can be made to agree, its faces form two groups of equal orientation, and all faces of the
+        in a connected part can be made to agree, its faces form two groups of equal orientation. All faces of the
         smaller group are reversed. If faces are reversed, the report counts them, and the normals of vertices and
         corners are dropped. Where the result would still not be manifold, vertices and edges are copied. For example, a
         third face at an edge gets a copy of the edge. The report counts the copies. If no vertices merge, the mesh does
@@ -858,8 +862,8 @@ class SceneOperations:
 
         Example: ``scene.reverse()``, in a recipe ``Reverse()``
 
-        :param faces: The faces to reverse. They must form whole connected components. Defaults to ``"All"``. ``"All"``,
-            ``"Boundary"``, ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
+        :param faces: The faces to reverse. The faces must form whole connected components. Defaults to ``"All"``.
+            ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
@@ -877,19 +881,20 @@ class SceneOperations:
     ) -> Self:
         """Cuts polygons into triangles.
 
-        A quadrilateral is cut along its shorter diagonal. If both diagonals have the same length (the relative
-        difference of their squared lengths is at most 1e-12), the quadrilateral is cut along the diagonal at its vertex
-        with the lowest id. A diagonal is avoided if it gives a zero-area triangle or a triangle that is turned over
-        relative to the normal of the face, unless the other diagonal has the same problem. A quadrilateral with a
-        reflex corner is therefore cut at that corner. If a diagonal would join two vertices that are already joined by
-        an edge or another diagonal, the other diagonal is chosen where possible. The report counts the duplicate
-        diagonals that remain.
+        A quadrilateral is cut along its shorter diagonal. If both diagonals have the same length, the quadrilateral is
+        cut along the diagonal at its vertex with the lowest id. Two lengths count as the same if the relative
+        difference of their squares is at most 1e-12. A diagonal is avoided if it gives a zero-area triangle or a
+        triangle that is turned over relative to the normal of the face. It is not avoided if the other diagonal has the
+        same problem. A quadrilateral with a reflex corner is therefore cut at that corner. If a diagonal would join two
+        vertices that are already joined by an edge or another diagonal, the other diagonal is chosen where possible.
+        The report counts the duplicate diagonals that remain.
 
-        A face with more than four corners is projected along its normal. It is then cut by ear clipping, or into
-        monotone pieces if it has more than 4096 corners. Then diagonals are flipped until the triangulation is a
-        constrained Delaunay triangulation. Some faces cannot be triangulated in this way, because they have zero area,
-        their sides cross (or overlap, if they have more than 4096 corners), or they have more than ten million corners.
-        Each of these faces becomes a triangle fan around its vertex with the lowest id. The report counts them.
+        A face with more than four corners is projected along its normal. The projected face is cut by ear clipping, or
+        into monotone pieces if it has more than 4096 corners. Then diagonals are flipped until the triangulation is a
+        constrained Delaunay triangulation. Some faces cannot be triangulated in this way: faces with zero area, faces
+        whose sides cross, and faces with more than ten million corners. If a face has more than 4096 corners, its sides
+        must not overlap either. A face that cannot be triangulated in this way becomes a triangle fan around its vertex
+        with the lowest id. The report counts these faces.
 
         The triangles of a face take its place in the order of the faces and have its values. Vertices and edges keep
         their ids. The corners of the triangles have the values of the corners of the face at the same vertices.
@@ -920,18 +925,18 @@ class SceneOperations:
         """Replaces the edge between two triangles with the other diagonal of the quadrilateral that they form.
 
         Edges are flipped in order of their ids. Each flip is checked against the mesh as edited so far. A flip is
-        refused if the edge is on the boundary, if a face beside it is not a triangle, or if the opposite corners of the
-        two triangles are already joined by an edge or are the same vertex. At a seam, a flip is refused unless
-        ``seams`` is ``Drop``. All elements keep their ids, and no vertex moves. Vertices, edges and faces keep their
-        values. Each triangle gets one new corner. The new corner takes the values that the other triangle has at the
-        same vertex; all other corners keep their values.
+        refused if the edge is on the boundary, or if a face beside it is not a triangle. A flip is also refused if the
+        two corners opposite to the edge are the same vertex or are already joined by an edge. At a seam, a flip is
+        refused unless ``seams`` is ``Drop``. All elements keep their ids, and no vertex moves. Vertices, edges and
+        faces keep their values. Each triangle gets one new corner. The new corner of a triangle gets its values from
+        the corner of the other triangle at the same vertex. All other corners keep their values.
 
         With ``until="Delaunay"`` or ``until="Valence"``, an edge is flipped only if the flip improves the mesh. Edges
         are checked again, pass after pass, until a pass flips no edge or ``passes`` is reached. Flips with
         ``until="Delaunay"`` or ``until="Valence"`` neither fold the surface nor create zero-area triangles. If a flip
-        that would improve the mesh is refused, the step does not fail. The edge is left unchanged, and the report
-        counts the refusals by reason. The report also contains the number of passes, and whether the step stopped
-        because ``passes`` was reached.
+        that would improve the mesh is refused, the step does not fail. An edge whose flip is refused is left unchanged,
+        and the report counts the refusals by reason. The report also states the number of passes, and whether the step
+        stopped because ``passes`` was reached.
 
         On a surface that is not flat, a flip changes the shape. To keep creases and other edges, exclude them from
         ``edges``, for example with ``sel.Flat(below=30)`` or ``sel.Not(sel.Tagged("keep"))``.
@@ -976,15 +981,15 @@ class SceneOperations:
         In a mesh of triangles, a split adds 1 vertex, 3 edges and 2 faces. A split of a boundary edge adds 1 vertex, 2
         edges and 1 face. If a face beside the edge has more than three corners, the face is not cut and only gains the
         new vertex as a corner. Edges are split in order of their ids; new edges are not split again. New vertices get
-        the highest ids, in the order of the splits. Values at the new vertex and its corners are interpolated between
-        the ends of the edge, on each side of a seam separately.
+        the highest ids, in the order of the splits. Attribute values at the new vertex and at its corners are
+        interpolated between the ends of the edge. At a seam, the two sides are interpolated separately.
 
         Example: ``scene.split_edges(edges="All")``, in a recipe ``SplitEdges(edges: All)``
 
         :param edges: The edges to split. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
         :param at: The position of the new vertex on the edge. From 0 to 1, exclusive. If ``edges`` is
-            ``sel.Between("v", "w")``, 0 is at v and 1 is at w. Otherwise 0 is at the end with the lower id. Defaults to
-            ``0.5``.
+            ``sel.Between("v", "w")``, position 0 is at v and position 1 is at w. For all other selections, position 0
+            is at the end of the edge with the lower id. Defaults to ``0.5``.
         :param on_refusal: What to do when a split is refused. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
@@ -1024,16 +1029,17 @@ class SceneOperations:
         - ``SameFace``: the same face is on both sides of the edge, or would be on both sides of another edge.
         - ``SameOpposite``: the two triangles beside the edge share another edge.
 
-        Values at the remaining vertex and its corners are interpolated between the ends of the edge, on each side of a
-        seam separately. When two edges become one, the remaining edge has the larger of the two creases, and the tags
-        of both. Normals are dropped.
+        Attribute values at the remaining vertex and at its corners are interpolated between the ends of the edge. At a
+        seam, the two sides are interpolated separately. When two edges become one, the remaining edge gets the larger
+        of the two crease values and the tags of both edges. Normals are dropped.
 
         Example: ``scene.collapse_edges(edges="All", on_refusal="Skip")``, in a recipe ``CollapseEdges(edges: All,
         on_refusal: Skip)``
 
         :param edges: The edges to collapse. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
         :param at: The position of the remaining vertex on the edge, from 0 to 1. If ``edges`` is ``sel.Between("v",
-            "w")``, 0 is at v and 1 is at w. Otherwise 0 is at the end with the lower id. Defaults to ``0.5``.
+            "w")``, position 0 is at v and position 1 is at w. For all other selections, position 0 is at the end of the
+            edge with the lower id. Defaults to ``0.5``.
         :param on_refusal: What to do when a collapse is refused. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
@@ -1062,9 +1068,9 @@ class SceneOperations:
         ``dissolve_vertices(vertices=sel.Valence(2))`` in a later step. The remaining elements keep their order and
         their values but get new ids.
 
-        An edge cannot be removed if it is on the boundary, if the same face is on both of its sides, if one of its ends
-        has only two edges, or if its two faces have common corners other than its ends. A seam edge is removed only if
-        ``seams`` is ``Drop``.
+        An edge cannot be removed if it is on the boundary, if the same face is on both of its sides, or if one of its
+        ends has only two edges. An edge also cannot be removed if its two faces have a common corner that is not an end
+        of the edge. A seam edge is removed only if ``seams`` is ``Drop``.
 
         Example: ``scene.dissolve_edges(edges=sel.Between(0, 1))``, in a recipe ``DissolveEdges(edges: Between(0, 1))``
 
@@ -1098,23 +1104,24 @@ class SceneOperations:
         A selected edge and both of its ends are removed, and a new face replaces the edge. The new face extends into
         both faces beside the old edge, up to the distance ``width`` from this edge. An edge that is not selected, but
         shares an end with a selected edge, is cut near this end. If the two edges are neighboring sides of a face, the
-        cut is where the distance from the selected edge is ``width``, but at most four times ``width`` from the end.
-        Otherwise, the cut is at the distance ``width`` from the end. Where two selected edges are neighboring sides of
-        a face, the new vertex lies inside this face. If three or more new vertices surround an old vertex, another new
-        face joins them. All edges are beveled together, so a cube that is beveled at all edges keeps all of its
-        symmetries.
+        cut is where the distance from the selected edge is ``width``, but at most four times ``width`` from the shared
+        end. Otherwise, the cut is at the distance ``width`` from the shared end. Where two selected edges are
+        neighboring sides of a face, the new vertex lies inside this face. If three or more new vertices surround an old
+        vertex, another new face joins them. All edges are beveled together, so a cube that is beveled at all edges
+        keeps all of its symmetries.
 
         The ends of the edges are removed, so the ids of the vertices after them change. New vertices get the highest
         ids. Faces keep their ids. New faces get the highest ids: first the faces of edges, in order of the edges, then
         the faces of vertices. Edges get new ids.
 
         A new vertex has the values of the old face at its position, so textures do not change. A new face has the
-        values (material, tags) of one of the old faces beside it. Which face is not specified, but the choice is the
-        same in every run. New edges have zero values (no crease, no tags). Normals are dropped.
+        values (material, tags) of one of the old faces beside it. It is not specified which of these faces is used, but
+        the choice is the same in every run. New edges have zero values (no crease, no tags). Normals are dropped.
 
-        An edge cannot be beveled if it is on the boundary (``Boundary``), if one of its ends has only one other edge
-        and this edge is not selected (``FewEdges``), or if the bevels at both ends of an edge would overlap
-        (``OutsideEdge``). If the result would not be manifold, no edge is beveled (``NonManifold``).
+        An edge cannot be beveled if it is on the boundary (``Boundary``), or if one of its ends has only one other edge
+        and this other edge is not selected (``FewEdges``). An edge also cannot be beveled if the bevels at both ends of
+        an edge would overlap (``OutsideEdge``). If the result would not be manifold, no edge is beveled
+        (``NonManifold``).
 
         Example: ``scene.bevel_edges(edges=sel.Between(0, 2), width=0.25)``, in a recipe ``BevelEdges(edges: Between(0,
         2), width: 0.25)``
@@ -1122,8 +1129,8 @@ class SceneOperations:
         :param edges: The edges to bevel. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
         :param width: The distance from the beveled edge to the new edge in each of the two faces beside it, in scene
             units. Either ``width`` or ``fraction`` must be given.
-        :param fraction: The width as a fraction of the length of the shortest edge at the ends of the selected edges.
-            From 0 to 1, exclusive.
+        :param fraction: The width as a fraction of the length of the shortest edge that is selected or shares a vertex
+            with a selected edge. From 0 to 1, exclusive.
         :param on_refusal: What to do when an edge cannot be beveled. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
@@ -1147,10 +1154,11 @@ class SceneOperations:
         """Makes edges and vertices sharp for subdivision.
 
         Sets the edge attribute ``crease`` of the selected edges and the vertex attribute ``corner`` of the selected
-        vertices to ``sharpness``. Other elements keep their values, or get 0 if the attribute did not exist. Loop and
-        Catmull-Clark subdivision keep an edge or a vertex sharp for as many levels as its sharpness, and smooth it in
-        later levels. For example, an edge with sharpness 2.5 is sharp for two levels and half sharp in the third level.
-        With sharpness 10, an edge is sharp at every level. Boundary edges are always sharp.
+        vertices to ``sharpness``. Elements that are not selected keep their values, or get 0 if the attribute did not
+        exist before the step. Loop and Catmull-Clark subdivision keep an edge or a vertex sharp for as many levels as
+        its sharpness, and smooth it in later levels. For example, an edge with sharpness 2.5 is sharp for two levels
+        and half sharp in the third level. With sharpness 10, an edge is sharp at every level. Boundary edges are always
+        sharp.
 
         At least one of ``edges`` and ``vertices`` must be given. The geometry does not change. The report counts the
         elements whose value changed.
@@ -1158,8 +1166,8 @@ class SceneOperations:
         Example: ``scene.crease(edges=sel.Sharp(above=40), sharpness=2.5)``, in a recipe ``Crease(edges: Sharp(above:
         40), sharpness: 2.5)``
 
-        :param sharpness: The number of levels for which the elements stay sharp, from 0 to 10. With 0, creases are
-            removed. With 10, the elements are sharp at every level.
+        :param sharpness: The number of subdivision levels for which the elements stay sharp, from 0 to 10. With 0,
+            creases are removed. With 10, the elements are sharp at every level.
         :param edges: The edges to change. If omitted, no edges. ``"All"``, ``"Boundary"``, or a value of
             ``meshwright.sel``.
         :param vertices: The vertices to change. If omitted, no vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or
@@ -1184,11 +1192,11 @@ class SceneOperations:
         """Inserts a vertex at the center of each face and connects it to the corners of the face.
 
         A face with n corners becomes n triangles. Each poked face adds 1 vertex, n edges and n - 1 faces. The first
-        triangle keeps the id of the face; the other triangles and the new vertices and edges get the highest ids, in
+        triangle keeps the id of the face. The other triangles and the new vertices and edges get the highest ids, in
         order of the faces. The new vertex is at the mean of the corners, moved along the normal of the face by
-        ``distance``. For vertex and corner attributes that edits interpolate, the value at the new vertex is also the
-        mean of the values at the corners. The triangles have the values of their face, and the new edges have zero
-        values (no crease, no tags). If ``distance`` is not 0, normals are dropped.
+        ``distance``. If edits interpolate a vertex or corner attribute, its value at the new vertex is the mean of its
+        values at the corners. The triangles have the values of their face, and the new edges have zero values (no
+        crease, no tags). If ``distance`` is not 0, normals are dropped.
 
         A face cannot be poked if it contains a vertex twice, if the position of the new vertex would not be finite, or
         if the mesh already has the largest supported number of elements.
@@ -1197,9 +1205,9 @@ class SceneOperations:
 
         :param faces: The faces to poke. Defaults to ``"All"``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a
             value of ``meshwright.sel``.
-        :param distance: The distance of the vertex from the center along the normal of the face, in scene units. A
-            negative distance moves the vertex inwards. A zero-area face has no normal, so its vertex is at the center.
-            Defaults to ``0.0``.
+        :param distance: The distance of the new vertex from the center of the face, along the normal of the face, in
+            scene units. A negative distance moves the vertex inwards. A zero-area face has no normal, so its new vertex
+            is at the center. Defaults to ``0.0``.
         :param on_refusal: What to do when a face cannot be poked. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
@@ -1223,12 +1231,13 @@ class SceneOperations:
 
         Each pair (v, w) of vertices cuts the face that has both vertices as corners. The new edge joins the two
         vertices. Each cut adds 1 edge and 1 face. Cuts are made in the order of the list, so a face can be cut several
-        times. The part of the face to the right of the line from v to w is the new face, and the other part keeps the
-        id. New edges and faces get the highest ids. Corners keep their values, the new face has the values of the old
-        face, and the new edge has zero values (no crease, no tags).
+        times. A cut from v to w divides the face into two parts. The part to the right of the line from v to w is the
+        new face, and the other part keeps the id of the old face. New edges and faces get the highest ids. Corners keep
+        their values. The new face has the values of the old face, and the new edge has zero values (no crease, no
+        tags).
 
-        A cut is refused if the two vertices are the same, if they are already joined by an edge, if no face has both as
-        corners, or if several faces have both as corners, because the cut would be ambiguous.
+        A cut is refused if the two vertices are the same or are already joined by an edge. A cut is also refused if no
+        face has both vertices as corners, or if several faces do, because the cut would then be ambiguous.
 
         Example: ``scene.split_faces(between=[])``, in a recipe ``SplitFaces(between: [])``
 
@@ -1295,24 +1304,25 @@ class SceneOperations:
         """Moves faces out of the surface and connects them to their old rim with side faces.
 
         Selected faces that share an edge form a region and move together, with one normal and one center. A region is
-        first scaled, then rotated, both about the mean of its vertices, and then moved. Side faces with four corners
-        are added along the rim of the region. The rim consists of the edges with a face of the region on one side only.
-        If all faces of an open sheet are extruded, the result is a box that is open where the sheet was. A closed
-        region has no rim, so its faces only move. If the area vectors of the faces cancel each other out, as in a
-        closed region, the region has no normal, and ``by`` must be an ``choice.Offset``.
+        first scaled, then rotated, and then moved. The fixed point of scaling and rotation is the mean of the vertices
+        of the region. Side faces with four corners are added along the rim of the region. The rim of a region consists
+        of the edges with a face of the region on exactly one side. If all faces of an open sheet are extruded, the
+        result is a box that is open where the sheet was. A closed region has no rim, so its faces only move. If the
+        area vectors of the faces cancel each other out, as in a closed region, the region has no normal, and ``by``
+        must be an ``choice.Offset``.
 
         The faces keep their ids, so the same selection can be extruded again in later steps, for example to grow an arm
         out of a body. Vertices and edges inside a region also keep their ids. The vertices and edges of the old rim do
-        not move, and the moved faces get a new rim. New side faces get the highest ids: region by region, in order of
-        the lowest face id of each region, then in order of the faces, then counter-clockwise around each face from its
-        first corner. New vertices are in the same order. Each new vertex is a copy of the first vertex of its side
-        face.
+        not move, and the moved faces get a new rim. New side faces get the highest ids. They are ordered by region (by
+        the lowest face id of each region), then by face, and then counter-clockwise around each face from its first
+        corner. The new vertices are in the same order as the side faces. Each new vertex is a copy of the first vertex
+        of the corresponding side face.
 
         A side face has the values of the adjacent moved face (material, tags). The corners of a side face have the
         values of the corners of the moved face, so textures have no seam between the two faces. However, a side face
-        shows only the line of the texture along the edge of the moved face, stretched over the side face. The new edges
-        of the rim have the values of the old ones (creases, tags), and the edges between the old and the new rim have
-        zero values (no crease, no tags). Normals are dropped.
+        shows only one line of the texture: the line along the edge of the moved face, stretched over the whole side
+        face. The edges of the new rim have the values of the edges of the old rim (creases, tags). The edges between
+        the old and the new rim have zero values (no crease, no tags). Normals are dropped.
 
         Example: ``scene.extrude_faces(faces=sel.Faces([0]), by=choice.Distance(0.5))``, in a recipe
         ``ExtrudeFaces(faces: Faces([0]), by: Distance(0.5))``
@@ -1325,8 +1335,8 @@ class SceneOperations:
         :param scale: The factor by which each region is scaled about its center. More than 0. Defaults to ``1.0``.
         :param rotate: Rotations of each region about its center, applied in order.
             ``"axis"``: The direction of the axis.
-            ``"angle"``: The angle in degrees, counter-clockwise when the axis points towards the viewer. Rotations by
-                multiples of 90 degrees are exact.
+            ``"angle"``: The angle of the rotation, in degrees. A positive angle is counter-clockwise if the axis points
+                towards the viewer. Rotations by multiples of 90 degrees have no rounding errors.
         :param tag: The name of a tag for the moved faces and their side faces. Faces that already have the tag keep it.
             If omitted, no faces are tagged.
         :param on: The objects that the step acts on. If omitted, all that it supports.
@@ -1353,9 +1363,10 @@ class SceneOperations:
         New vertices and faces get the highest ids: in order of the selected faces, and counter-clockwise around each
         face from its first corner.
 
-        Values at the new corners and vertices are interpolated between the values of the outer corner and the mean of
-        all corners of the face, so textures do not change. The ring has the values of the face (material, tags), and
-        the inner edges have the values of the outer edges. Normals are dropped.
+        Values at a new corner or vertex are interpolated between the value at the outer corner and the mean of the
+        values at all corners of the face. Textures therefore do not change. The faces of the ring have the values of
+        the old face (material, tags). The edges of the inner face have the values of the outer edges. Normals are
+        dropped.
 
         A face cannot be inset if it is on both sides of one of its edges.
 
@@ -1395,9 +1406,9 @@ class SceneOperations:
         highest ids: in order of the selected faces, and counter-clockwise around each face from its first corner. A
         zero-area face has no normal, so its inner face is not raised.
 
-        Values at the new corners and vertices are interpolated between the values of the outer corner and the mean of
-        all corners of the face. The ring has the values of the face (material, tags), and the inner edges have the
-        values of the outer edges. Normals are dropped.
+        Values at a new corner or vertex are interpolated between the value at the outer corner and the mean of the
+        values at all corners of the face. The faces of the ring have the values of the old face (material, tags). The
+        edges of the inner face have the values of the outer edges. Normals are dropped.
 
         A face cannot be beveled if it is on both sides of one of its edges.
 
@@ -1439,9 +1450,10 @@ class SceneOperations:
         kept, with its values. The remaining elements keep their order and their values but get new ids. Normals are
         dropped.
 
-        A vertex cannot be removed if it is isolated or has a single edge, if a neighbor would be left with a single
-        edge inside a face, if a face would contain a vertex twice or have fewer than three corners, or if an edge would
-        join two vertices that are already joined. A vertex at a seam is removed only if ``seams`` is ``Drop``.
+        A vertex cannot be removed if it is isolated or has a single edge, or if a neighbor would be left with a single
+        edge inside a face. A vertex also cannot be removed if a face would contain a vertex twice or have fewer than
+        three corners, or if an edge would join two vertices that are already joined. A vertex at a seam is removed only
+        if ``seams`` is ``Drop``.
 
         Example: ``scene.dissolve_vertices(vertices=sel.Vertices([1]))``, in a recipe ``DissolveVertices(vertices:
         Vertices([1]))``
@@ -1473,16 +1485,17 @@ class SceneOperations:
     ) -> Self:
         """Replaces vertices with faces.
 
-        Each edge at a selected vertex is cut at a fraction of the length that it had before the step, and a new face
-        joins the cuts. The new face has as many corners as the vertex had edges. If both ends of an edge are selected,
-        the fraction must be below 0.5. For example, a fraction of 0.25 turns a cube into a truncated cube.
+        Each edge at a selected vertex is cut near this vertex, and a new face joins the cuts. The distance of a cut
+        from the vertex is a fraction of the length that the edge had before the step. The new face has as many corners
+        as the vertex had edges. If both ends of an edge are selected, the fraction must be below 0.5. For example, a
+        fraction of 0.25 turns a cube into a truncated cube.
 
         The selected vertices are removed, so the ids of the vertices after them change. New vertices get the highest
         ids, in order of the selected vertices and clockwise around each vertex. Faces keep their ids; new faces get the
         highest ids, in order of the vertices.
 
         Values at the cuts are interpolated between the ends of the edge, so textures do not change. A new face has the
-        values (material, tags) of one of the faces at the vertex. Which of the faces is not specified, but the choice
+        values (material, tags) of one of the faces at the vertex. Which face is used is not specified, but the choice
         is the same in every run. New edges have zero values (no crease, no tags). Normals are dropped.
 
         A vertex cannot be beveled if it is on the boundary, if it has fewer than three edges, or if one of its edges is
@@ -1577,12 +1590,12 @@ class SceneOperations:
         a boundary loop; use ``around`` or ``max_edges`` to exclude it. No vertices are added, and existing elements
         keep their ids. A hole with n edges gets 1 face with n corners, or n - 2 triangles and n - 3 edges.
 
-        For holes with up to 500 edges, the triangles have the smallest possible total area. In larger holes, a triangle
-        is added at one corner after the other, each time at the corner whose two neighbors are closest to each other.
-        Straight and reflex corners come last. If the hole is far from convex, the triangles may overlap. Two vertices
-        that are already joined by an edge are not joined by a second edge. If no triangulation without second edges is
-        found, the hole cannot be filled (``DuplicateEdge``). A hole with two edges cannot be filled either
-        (``WrongPlace``); ``stitch()`` closes it.
+        For holes with up to 500 edges, the triangles have the smallest possible total area. A hole with more than 500
+        edges is filled one triangle at a time. Each triangle is added at the corner whose two neighbors are closest to
+        each other. Triangles at straight and reflex corners are added last. If the hole is far from convex, the
+        triangles may overlap. Two vertices that are already joined by an edge are not joined by a second edge. If no
+        triangulation without duplicate edges is found, the hole cannot be filled (``DuplicateEdge``). A hole with two
+        edges cannot be filled (``WrongPlace``). Use ``stitch()`` to close it.
 
         New faces have the values of a face beside the hole. New corners have the values of the corner at the same
         vertex in the adjacent face. Normals are dropped if a hole was filled.
@@ -1616,23 +1629,24 @@ class SceneOperations:
     ) -> Self:
         """Joins two holes with a band of faces.
 
-        Each hole is identified by one of its vertices. An edge joins the two vertices, and the band goes around both
-        holes from this edge. Holes with n and m edges, where n is at least m, are joined by m quadrilaterals and n - m
-        evenly spread triangles. The step adds n edges and no vertices. Both holes may be in one connected part of the
-        mesh, which then gets a tunnel or a handle, or in two separate parts of the same mesh. (``join()`` joins two
+        Each hole is identified by one of its vertices. The band starts at a new edge that joins the two given vertices,
+        and goes around both holes. Holes with n and m edges, where n is at least m, are joined by m quadrilaterals and
+        n - m evenly spread triangles. The step adds n edges and no vertices. Both holes may be in one connected part of
+        the mesh, which then gets a tunnel or a handle, or in two separate parts of the same mesh. (``join()`` joins two
         objects into one.)
 
-        New faces have the values of the adjacent faces at the longer hole. New corners have the values of the corners
-        at the same vertices in the adjacent faces. Normals are dropped.
+        New faces have the values of the adjacent faces at the hole with more edges. New corners have the values of the
+        corners at the same vertices in the adjacent faces. Normals are dropped.
 
-        The step is refused if a vertex is not on the boundary (``NotBoundary``), if both vertices are on the same hole
-        (``WrongPlace``), or if the band would join two vertices that are already joined by an edge (``DuplicateEdge``).
-        If the reason is ``DuplicateEdge``, the step may succeed with other vertices.
+        The step is refused if a vertex is not on the boundary (``NotBoundary``), or if both vertices are on the same
+        hole (``WrongPlace``). The step is also refused if the band would join two vertices that are already joined by
+        an edge (``DuplicateEdge``). If a step is refused as ``DuplicateEdge``, it may succeed with other vertices of
+        the same holes.
 
         Example: ``scene.bridge_loops(first=0, second=5)``, in a recipe ``BridgeLoops(first: 0, second: 5)``
 
         :param first: The id of a vertex on the first hole.
-        :param second: The id of the vertex on the second hole that is joined to ``first``.
+        :param second: The id of a vertex on the second hole. A new edge joins this vertex to the vertex ``first``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
@@ -1652,17 +1666,18 @@ class SceneOperations:
         """Joins boundary edges that coincide.
 
         Two boundary edges coincide if both pairs of corresponding ends are at most ``distance`` apart. Two edges that
-        coincide only with each other form a pair. Choose a distance below the lengths of the edges. If an edge
-        coincides with several edges, neither this edge nor the others are joined (``NonManifold``). Unlike ``weld()``,
-        this operation never merges vertices inside the surface or vertices whose edges do not coincide.
+        coincide only with each other form a pair. Choose a ``distance`` that is less than the lengths of the edges. If
+        an edge coincides with several edges, none of these edges is joined (``NonManifold``). Unlike ``weld()``, this
+        operation never merges vertices inside the surface or vertices whose edges do not coincide.
 
-        Of each pair of vertices or edges, the one with the lower id keeps its position and its values. The other vertex
-        or edge is removed, so the ids of the vertices or edges after it change. Faces and corners do not change, so an
-        edge whose sides have different UVs becomes a seam. Remaining holes with two edges are also closed.
+        When two vertices or two edges become one, the one with the lower id is kept, with its position and values. The
+        vertex or edge with the higher id is removed, so the ids of the vertices or edges after it change. Faces and
+        corners do not change, so an edge whose sides have different UVs becomes a seam. Remaining holes with two edges
+        are also closed.
 
-        A pair cannot be joined if both edges belong to the same face (``SameFace``), if the ends of an edge would
-        become one vertex or a face would contain a vertex twice (``WrongPlace``), or if two edges would join the same
-        vertices (``DuplicateEdge``).
+        A pair of edges cannot be joined if both edges belong to the same face (``SameFace``), or if two edges would
+        then join the same vertices (``DuplicateEdge``). A pair also cannot be joined if the ends of an edge would
+        become one vertex, or if a face would contain a vertex twice (``WrongPlace``).
 
         Example: ``scene.stitch(distance=0)``, in a recipe ``Stitch(distance: 0)``
 
@@ -1691,14 +1706,14 @@ class SceneOperations:
         """Opens the mesh along edges.
 
         The edges may form paths, loops and trees. A loop can cut out a piece. Each edge becomes two edges, one for each
-        side. If the cuts separate the faces around a vertex into several parts, each part gets a separate copy of the
-        vertex. The part that contains the face with the lowest id keeps the id of the vertex, and new vertices get the
-        highest ids. Faces keep their ids, and no vertex moves. Copies have the values of the originals, and corners
-        keep their values. ``stitch()`` is the inverse.
+        side of the cut. If the cuts separate the faces around a vertex into several parts, each part gets a separate
+        copy of the vertex. The part that contains the face with the lowest id keeps the id of the vertex, and new
+        vertices get the highest ids. Faces keep their ids, and no vertex moves. Copies of vertices and edges have the
+        values of the originals. Corners keep their values. ``stitch()`` is the inverse.
 
-        All edges are cut at once. An edge cannot be cut if it is on the boundary (``Boundary``), or if the cut would
-        not open the mesh because both ends are inside the mesh and no other cut continues at either end
-        (``DuplicateEdge``).
+        All edges are cut at once. An edge on the boundary cannot be cut (``Boundary``). An edge also cannot be cut if
+        both of its ends are inside the mesh and no other cut continues at either end, because such a cut would not open
+        the mesh (``DuplicateEdge``).
 
         Example: ``scene.cut(edges="All")``, in a recipe ``Cut(edges: All)``
 
@@ -1818,19 +1833,19 @@ class SceneOperations:
     ) -> Self:
         """Splits every triangle into four and smooths the surface, for a number of levels.
 
-        A level turns V vertices, E edges and F triangles into V + E vertices, 2 E + 3 F edges and 4 F triangles, so V -
-        E + F does not change. Old vertices keep their ids, the vertex on edge e has the id V + e, edge e becomes edges
-        2e and 2e + 1, and face f becomes faces 4f to 4f + 3. All faces must be triangles.
+        A level turns V vertices, E edges and F triangles into V + E vertices, 2 E + 3 F edges and 4 F triangles. V - E
+        + F does not change. Old vertices keep their ids, and the vertex on edge e has the id V + e. Edge e becomes
+        edges 2e and 2e + 1, and face f becomes faces 4f to 4f + 3. All faces must be triangles.
 
-        Vertex attributes are smoothed with the weights of the positions. Texture coordinates and other corner values
-        are smoothed according to ``face_varying``, and seams are kept. Parts of an edge or a triangle copy the values
-        of the old edge or triangle. Normals are dropped, because they would be wrong. An edge or a vertex to which
-        ``crease()`` gave the sharpness s stays sharp for s levels.
+        Vertex attributes are smoothed with the same weights as the positions. Texture coordinates and other corner
+        values are smoothed according to ``face_varying``, and seams are kept. Parts of an edge or a triangle copy the
+        values of the old edge or triangle. Normals are dropped, because they would be wrong. An edge or a vertex to
+        which ``crease()`` gave the sharpness s stays sharp for s levels.
 
         Example: ``scene.loop_subdivide(levels=2)``, in a recipe ``LoopSubdivide(levels: 2)``
 
         :param levels: The number of levels. Each level multiplies the number of triangles by four. Defaults to 1. With
-            ``until``, this is the maximum number of levels, and it defaults to 16.
+            ``until``, ``levels`` is the maximum number of levels and defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
@@ -1850,13 +1865,12 @@ class SceneOperations:
         :param face_varying: How texture coordinates and other corner values are smoothed. Defaults to ``"All"``.
             ``"None"``: Values are smoothed everywhere.
             ``"CornersOnly"``: Like ``None_``, but the value of a piece with a single face does not change.
-            ``"CornersPlus1"``: Like ``CornersOnly``, but values also do not change where three or more pieces meet, or
-                where two pieces meet and one of them has a sharp edge inside or is not contiguous.
+            ``"CornersPlus1"``: Like ``CornersOnly``, but values also do not change where three or more pieces meet.
             ``"CornersPlus2"``: Like ``CornersPlus1``, but values also do not change at the ends of seams.
             ``"Boundaries"``: Values are interpolated linearly along seams and boundaries, and smoothed elsewhere.
             ``"All"``: Values are interpolated linearly everywhere: each new value is a mean of values of one old face.
-        :param to_limit: Whether to move the vertices of the last level to the limit surface and to store its normals
-            and tangents. Defaults to ``False``.
+        :param to_limit: Whether to move the vertices of the last level to the limit surface and to store the normals
+            and tangents of this surface. Defaults to ``False``.
         :param faces: The faces to refine. If omitted, all faces. Triangles next to the refined faces are cut in two or
             four, so that no vertex lies inside an edge. The surface outside the refined faces does not move. For the
             ids of new elements, see ``subdivision::refine_faces``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``,
@@ -1885,19 +1899,20 @@ class SceneOperations:
         """Splits every face into quads and smooths the surface, for a number of levels.
 
         A level creates a quad at each corner of each face. A level turns V vertices, E edges and F faces with C corners
-        in total into V + E + F vertices, 2 E + C edges and C quads, so V - E + F does not change. Old vertices keep
-        their ids, the vertex on edge e has the id V + e, the vertex at the center of face f has the id V + E + f, and
-        edge e becomes edges 2e and 2e + 1. The ids of quads follow the order of the faces and of their corners.
+        in total into V + E + F vertices, 2 E + C edges and C quads. V - E + F does not change. Old vertices keep their
+        ids. The vertex on edge e has the id V + e, and the vertex at the center of face f has the id V + E + f. Edge e
+        becomes edges 2e and 2e + 1. The quads are numbered in the order of the old faces and, in each face, in the
+        order of its corners.
 
-        Vertex attributes are smoothed with the weights of the positions. Texture coordinates and other corner values
-        are smoothed according to ``face_varying``, and seams are kept. Parts of an edge or a face copy the values of
-        the old edge or face. Normals are dropped, because they would be wrong. An edge or a vertex to which
+        Vertex attributes are smoothed with the same weights as the positions. Texture coordinates and other corner
+        values are smoothed according to ``face_varying``, and seams are kept. Parts of an edge or a face copy the
+        values of the old edge or face. Normals are dropped, because they would be wrong. An edge or a vertex to which
         ``crease()`` gave the sharpness s stays sharp for s levels.
 
         Example: ``scene.catmull_clark(levels=2)``, in a recipe ``CatmullClark(levels: 2)``
 
         :param levels: The number of levels. Each level replaces every corner of a face with a quad. Defaults to 1. With
-            ``until``, this is the maximum number of levels, and it defaults to 16.
+            ``until``, ``levels`` is the maximum number of levels and defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
@@ -1914,13 +1929,12 @@ class SceneOperations:
         :param face_varying: How texture coordinates and other corner values are smoothed. Defaults to ``"All"``.
             ``"None"``: Values are smoothed everywhere.
             ``"CornersOnly"``: Like ``None_``, but the value of a piece with a single face does not change.
-            ``"CornersPlus1"``: Like ``CornersOnly``, but values also do not change where three or more pieces meet, or
-                where two pieces meet and one of them has a sharp edge inside or is not contiguous.
+            ``"CornersPlus1"``: Like ``CornersOnly``, but values also do not change where three or more pieces meet.
             ``"CornersPlus2"``: Like ``CornersPlus1``, but values also do not change at the ends of seams.
             ``"Boundaries"``: Values are interpolated linearly along seams and boundaries, and smoothed elsewhere.
             ``"All"``: Values are interpolated linearly everywhere: each new value is a mean of values of one old face.
-        :param to_limit: Whether to move the vertices of the last level to the limit surface and to store its normals
-            and tangents. Defaults to ``False``.
+        :param to_limit: Whether to move the vertices of the last level to the limit surface and to store the normals
+            and tangents of this surface. Defaults to ``False``.
         :param faces: The faces to refine. If omitted, all faces. Faces next to the refined faces get the new vertices
             on common edges as additional corners. The surface outside the refined faces does not move. For the ids of
             new elements, see ``subdivision::refine_faces``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a
@@ -1947,10 +1961,10 @@ class SceneOperations:
 
         ``into="Triangles"`` requires a mesh of triangles. A level turns V vertices, E edges and F triangles into V + E
         vertices, 2 E + 3 F edges and 4 F triangles. ``into="Quads"`` accepts all polygons and creates a quad at each
-        corner: V vertices, E edges and F faces with C corners in total become V + E + F vertices, 2 E + C edges and C
-        quads. Old vertices keep their ids and positions, the vertex on edge e has the id V + e, and edge e becomes
-        edges 2e and 2e + 1. Triangle f becomes faces 4f to 4f + 3. The ids of quads follow the order of the faces, and
-        the vertex at the center of face f has the id V + E + f.
+        corner. V vertices, E edges and F faces with C corners in total become V + E + F vertices, 2 E + C edges and C
+        quads. Old vertices keep their ids and positions, and the vertex on edge e has the id V + e. Edge e becomes
+        edges 2e and 2e + 1. Triangle f becomes faces 4f to 4f + 3. The quads are numbered in the order of the old
+        faces. The vertex at the center of face f has the id V + E + f.
 
         Vertex attributes are interpolated. Corner values are interpolated within each old face separately. Parts of an
         edge or a face copy the values of the old edge or face, including sharpness. Normals are dropped.
@@ -1958,7 +1972,7 @@ class SceneOperations:
         Example: ``scene.midpoint(levels=2, into="Quads")``, in a recipe ``Midpoint(levels: 2, into: Quads)``
 
         :param levels: The number of levels. Each level multiplies the number of faces by about four. Defaults to 1.
-            With ``until``, this is the maximum number of levels, and it defaults to 16.
+            With ``until``, ``levels`` is the maximum number of levels and defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
@@ -1990,18 +2004,18 @@ class SceneOperations:
         """Splits every triangle into four and smooths the surface without moving the old vertices, for a number of
         levels.
 
-        A level turns V vertices, E edges and F triangles into V + E vertices, 2 E + 3 F edges and 4 F triangles, so V -
-        E + F does not change. Old vertices keep their ids, the vertex on edge e has the id V + e, edge e becomes edges
-        2e and 2e + 1, and face f becomes faces 4f to 4f + 3. All faces must be triangles.
+        A level turns V vertices, E edges and F triangles into V + E vertices, 2 E + 3 F edges and 4 F triangles. V - E
+        + F does not change. Old vertices keep their ids, and the vertex on edge e has the id V + e. Edge e becomes
+        edges 2e and 2e + 1, and face f becomes faces 4f to 4f + 3. All faces must be triangles.
 
-        Vertex attributes are interpolated with the weights of the positions, and corner values are interpolated
-        linearly within each old triangle separately. Parts of an edge or a triangle copy the values of the old edge or
+        Vertex attributes are interpolated with the same weights as the positions. Corner values are interpolated
+        linearly, separately in each old triangle. Parts of an edge or a triangle copy the values of the old edge or
         triangle. Normals are dropped, because they would be wrong. Sharpness has no effect and is copied unchanged.
 
         Example: ``scene.butterfly(levels=1)``, in a recipe ``Butterfly(levels: 1)``
 
         :param levels: The number of levels. Each level multiplies the number of triangles by four. Defaults to 1. With
-            ``until``, this is the maximum number of levels, and it defaults to 16.
+            ``until``, ``levels`` is the maximum number of levels and defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
@@ -2024,22 +2038,23 @@ class SceneOperations:
     ) -> Self:
         """Splits every triangle into three, flips the old edges, and smooths the surface, for a number of levels.
 
-        A level turns V vertices, E edges and F triangles into V + F vertices, E + 3 F edges and 3 F triangles. Every
-        second level adds one more vertex and one more edge for each boundary edge. V - E + F does not change. Old
-        vertices keep their ids, the vertex in face f has the id V + f, and face f becomes faces 3f to 3f + 2. All faces
+        A level turns V vertices, E edges and F triangles into V + F vertices, E + 3 F edges and 3 F triangles. In
+        addition, every second level adds one vertex and one edge for each boundary edge. V - E + F does not change. Old
+        vertices keep their ids. The vertex in face f has the id V + f, and face f becomes faces 3f to 3f + 2. All faces
         must be triangles. Levels are counted from the start of the step. One step of two levels therefore cuts the
         boundary edges, but two steps of one level leave the boundary unchanged.
 
-        Vertex attributes are smoothed with the weights of the positions. Corner values are interpolated linearly within
-        each old triangle separately. A triangle next to a flipped edge covers parts of two old triangles. If the old
-        edge was a seam, the triangle mixes texture coordinates of both sides, which distorts textures. New triangles
-        copy the values of their old triangle. Parts of a boundary edge copy the values of the edge; other edges have
-        zero values (no crease, no tags). Normals are dropped, because they would be wrong.
+        Vertex attributes are smoothed with the same weights as the positions. Corner values are interpolated linearly
+        within each old triangle separately. A triangle next to a flipped edge covers parts of two old triangles. If the
+        flipped edge was a seam, the triangle mixes texture coordinates of both sides of the seam, which distorts
+        textures. New triangles copy the values of their old triangle. Parts of a boundary edge copy the values of the
+        boundary edge. All other edges have zero values (no crease, no tags). Normals are dropped, because they would be
+        wrong.
 
         Example: ``scene.sqrt3(levels=1)``, in a recipe ``Sqrt3(levels: 1)``
 
         :param levels: The number of levels. Each level multiplies the number of triangles by three. Defaults to 1. With
-            ``until``, this is the maximum number of levels, and it defaults to 16.
+            ``until``, ``levels`` is the maximum number of levels and defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
@@ -2064,20 +2079,20 @@ class SceneOperations:
 
         A level turns a closed mesh with V vertices, E edges and F faces into a mesh with 2 E vertices, 4 E edges and V
         + E + F faces. If the mesh has a boundary, a level creates additional elements along the boundary. V - E + F
-        does not change. The face inside old face f has the id f, the face of edge e has the id F + e, and the faces of
-        vertices follow. Isolated vertices are kept. Their ids follow the ids of all other vertices. Isolated vertices
-        and inner vertices of valence 2 do not become faces.
+        does not change. The face inside old face f has the id f, and the face of edge e has the id F + e. The faces of
+        vertices have the highest ids. Isolated vertices are kept. The ids of isolated vertices follow the ids of all
+        other vertices. Isolated vertices and inner vertices of valence 2 do not become faces.
 
-        Vertex attributes are smoothed with the weights of the positions. Corner values are smoothed within each old
-        face separately. The new faces at edges and vertices mix corner values of several old faces. At a seam, this
+        Vertex attributes are smoothed with the same weights as the positions. Corner values are smoothed within each
+        old face separately. The new faces at edges and vertices mix corner values of several old faces. At a seam, this
         distorts textures. A face inside an old face copies the values of the old face; the face of an edge or a vertex
-        copies the values of an adjacent face. The two edges along an old edge copy its values; other edges have zero
-        values (no crease, no tags). Normals are dropped, because they would be wrong.
+        copies the values of an adjacent face. The two new edges along an old edge copy the values of this edge. All
+        other edges have zero values (no crease, no tags). Normals are dropped, because they would be wrong.
 
         Example: ``scene.doo_sabin(levels=1)``, in a recipe ``DooSabin(levels: 1)``
 
         :param levels: The number of levels. Each level multiplies the number of faces by about four. Defaults to 1.
-            With ``until``, this is the maximum number of levels, and it defaults to 16.
+            With ``until``, ``levels`` is the maximum number of levels and defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
@@ -2102,18 +2117,19 @@ class SceneOperations:
     ) -> Self:
         """Cuts meshes along a plane.
 
-        Every edge that crosses the plane gets a vertex on the plane. Every face that crosses the plane is cut along it.
-        A concave face can be cut several times. A vertex counts as on the plane if its distance from the plane is at
-        most 1e-9 times the largest extent of the mesh, or at most 1e-14 times the largest absolute coordinate. Such a
-        vertex is not moved. When an edge is cut, the part at the start of its first half-edge keeps the id of the edge.
-        When a face is cut, the part with the first corner keeps the id of the face. New elements get the highest ids.
-        Attributes are interpolated at the crossings, separately on each side of a seam.
+        Every edge that crosses the plane gets a vertex on the plane. Every face that crosses the plane is cut along the
+        plane. A concave face can be cut several times. A vertex counts as on the plane if its distance from the plane
+        is at most 1e-9 times the largest extent of the mesh, or at most 1e-14 times the largest absolute coordinate.
+        Such a vertex is not moved. When an edge is cut, the part at the start of its first half-edge keeps the id of
+        the edge. When a face is cut, the part with the first corner keeps the id of the face. New elements get the
+        highest ids. Where an edge crosses the plane, attributes are interpolated. At a seam, the two sides are
+        interpolated separately.
 
         With ``keep="Front"`` or ``keep="Back"``, the other side of the plane is removed. A face in the plane belongs to
         the back if its normal points to the front, because the face then closes the solid behind the plane. Vertices
         left without a face are removed. If the remaining faces around a vertex form several fans, each fan gets a
-        separate copy of the vertex. No faces are added to close the cut. To close it, use ``fill_holes()`` in a later
-        step.
+        separate copy of the vertex. No faces are added to close the cut. To close the cut, use ``fill_holes()`` in a
+        later step.
 
         Example: ``scene.bisect(normal=(0, 0, 1))``, in a recipe ``Bisect(normal: (0, 0, 1))``
 
@@ -2157,7 +2173,8 @@ class SceneOperations:
 
         Example: ``scene.symmetrize(normal=(1, 0, 0))``, in a recipe ``Symmetrize(normal: (1, 0, 0))``
 
-        :param normal: The normal of the plane, which points to the front. Its length does not matter but must not be 0.
+        :param normal: The normal of the plane, which points to the front. The length of the normal does not matter but
+            must not be 0.
         :param point: A point on the plane.
         :param from_: The half that is kept and mirrored. Defaults to ``"Front"``.
             ``"Front"``: The side that the normal points to.
@@ -2205,8 +2222,8 @@ class SceneOperations:
           attribute are not merged.
 
         In a texture, the border of a chart is also simplified, and can then cross a chart that is close to it. The
-        report counts the faces that overlap. To leave more space between charts, use ``pack_uvs()`` with a larger
-        ``padding`` before this step.
+        report counts the faces that overlap in the texture. To leave more space between charts, use ``pack_uvs()`` with
+        a larger ``padding`` before this step.
 
         No triangle is turned over. Remaining elements get new ids, in the order of their old ids. If the number of
         faces cannot be reached and ``error`` is not given, the step is refused as ``Unreached``, and the message states
@@ -2214,20 +2231,20 @@ class SceneOperations:
 
         Example: ``scene.simplify(ratio=0.5)``, in a recipe ``Simplify(ratio: 0.5)``
 
-        :param faces: The number of faces to reach, for each mesh. The result can have one face fewer. A mesh that
-            already has at most this number of faces does not change.
+        :param faces: The number of faces to reach, for each mesh. The result can have one face fewer than this number.
+            A mesh that already has at most this number of faces does not change.
         :param ratio: The number of faces to reach, as a fraction of the number of faces of each mesh.
         :param error: The largest allowed Hausdorff distance between the old and the new surface, in scene units. The
-            limit is guaranteed: for each collapse, the step adds an upper bound of the distance by which the surface
-            moves. The true distance is usually between a third of the limit and the limit. If omitted, there is no
+            limit is guaranteed, because the step adds up upper bounds of the distances by which the collapses move the
+            surface. The true distance is usually between a third of the limit and the limit. If omitted, there is no
             limit.
         :param features: Edges to keep as lines, in addition to the lines that are always kept. For example,
             ``sel.Sharp(above=30)``. If omitted, no additional edges. ``"All"``, ``"Boundary"``, or a value of
             ``meshwright.sel``.
         :param pin: Vertices that keep their exact positions, for example ``Boundary``. If omitted, no vertices.
             ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
-        :param intersections: Whether the step may create intersections of faces. They can occur where parts of the
-            surface are close together. Defaults to ``"Allow"``.
+        :param intersections: Whether the step may create intersections of faces. Such intersections can occur where
+            parts of the surface are close together. Defaults to ``"Allow"``.
             ``"Allow"``: New intersections are allowed, and not detected.
             ``"Refuse"``: No changed face intersects another face, so a mesh without self-intersections stays without
                 self-intersections.
@@ -2297,11 +2314,11 @@ class SceneOperations:
 
         Each pass splits long edges, collapses short edges, flips edges so that most vertices have six edges, and moves
         vertices along the surface (Botsch, Kobbelt, 2004). Most edges of the result have 4/5 to 4/3 of the target
-        length. All vertices lie on the original surface, with one exception: a new vertex stays where it is if moving
-        it onto the surface would turn a triangle too far or would move the surface too far. The target length is either
-        ``length``, or it follows ``curvature``: edges are short where the surface is curved, and long where it is flat
-        (Dunyach and others, 2013). Exactly one of ``length`` and ``curvature`` must be given. All faces must be
-        triangles.
+        length. All vertices lie on the original surface, with one exception. A new vertex stays where it is if moving
+        it onto the surface would turn a triangle too far or would move the surface too far. The target length of edges
+        is either ``length``, or it follows ``curvature``. With ``curvature``, edges are short where the surface is
+        curved, and long where it is flat (Dunyach and others, 2013). Exactly one of ``length`` and ``curvature`` must
+        be given. All faces must be triangles.
 
         The following properties are kept:
 
@@ -2318,12 +2335,12 @@ class SceneOperations:
           positions. Vertices with sharpness also keep their exact positions.
 
         The number of faces depends on the area of the mesh, which is not known before the run. Therefore ``check``
-        shows the largest number that fits the memory budget. When the step starts, it estimates the number from the
-        area, and fails if the estimate exceeds the budget.
+        shows the largest number of faces that fits the memory budget. When the step starts, it estimates the number of
+        faces from the area. The step fails if the estimate exceeds the memory budget.
 
         Edits that would turn a triangle by more than 60 degrees are refused. All elements get new ids. If the distance
         between the result and the original could exceed ``error``, the step is refused as ``Unreached``. With
-        ``on_refusal="Skip"``, the mesh then does not change.
+        ``on_refusal="Skip"``, a refused step does not change the mesh.
 
         Example: ``scene.remesh(length=0.5)``, in a recipe ``Remesh(length: 0.5)``
 
@@ -2331,14 +2348,14 @@ class SceneOperations:
         :param curvature: Target lengths that follow the curvature. Replaces ``length``.
             ``"error"``: The intended distance between the surface and the triangles, in scene units. It is not
                 guaranteed. To guarantee a distance, use the parameter ``error`` of the step.
-            ``"min"``: The smallest length, in scene units.
-            ``"max"``: The largest length, in scene units.
+            ``"min"``: The smallest target length of edges, in scene units.
+            ``"max"``: The largest target length of edges, in scene units.
         :param features: Edges to keep as lines, in addition to the lines that are always kept. For example,
             ``sel.Sharp(above=30)``. If omitted, no additional edges. ``"All"``, ``"Boundary"``, or a value of
             ``meshwright.sel``.
         :param error: The largest allowed Hausdorff distance between the old and the new surface, in scene units. To
-            keep this limit, some edges can become shorter than the target length. The distance is measured at the end,
-            in both directions and for all points. If omitted, there is no limit.
+            keep this limit, some edges can become shorter than the target length. The distance is measured at the end
+            of the step, in both directions and for all points of both surfaces. If omitted, there is no limit.
         :param pin: Vertices that keep their exact positions, for example ``Boundary``. If omitted, no vertices.
             ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
         :param passes: The largest number of passes, from 1 to 1000. The step ends earlier if a pass changes almost
@@ -2371,7 +2388,7 @@ class SceneOperations:
 
         A vertex moves only if it is in ``vertices``, is not in ``pin``, and has a face. All other vertices keep their
         exact positions. Faces can have any number of corners, and degenerate faces are allowed. All elements keep their
-        ids. Attributes are kept, so textures stretch with the surface, but normals are dropped.
+        ids. Attributes are kept, so textures stretch with the surface, but normals and tangents are dropped.
 
         - ``choice.Laplacian``: strong smoothing; shrinks.
         - ``choice.Taubin``: removing noise; nearly the same.
@@ -2399,8 +2416,9 @@ class SceneOperations:
             ``"Fixed"``: The vertices do not move.
             ``"Free"``: The boundary is smoothed as a set of curves, so the movement of a vertex on the boundary depends
                 only on its neighbors along the boundary.
-        :param keep_volume: Whether to restore the original volume of the mesh. To restore it, the step finally shifts
-            all moved vertices along their normals by the same distance. The mesh must be closed. Defaults to ``False``.
+        :param keep_volume: Whether to restore the original volume of the mesh. To restore the volume, the step finally
+            shifts all moved vertices along their normals by the same distance. The mesh must be closed. Defaults to
+            ``False``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
@@ -2420,21 +2438,23 @@ class SceneOperations:
     ) -> Self:
         """Copies attributes from the nearest points of another object.
 
-        An attribute of vertices, corners or faces of the object ``from_`` becomes an attribute of the same kind of
-        elements of the changed mesh. Numbers and vectors of vertices and corners are interpolated inside the face that
-        contains the nearest point. Whole numbers, tags, and attributes that edits do not interpolate are copied from
-        the nearest corner of this face. Values of faces are copied from the face that contains the nearest point. If
-        the attribute already exists with the same type of values, it is overwritten. If its type is different, the step
-        fails. Without ``on``, the step acts on all meshes except ``from_``.
+        The step copies vertex, corner and face attributes from the object ``from_`` to elements of the same kind in the
+        changed mesh. Numbers and vectors of vertices and corners are interpolated inside the face that contains the
+        nearest point. Whole numbers, tags, and attributes that edits do not interpolate are copied from the nearest
+        corner of the face that contains the nearest point. Values of faces are copied from the face that contains the
+        nearest point. If the attribute already exists with the same type of values, it is overwritten. If the attribute
+        already exists with a different type of values, the step fails. Without ``on``, the step acts on all meshes
+        except ``from_``.
 
         All corners of a face take their values from one side of each seam, so no triangle is stretched across a seam of
-        texture coordinates. Usually this is the side at the center of the face. Seams divide the source into charts. If
-        the chart at a corner is much nearer to the whole face than the chart at the center, the values of the chart at
-        the corner are used. This happens where parts of the source intersect.
+        texture coordinates. Usually the corners take their values from the side that is nearest to the center of the
+        face. Seams divide the source into charts. The chart that is nearest to a corner is used instead if it is much
+        nearer to the whole face than the chart that is nearest to the center of the face. This happens where parts of
+        the source intersect.
 
         Elements whose distance from the source exceeds ``within`` keep their values, or get zeros if the attribute is
         new. If the distance of a corner or of the center of a face exceeds ``within``, all corners of the face keep
-        their values or get zeros. The report counts these elements.
+        their values or get zeros. The report counts the elements that are too far away.
 
         Example: ``scene.transfer(from_="scan", attributes=["uv", "color"], within=0.01)``, in a recipe ``Transfer(from:
         "scan", attributes: ["uv", "color"], within: 0.01)``
@@ -2477,11 +2497,12 @@ class SceneOperations:
         :param vertices: The vertices to move. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of
             ``meshwright.sel``.
         :param by: How the vertices move.
-            ``choice.Offset(..)``: By this offset along x, y and z, in scene units.
-            ``choice.Distance(..)``: By this distance along the normal of each vertex, in scene units.
-            ``choice.To(..)``: By one common offset, so that the mean of the selected vertices arrives at this point.
-            ``choice.Rotate(..)``: By a rotation around an axis through the mean of the selected vertices.
-            ``choice.Scale(..)``: By scaling along x, y and z about the mean of the selected vertices.
+            ``choice.Offset(..)``: Moves by this offset along x, y and z, in scene units.
+            ``choice.Distance(..)``: Moves by this distance along the normal of each vertex, in scene units.
+            ``choice.To(..)``: Moves by one common offset, so that the mean of the selected vertices arrives at this
+                point.
+            ``choice.Rotate(..)``: Rotates around an axis through the mean of the selected vertices.
+            ``choice.Scale(..)``: Scales along x, y and z about the mean of the selected vertices.
         :param falloff: The distance from the selected vertices at which the movement has fallen to 0, in scene units.
             If omitted, only the selected vertices move.
         :param on: The objects that the step acts on. If omitted, all that it supports.
@@ -2549,8 +2570,9 @@ class SceneOperations:
         Vertices at or below ``from_`` do not move. Between ``from_`` and ``to``, the axis becomes an arc of the same
         length, which turns by ``angle`` in total. Vertices above ``to`` move rigidly. Vertices between the axis and the
         center of the circle move closer together, and vertices on the other side of the axis move apart. The distance
-        between the center and the axis is (to - from) / angle, with the angle in radians. Parts of the mesh beyond the
-        center turn inside out. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
+        between the center of the circle and the axis is (to - from) / angle, with the angle in radians. Parts of the
+        mesh beyond the center of the circle turn inside out. Source: Barr, "Global and Local Deformations of Solid
+        Primitives", 1984.
 
         Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch
         with the surface. Only vertices move, so refine the mesh first if its faces are large.
@@ -2598,9 +2620,9 @@ class SceneOperations:
         """Rotates vertices around an axis, by an angle that grows along the axis.
 
         The angle grows linearly from 0 at ``from_`` to ``angle`` at ``to``. Below ``from_`` and above ``to``, vertices
-        rotate by the angle of the nearer end. The volume changes only because edges stay straight, so on a fine mesh it
-        hardly changes. A twist by the opposite angle undoes a twist. Source: Barr, "Global and Local Deformations of
-        Solid Primitives", 1984.
+        rotate by the angle of the nearer end. The volume changes only because edges stay straight, so the volume of a
+        fine mesh hardly changes. A twist by the opposite angle undoes a twist. Source: Barr, "Global and Local
+        Deformations of Solid Primitives", 1984.
 
         Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch
         with the surface. Only vertices move, so refine the mesh first if its faces are large.
@@ -2683,11 +2705,11 @@ class SceneOperations:
     ) -> Self:
         """Deforms vertices with a box of control points.
 
-        The box has a grid of ``size`` control points along x, y and z. ``moves`` moves some of them, and the space in
-        the box follows smoothly. Each point becomes a sum of the control points with Bernstein polynomials as weights
-        (Sederberg, Parry, "Free-Form Deformation of Solid Geometric Models", 1986). If all control points move by the
-        same offset, the whole box moves by this offset. A control point attracts the surface, but the surface usually
-        does not reach it, except at the corners of the box.
+        The box has a grid of ``size`` control points along x, y and z. ``moves`` moves some of the control points, and
+        the space in the box follows smoothly. Each point in the box moves to a sum of the control points with Bernstein
+        polynomials as weights (Sederberg, Parry, "Free-Form Deformation of Solid Geometric Models", 1986). If all
+        control points move by the same offset, the whole box moves by this offset. A control point attracts the
+        surface, but the surface usually does not reach it, except at the corners of the box.
 
         Vertices outside the box do not move. Normals and tangents are dropped. Faces, element ids and other attributes
         do not change, so textures stretch with the surface. Only vertices move, so refine the mesh first if its faces
@@ -2724,21 +2746,23 @@ class SceneOperations:
     ) -> Self:
         """Moves vertices onto the surface of another object (shrinkwrap).
 
-        Only vertices in ``vertices`` that are not in ``pin`` move. All others keep their exact positions. Without
-        ``on``, the step acts on all meshes except the object ``onto``, which does not change. Normals and tangents are
-        dropped. Faces, element ids and other attributes do not change, so textures stretch with the surface.
+        Only vertices in ``vertices`` that are not in ``pin`` move. All other vertices keep their exact positions.
+        Without ``on``, the step acts on all meshes except the object ``onto``, which does not change. Normals and
+        tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch with the
+        surface.
 
         Vertices that would move farther than ``distance`` do not move. With ``Normal`` and ``choice.Direction``,
-        vertices whose line misses the surface do not move either. The report counts both kinds of vertices.
+        vertices whose line misses the surface do not move either. The report counts the vertices that would move too
+        far, and the vertices whose line misses the surface.
 
         Example: ``scene.project(onto="scan", distance=0.1)``, in a recipe ``Project(onto: "scan", distance: 0.1)``
 
         :param onto: The name of the object with the surface.
         :param along: Where each vertex goes. Defaults to ``"Nearest"``.
-            ``"Nearest"``: To the nearest point of the surface.
-            ``"Normal"``: To the nearest point of the surface on the line through the vertex along its normal, on either
-                side.
-            ``choice.Direction(..)``: To the first point of the surface in this direction.
+            ``"Nearest"``: Moves to the nearest point of the surface.
+            ``"Normal"``: Moves to the nearest point of the surface on the line through the vertex along its normal, on
+                either side.
+            ``choice.Direction(..)``: Moves to the first point of the surface in this direction.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
         :param pin: Vertices that do not move. If omitted, no vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
@@ -2796,8 +2820,9 @@ class SceneOperations:
             ``choice.Winding(..)``: The winding number of another mesh of the scene around each vertex: 1 inside, 0
                 outside, and numbers between 0 and 1 near gaps of the other mesh (Jacobson, Kavan, Sorkine-Hornung,
                 2013; Barill, Dickson, Schmidt, Levin, Jacobson, 2018).
-        :param name: The name of the attribute. If omitted, the name of the quantity in lower case, such as
-            ``mean_curvature``, or ``largest_curvature`` or ``smallest_curvature`` for a principal curvature.
+        :param name: The name of the attribute. If omitted, the attribute has the name of the quantity in lower case,
+            such as ``mean_curvature``. For principal curvatures, the default names are ``largest_curvature`` and
+            ``smallest_curvature``.
         :param missing: The value for elements at which the quantity is not defined, such as the curvature of a vertex
             without faces. The report counts these elements. If omitted, 0 for quantities that can be negative, and -1
             for all others.
@@ -2825,17 +2850,18 @@ class SceneOperations:
         """Computes texture coordinates without overlaps.
 
         The surface is cut into charts, which are flattened and packed into a square page. Charts grow from flat regions
-        as far as ``max_angle`` allows. They are flattened by least squares conformal maps (Levy and others, 2002) and
-        the hybrid method of Liu and others (2008). A chart is cut again in three cases: it would overlap itself, it
-        would exceed ``max_stretch``, or the ratio of the largest to the smallest stretch would exceed 1.15 on more than
-        5 % of its area. All charts of a mesh have the same scale, and no chart is mirrored. A polygon stays in one
-        chart. Each mesh gets its own page.
+        as far as ``max_angle`` allows. The charts are flattened by least squares conformal maps (Levy and others, 2002)
+        and the hybrid method of Liu and others (2008). A chart is cut again if it would overlap itself or exceed
+        ``max_stretch``. It is also cut again if the ratio of the largest to the smallest stretch would exceed 1.15 on
+        more than 5 % of its area. All charts of a mesh have the same scale, and no chart is mirrored. A polygon stays
+        in one chart. Each mesh gets its own page.
 
         The coordinates are written to the corner attribute ``uv``, which is replaced if it exists. Edges at which
         charts meet become seams. Positions, faces and other attributes do not change, but tangents are removed.
         Zero-area faces have no area in the texture. The report counts them. If a polygon is bent so far that it
-        overlaps itself in the texture, the step is refused as ``WrongPlace``. Triangulate such polygons first. With
-        ``on_refusal="Skip"``, the triangles of the polygon overlap in the texture.
+        overlaps itself in the texture, the step is refused as ``WrongPlace``. Before this step, triangulate polygons
+        that would overlap themselves. With ``on_refusal="Skip"``, the triangles of such a polygon overlap in the
+        texture.
 
         Example: ``scene.unwrap(max_angle=60)``, in a recipe ``Unwrap(max_angle: 60)``
 
@@ -2873,11 +2899,11 @@ class SceneOperations:
     ) -> Self:
         """Moves, rotates and scales charts of texture coordinates so that they do not overlap and have the same scale.
 
-        A chart is a set of faces that are connected without seams of the texture coordinates. Afterwards, the area of
-        each chart in the texture is proportional to its area on the surface. The shape of each chart does not change,
-        even if it is stretched, mirrored or overlaps itself. Each zero-area chart becomes a point. The report counts
-        zero-area charts and charts that overlap themselves. Each mesh gets its own page, that is, the whole square of a
-        texture. Tangents are removed, because charts are rotated.
+        A chart is a set of faces that are connected without seams of the texture coordinates. After the step, the area
+        of each chart in the texture is proportional to its area on the surface. The shape of each chart does not
+        change, even if it is stretched, mirrored or overlaps itself. Each zero-area chart becomes a point. The report
+        counts zero-area charts and charts that overlap themselves. Each mesh gets its own page, that is, the whole
+        square of a texture. Tangents are removed, because charts are rotated.
 
         Example: ``scene.pack_uvs(page=2048, padding=4)``, in a recipe ``PackUvs(page: 2048, padding: 4)``
 
@@ -2914,9 +2940,10 @@ class SceneOperations:
     ) -> Self:
         """Draws the scene into an image file.
 
-        The extension of the file determines the format: ``.png`` for an image or, with ``turntable``, ``.gif`` for an
-        animated GIF and ``.apng`` or ``.png`` for an animated PNG. The file is written only if the whole recipe
-        succeeds. The scene does not change. Drawing needs no GPU and gives the same bytes on every machine.
+        The extension of the file determines the format. A single image has the extension ``.png``. With ``turntable``,
+        ``.gif`` gives an animated GIF, and ``.apng`` or ``.png`` gives an animated PNG. The file is written only if the
+        whole recipe succeeds. The scene does not change. Drawing needs no GPU and gives the same bytes on every
+        machine.
 
         Example: ``scene.picture(path="a.png", size=(64, 48), highlight=sel.Edges(sel.Sharp(above=30)), color_by={"of":
         "Valence"}, style={"wireframe": {}})``, in a recipe ``Picture(path: "a.png", size: (64, 48), highlight:
@@ -2954,9 +2981,9 @@ class SceneOperations:
             ``sel.Faces(sel.Tagged("top"))``. ``"All"``, ``"Boundary"``, ``"Isolated"``, ``"SelfIntersecting"``, or a
             value of ``meshwright.sel``.
         :param highlight_width: The width of highlighted edges and the diameter of highlighted vertices, in pixels. The
-            defaults depend on the shorter side of a view: 2.8 and 7.5 for 240 pixels, 3.4 and 10 for 480, 4 and 13 for
-            960, 8 and 26 for 1920. If there are many highlighted vertices, they are drawn smaller. Hidden edges are
-            drawn faintly, and hidden vertices as rings.
+            default width and the default diameter depend on the shorter side of a view: 2.8 and 7.5 for 240 pixels, 3.4
+            and 10 for 480, 4 and 13 for 960, 8 and 26 for 1920. If there are many highlighted vertices, they are drawn
+            smaller. Hidden edges are drawn faintly, and hidden vertices as rings.
         :param marks: More selections of elements to highlight, each with its own color.
             ``"of"``: The elements.
             ``"color"``: The color.
@@ -2967,8 +2994,8 @@ class SceneOperations:
             ``"map"``: The color map. If omitted, ``Classes`` for valences, ``Diverging`` for curvatures, else
                 ``Viridis``.
             ``"range"``: The values that the first and the last color represent, as in ``(0, 60)``. If omitted, the
-                range depends on the values of the quantity. For curvatures, the range is symmetric about 0 and leaves
-                out the lowest and the highest eighth of the values, or fewer values if the others are all 0.
+                range depends on the values of the quantity. For curvatures, the range is symmetric about 0. It leaves
+                out the lowest and the highest eighth of the values, or fewer values if all remaining values are 0.
             ``"legend"``: Whether a legend in a corner explains the colors.
         :param turntable: If given, the picture is an animation in which the camera moves once around the scene.
             ``"frames"``: The number of images.
@@ -3001,12 +3028,13 @@ class SceneOperations:
     ) -> Self:
         """Draws Bezier curves, and de Casteljau's construction of their points, into an image file.
 
-        The figure has one panel for each combination of a curve and a value of ``t``. With ``by_level``, it has one
-        panel for each combination of a curve, a value of ``t`` and a level. A panel shows the control polygon, every
-        level of de Casteljau's algorithm in a different color, the constructed point, and the curve, with the same
-        scale in both axes. With ``by_level``, each panel for a value of ``t`` shows one level more than the previous
-        panel, and only the last of these panels shows the constructed point. The extension of the file determines the
-        format: ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The scene does not change.
+        The figure has one panel for each combination of a curve and a value of ``t``. With ``by_level``, the figure has
+        one panel for each combination of a curve, a value of ``t`` and a level. A panel shows the curve, its control
+        polygon, every level of de Casteljau's algorithm in a different color, and the constructed point. Both axes have
+        the same scale. With ``by_level``, each panel shows one level more than the previous panel for the same value of
+        ``t``. Only the last panel for a value of ``t`` shows the constructed point. The extension of the file
+        determines the format: ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The scene
+        does not change.
 
         Example: ``scene.curve_figure(path="figure.svg", t=[0.25, 0.5])``, in a recipe ``CurveFigure(path: "figure.svg",
         t: [0.25, 0.5])``
@@ -3018,8 +3046,8 @@ class SceneOperations:
             their control polygons are drawn.
         :param by_level: Whether each level of the algorithm has its own panel. If false, one panel shows all levels.
             Defaults to ``False``.
-        :param before: The name of a curve that shows an earlier state of the other curves. This curve is drawn faintly
-            behind the other curves, with arrows to the control points that moved.
+        :param before: The name of a curve that shows an earlier state of the other curves. The earlier curve is drawn
+            faintly behind the other curves, with arrows to the control points that moved.
         :param width: The width of the figure in SVG pixels. The font size is 12 to 19 pixels. Defaults to ``640``.
         :param columns: The number of panels in a row. If omitted, the number of values of ``t`` (with ``by_level``, the
             number of levels), but at most 4.
@@ -3053,8 +3081,8 @@ class SceneOperations:
         out, and the report counts them. The extension of the file determines the format: ``.svg`` or ``.png``. The file
         is written only if the whole recipe succeeds. The scene does not change.
 
-        A name is a letter and the id of the element: ``v`` for vertices, ``h`` for half-edges, ``f`` for faces.
-        Half-edges ``2e`` and ``2e + 1`` belong to edge ``e``.
+        The name of an element is a letter followed by the id of the element: ``v`` for vertices, ``h`` for half-edges,
+        ``f`` for faces. Half-edges ``2e`` and ``2e + 1`` belong to edge ``e``.
 
         Example: ``scene.half_edge_figure(path="figure.svg")``, in a recipe ``HalfEdgeFigure(path: "figure.svg")``
 
@@ -3089,8 +3117,9 @@ class SceneOperations:
 
         A gray frame shows the page of the texture, where u and v are from 0 to 1; v points upwards. Thick lines are the
         borders of charts, and thin lines are the other edges. Coordinates outside the page are also drawn. To make room
-        for them, the figure becomes higher or its scale becomes smaller. The extension of the file determines the
-        format: ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The scene does not change.
+        for coordinates outside the page, the figure becomes higher or its scale becomes smaller. The extension of the
+        file determines the format: ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The
+        scene does not change.
 
         Example: ``scene.uv_picture(path="uv.svg")``, in a recipe ``UvPicture(path: "uv.svg")``
 
@@ -3143,9 +3172,10 @@ class MeshOperations:
         The extension determines the format: ``.obj``, ``.gltf``, ``.glb``, ``.ply``, ``.stl`` or ``.off`` for meshes,
         ``.bez`` for Bezier patches, ``.bzc`` for a curve, and ``.mws`` for a complete scene without any loss. ``.csv``
         is a table of the positions and attributes of vertices, faces or corners, and ``.npz`` has the arrays of a mesh
-        for ``NumPy``. These two formats cannot be read. If the name ends with ``.gz``, as in ``a.obj.gz``, the file is
-        compressed with gzip, which is not possible for ``.glb``, ``.mws`` and ``.npz``. The report lists the content
-        that the format cannot store. A recipe creates the file only if all of its steps and expectations succeed.
+        for ``NumPy``. ``load()`` cannot read ``.csv`` and ``.npz`` files. If the name ends with ``.gz``, as in
+        ``a.obj.gz``, the file is compressed with gzip. Files in the formats ``.glb``, ``.mws`` and ``.npz`` cannot be
+        compressed with gzip. The report lists the content that the format cannot store. A recipe creates the file only
+        if all of its steps and expectations succeed.
 
         Example: ``mesh.save(path="a.obj")``
 
@@ -3160,8 +3190,9 @@ class MeshOperations:
             geometry is not compressed.
             ``"Meshopt"``: The extension ``EXT_meshopt_compression``.
         :param quantize: The number of bits for each attribute of the geometry in ``.glb`` and ``.gltf`` files. If
-            omitted, numbers are stored as 32-bit floats. ``quantize={}`` uses the default of each attribute. The report
-            states the largest errors of positions, of normals and tangents, and of texture coordinates.
+            omitted, numbers are stored as 32-bit floats. ``quantize={}`` uses the default number of bits for each
+            attribute. The report states the largest errors of positions, of normals and tangents, and of texture
+            coordinates.
             ``"position"``: The number of bits of each coordinate of a position. Positions are rounded to a grid that
                 covers the bounding box of the object and has the same step along all axes. The longest side of the box
                 has 2^bits - 1 steps. Positions of objects with joints or morph targets are not quantized. Defaults to
@@ -3333,25 +3364,25 @@ class MeshOperations:
 
         Points are first scaled, then rotated, then moved. The step changes the points of meshes, patches, curves and
         polylines. If nodes place an object and ``space`` is ``Scene``, the step changes the placements of these nodes
-        instead, and everything below the nodes also moves. A skinned mesh then moves with its joints. A node whose
-        placement is animated gets a parent, which is moved instead. With ``space="Scene"`` and without ``on:``, all
-        other root nodes also move, for example those of cameras and lights, unless ``about`` is ``Center``. A curve
-        must stay in the plane z = 0.
+        instead of the points. Everything below these nodes also moves. With ``space="Scene"``, a skinned mesh moves
+        with its joints. If the placement of a node is animated, the node gets a new parent, and the step moves this
+        parent instead. If ``space`` is ``Scene``, ``on:`` is omitted and ``about`` is not ``Center``, all other root
+        nodes also move, for example the nodes of cameras and lights. A curve must stay in the plane z = 0.
 
         Ids do not change. If the points of a mesh change, its normals, tangents and deltas of morph targets are also
         transformed; other attributes do not change. If the points are mirrored (one or three negative factors in
-        ``scale``), the faces are also reversed, so that they stay counter-clockwise seen from outside. The first corner
-        of a face stays first, and the other corners follow in reverse order. In mirrored patches, u and v are
-        exchanged, so that the outside stays the outside. Like any step that changes the connectivity, mirroring the
-        points drops attributes whose edit rule is ``Drop``, such as tangents of corners.
+        ``scale``), the faces are also reversed, so that they stay counter-clockwise seen from outside. In a reversed
+        face, the first corner stays first, and the other corners follow in reverse order. In mirrored patches, u and v
+        are exchanged, so that the same side of the surface remains the outside. Like any step that changes the
+        connectivity, mirroring the points drops attributes whose edit rule is ``Drop``, such as tangents of corners.
 
         Example: ``mesh.transform(scale=(2, 1, 1), rotate=[{"axis": "Z", "angle": 90}], move=(3, 1, 0))``
 
-        :param scale: The scale factors along x, y and z. No factor may be 0; a negative factor mirrors.
+        :param scale: The scale factors along x, y and z. Factors must not be 0. A negative factor mirrors.
         :param rotate: The rotations, applied in order.
             ``"axis"``: The direction of the axis.
-            ``"angle"``: The angle in degrees, counter-clockwise when the axis points towards the viewer. Rotations by
-                multiples of 90 degrees are exact.
+            ``"angle"``: The angle of the rotation, in degrees. A positive angle is counter-clockwise if the axis points
+                towards the viewer. Rotations by multiples of 90 degrees have no rounding errors.
         :param move: The distances to move along x, y and z, in scene units.
         :param about: The fixed point of scaling and rotation. Defaults to ``"Origin"``.
             ``"Origin"``: The origin.
@@ -3376,15 +3407,15 @@ class MeshOperations:
     ) -> Self:
         """Merges vertices that are close together, and joins the faces at them.
 
-        Vertices at most ``distance`` apart are linked, and vertices that are connected by a chain of links merge into
-        one, even if the ends of the chain are farther apart than ``distance``. The merged vertex has the position and
-        the values of the vertex with the lowest id. The other vertices are removed, so the ids of the vertices after
-        them change. Edges between the same two vertices become one edge with the values of the first edge. Corner
-        values stay with their corners, so UV seams are kept.
+        Vertices at most ``distance`` apart are linked. Vertices that are connected by a chain of links merge into one,
+        even if the ends of the chain are farther apart than ``distance``. The merged vertex has the position and the
+        values of the vertex with the lowest id. The other vertices are removed, so the ids of the vertices after them
+        change. Edges between the same two vertices become one edge with the values of the first edge. Corner values
+        stay with their corners, so UV seams are kept.
 
         If neighboring corners of a face merge, the face loses a corner. A face is removed if it has fewer than three
         corners left or would contain a vertex twice. Joined faces may have opposite orientations. If the orientations
-        in a connected part can be made to agree, its faces form two groups of equal orientation, and all faces of the
+        in a connected part can be made to agree, its faces form two groups of equal orientation. All faces of the
         smaller group are reversed. If faces are reversed, the report counts them, and the normals of vertices and
         corners are dropped. Where the result would still not be manifold, vertices and edges are copied. For example, a
         third face at an edge gets a copy of the edge. The report counts the copies. If no vertices merge, the mesh does
@@ -3418,8 +3449,8 @@ class MeshOperations:
 
         Example: ``mesh.reverse()``
 
-        :param faces: The faces to reverse. They must form whole connected components. Defaults to ``"All"``. ``"All"``,
-            ``"Boundary"``, ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
+        :param faces: The faces to reverse. The faces must form whole connected components. Defaults to ``"All"``.
+            ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
             `True` for a bar of tqdm.
@@ -3436,19 +3467,20 @@ class MeshOperations:
     ) -> Self:
         """Cuts polygons into triangles.
 
-        A quadrilateral is cut along its shorter diagonal. If both diagonals have the same length (the relative
-        difference of their squared lengths is at most 1e-12), the quadrilateral is cut along the diagonal at its vertex
-        with the lowest id. A diagonal is avoided if it gives a zero-area triangle or a triangle that is turned over
-        relative to the normal of the face, unless the other diagonal has the same problem. A quadrilateral with a
-        reflex corner is therefore cut at that corner. If a diagonal would join two vertices that are already joined by
-        an edge or another diagonal, the other diagonal is chosen where possible. The report counts the duplicate
-        diagonals that remain.
+        A quadrilateral is cut along its shorter diagonal. If both diagonals have the same length, the quadrilateral is
+        cut along the diagonal at its vertex with the lowest id. Two lengths count as the same if the relative
+        difference of their squares is at most 1e-12. A diagonal is avoided if it gives a zero-area triangle or a
+        triangle that is turned over relative to the normal of the face. It is not avoided if the other diagonal has the
+        same problem. A quadrilateral with a reflex corner is therefore cut at that corner. If a diagonal would join two
+        vertices that are already joined by an edge or another diagonal, the other diagonal is chosen where possible.
+        The report counts the duplicate diagonals that remain.
 
-        A face with more than four corners is projected along its normal. It is then cut by ear clipping, or into
-        monotone pieces if it has more than 4096 corners. Then diagonals are flipped until the triangulation is a
-        constrained Delaunay triangulation. Some faces cannot be triangulated in this way, because they have zero area,
-        their sides cross (or overlap, if they have more than 4096 corners), or they have more than ten million corners.
-        Each of these faces becomes a triangle fan around its vertex with the lowest id. The report counts them.
+        A face with more than four corners is projected along its normal. The projected face is cut by ear clipping, or
+        into monotone pieces if it has more than 4096 corners. Then diagonals are flipped until the triangulation is a
+        constrained Delaunay triangulation. Some faces cannot be triangulated in this way: faces with zero area, faces
+        whose sides cross, and faces with more than ten million corners. If a face has more than 4096 corners, its sides
+        must not overlap either. A face that cannot be triangulated in this way becomes a triangle fan around its vertex
+        with the lowest id. The report counts these faces.
 
         The triangles of a face take its place in the order of the faces and have its values. Vertices and edges keep
         their ids. The corners of the triangles have the values of the corners of the face at the same vertices.
@@ -3478,18 +3510,18 @@ class MeshOperations:
         """Replaces the edge between two triangles with the other diagonal of the quadrilateral that they form.
 
         Edges are flipped in order of their ids. Each flip is checked against the mesh as edited so far. A flip is
-        refused if the edge is on the boundary, if a face beside it is not a triangle, or if the opposite corners of the
-        two triangles are already joined by an edge or are the same vertex. At a seam, a flip is refused unless
-        ``seams`` is ``Drop``. All elements keep their ids, and no vertex moves. Vertices, edges and faces keep their
-        values. Each triangle gets one new corner. The new corner takes the values that the other triangle has at the
-        same vertex; all other corners keep their values.
+        refused if the edge is on the boundary, or if a face beside it is not a triangle. A flip is also refused if the
+        two corners opposite to the edge are the same vertex or are already joined by an edge. At a seam, a flip is
+        refused unless ``seams`` is ``Drop``. All elements keep their ids, and no vertex moves. Vertices, edges and
+        faces keep their values. Each triangle gets one new corner. The new corner of a triangle gets its values from
+        the corner of the other triangle at the same vertex. All other corners keep their values.
 
         With ``until="Delaunay"`` or ``until="Valence"``, an edge is flipped only if the flip improves the mesh. Edges
         are checked again, pass after pass, until a pass flips no edge or ``passes`` is reached. Flips with
         ``until="Delaunay"`` or ``until="Valence"`` neither fold the surface nor create zero-area triangles. If a flip
-        that would improve the mesh is refused, the step does not fail. The edge is left unchanged, and the report
-        counts the refusals by reason. The report also contains the number of passes, and whether the step stopped
-        because ``passes`` was reached.
+        that would improve the mesh is refused, the step does not fail. An edge whose flip is refused is left unchanged,
+        and the report counts the refusals by reason. The report also states the number of passes, and whether the step
+        stopped because ``passes`` was reached.
 
         On a surface that is not flat, a flip changes the shape. To keep creases and other edges, exclude them from
         ``edges``, for example with ``sel.Flat(below=30)`` or ``sel.Not(sel.Tagged("keep"))``.
@@ -3533,15 +3565,15 @@ class MeshOperations:
         In a mesh of triangles, a split adds 1 vertex, 3 edges and 2 faces. A split of a boundary edge adds 1 vertex, 2
         edges and 1 face. If a face beside the edge has more than three corners, the face is not cut and only gains the
         new vertex as a corner. Edges are split in order of their ids; new edges are not split again. New vertices get
-        the highest ids, in the order of the splits. Values at the new vertex and its corners are interpolated between
-        the ends of the edge, on each side of a seam separately.
+        the highest ids, in the order of the splits. Attribute values at the new vertex and at its corners are
+        interpolated between the ends of the edge. At a seam, the two sides are interpolated separately.
 
         Example: ``mesh.split_edges(edges="All")``
 
         :param edges: The edges to split. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
         :param at: The position of the new vertex on the edge. From 0 to 1, exclusive. If ``edges`` is
-            ``sel.Between("v", "w")``, 0 is at v and 1 is at w. Otherwise 0 is at the end with the lower id. Defaults to
-            ``0.5``.
+            ``sel.Between("v", "w")``, position 0 is at v and position 1 is at w. For all other selections, position 0
+            is at the end of the edge with the lower id. Defaults to ``0.5``.
         :param on_refusal: What to do when a split is refused. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
@@ -3580,15 +3612,16 @@ class MeshOperations:
         - ``SameFace``: the same face is on both sides of the edge, or would be on both sides of another edge.
         - ``SameOpposite``: the two triangles beside the edge share another edge.
 
-        Values at the remaining vertex and its corners are interpolated between the ends of the edge, on each side of a
-        seam separately. When two edges become one, the remaining edge has the larger of the two creases, and the tags
-        of both. Normals are dropped.
+        Attribute values at the remaining vertex and at its corners are interpolated between the ends of the edge. At a
+        seam, the two sides are interpolated separately. When two edges become one, the remaining edge gets the larger
+        of the two crease values and the tags of both edges. Normals are dropped.
 
         Example: ``mesh.collapse_edges(edges="All", on_refusal="Skip")``
 
         :param edges: The edges to collapse. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
         :param at: The position of the remaining vertex on the edge, from 0 to 1. If ``edges`` is ``sel.Between("v",
-            "w")``, 0 is at v and 1 is at w. Otherwise 0 is at the end with the lower id. Defaults to ``0.5``.
+            "w")``, position 0 is at v and position 1 is at w. For all other selections, position 0 is at the end of the
+            edge with the lower id. Defaults to ``0.5``.
         :param on_refusal: What to do when a collapse is refused. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
@@ -3616,9 +3649,9 @@ class MeshOperations:
         ``dissolve_vertices(vertices=sel.Valence(2))`` in a later step. The remaining elements keep their order and
         their values but get new ids.
 
-        An edge cannot be removed if it is on the boundary, if the same face is on both of its sides, if one of its ends
-        has only two edges, or if its two faces have common corners other than its ends. A seam edge is removed only if
-        ``seams`` is ``Drop``.
+        An edge cannot be removed if it is on the boundary, if the same face is on both of its sides, or if one of its
+        ends has only two edges. An edge also cannot be removed if its two faces have a common corner that is not an end
+        of the edge. A seam edge is removed only if ``seams`` is ``Drop``.
 
         Example: ``mesh.dissolve_edges(edges=sel.Between(0, 1))``
 
@@ -3651,31 +3684,32 @@ class MeshOperations:
         A selected edge and both of its ends are removed, and a new face replaces the edge. The new face extends into
         both faces beside the old edge, up to the distance ``width`` from this edge. An edge that is not selected, but
         shares an end with a selected edge, is cut near this end. If the two edges are neighboring sides of a face, the
-        cut is where the distance from the selected edge is ``width``, but at most four times ``width`` from the end.
-        Otherwise, the cut is at the distance ``width`` from the end. Where two selected edges are neighboring sides of
-        a face, the new vertex lies inside this face. If three or more new vertices surround an old vertex, another new
-        face joins them. All edges are beveled together, so a cube that is beveled at all edges keeps all of its
-        symmetries.
+        cut is where the distance from the selected edge is ``width``, but at most four times ``width`` from the shared
+        end. Otherwise, the cut is at the distance ``width`` from the shared end. Where two selected edges are
+        neighboring sides of a face, the new vertex lies inside this face. If three or more new vertices surround an old
+        vertex, another new face joins them. All edges are beveled together, so a cube that is beveled at all edges
+        keeps all of its symmetries.
 
         The ends of the edges are removed, so the ids of the vertices after them change. New vertices get the highest
         ids. Faces keep their ids. New faces get the highest ids: first the faces of edges, in order of the edges, then
         the faces of vertices. Edges get new ids.
 
         A new vertex has the values of the old face at its position, so textures do not change. A new face has the
-        values (material, tags) of one of the old faces beside it. Which face is not specified, but the choice is the
-        same in every run. New edges have zero values (no crease, no tags). Normals are dropped.
+        values (material, tags) of one of the old faces beside it. It is not specified which of these faces is used, but
+        the choice is the same in every run. New edges have zero values (no crease, no tags). Normals are dropped.
 
-        An edge cannot be beveled if it is on the boundary (``Boundary``), if one of its ends has only one other edge
-        and this edge is not selected (``FewEdges``), or if the bevels at both ends of an edge would overlap
-        (``OutsideEdge``). If the result would not be manifold, no edge is beveled (``NonManifold``).
+        An edge cannot be beveled if it is on the boundary (``Boundary``), or if one of its ends has only one other edge
+        and this other edge is not selected (``FewEdges``). An edge also cannot be beveled if the bevels at both ends of
+        an edge would overlap (``OutsideEdge``). If the result would not be manifold, no edge is beveled
+        (``NonManifold``).
 
         Example: ``mesh.bevel_edges(edges=sel.Between(0, 2), width=0.25)``
 
         :param edges: The edges to bevel. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
         :param width: The distance from the beveled edge to the new edge in each of the two faces beside it, in scene
             units. Either ``width`` or ``fraction`` must be given.
-        :param fraction: The width as a fraction of the length of the shortest edge at the ends of the selected edges.
-            From 0 to 1, exclusive.
+        :param fraction: The width as a fraction of the length of the shortest edge that is selected or shares a vertex
+            with a selected edge. From 0 to 1, exclusive.
         :param on_refusal: What to do when an edge cannot be beveled. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
@@ -3698,18 +3732,19 @@ class MeshOperations:
         """Makes edges and vertices sharp for subdivision.
 
         Sets the edge attribute ``crease`` of the selected edges and the vertex attribute ``corner`` of the selected
-        vertices to ``sharpness``. Other elements keep their values, or get 0 if the attribute did not exist. Loop and
-        Catmull-Clark subdivision keep an edge or a vertex sharp for as many levels as its sharpness, and smooth it in
-        later levels. For example, an edge with sharpness 2.5 is sharp for two levels and half sharp in the third level.
-        With sharpness 10, an edge is sharp at every level. Boundary edges are always sharp.
+        vertices to ``sharpness``. Elements that are not selected keep their values, or get 0 if the attribute did not
+        exist before the step. Loop and Catmull-Clark subdivision keep an edge or a vertex sharp for as many levels as
+        its sharpness, and smooth it in later levels. For example, an edge with sharpness 2.5 is sharp for two levels
+        and half sharp in the third level. With sharpness 10, an edge is sharp at every level. Boundary edges are always
+        sharp.
 
         At least one of ``edges`` and ``vertices`` must be given. The geometry does not change. The report counts the
         elements whose value changed.
 
         Example: ``mesh.crease(edges=sel.Sharp(above=40), sharpness=2.5)``
 
-        :param sharpness: The number of levels for which the elements stay sharp, from 0 to 10. With 0, creases are
-            removed. With 10, the elements are sharp at every level.
+        :param sharpness: The number of subdivision levels for which the elements stay sharp, from 0 to 10. With 0,
+            creases are removed. With 10, the elements are sharp at every level.
         :param edges: The edges to change. If omitted, no edges. ``"All"``, ``"Boundary"``, or a value of
             ``meshwright.sel``.
         :param vertices: The vertices to change. If omitted, no vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or
@@ -3733,11 +3768,11 @@ class MeshOperations:
         """Inserts a vertex at the center of each face and connects it to the corners of the face.
 
         A face with n corners becomes n triangles. Each poked face adds 1 vertex, n edges and n - 1 faces. The first
-        triangle keeps the id of the face; the other triangles and the new vertices and edges get the highest ids, in
+        triangle keeps the id of the face. The other triangles and the new vertices and edges get the highest ids, in
         order of the faces. The new vertex is at the mean of the corners, moved along the normal of the face by
-        ``distance``. For vertex and corner attributes that edits interpolate, the value at the new vertex is also the
-        mean of the values at the corners. The triangles have the values of their face, and the new edges have zero
-        values (no crease, no tags). If ``distance`` is not 0, normals are dropped.
+        ``distance``. If edits interpolate a vertex or corner attribute, its value at the new vertex is the mean of its
+        values at the corners. The triangles have the values of their face, and the new edges have zero values (no
+        crease, no tags). If ``distance`` is not 0, normals are dropped.
 
         A face cannot be poked if it contains a vertex twice, if the position of the new vertex would not be finite, or
         if the mesh already has the largest supported number of elements.
@@ -3746,9 +3781,9 @@ class MeshOperations:
 
         :param faces: The faces to poke. Defaults to ``"All"``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a
             value of ``meshwright.sel``.
-        :param distance: The distance of the vertex from the center along the normal of the face, in scene units. A
-            negative distance moves the vertex inwards. A zero-area face has no normal, so its vertex is at the center.
-            Defaults to ``0.0``.
+        :param distance: The distance of the new vertex from the center of the face, along the normal of the face, in
+            scene units. A negative distance moves the vertex inwards. A zero-area face has no normal, so its new vertex
+            is at the center. Defaults to ``0.0``.
         :param on_refusal: What to do when a face cannot be poked. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
@@ -3771,12 +3806,13 @@ class MeshOperations:
 
         Each pair (v, w) of vertices cuts the face that has both vertices as corners. The new edge joins the two
         vertices. Each cut adds 1 edge and 1 face. Cuts are made in the order of the list, so a face can be cut several
-        times. The part of the face to the right of the line from v to w is the new face, and the other part keeps the
-        id. New edges and faces get the highest ids. Corners keep their values, the new face has the values of the old
-        face, and the new edge has zero values (no crease, no tags).
+        times. A cut from v to w divides the face into two parts. The part to the right of the line from v to w is the
+        new face, and the other part keeps the id of the old face. New edges and faces get the highest ids. Corners keep
+        their values. The new face has the values of the old face, and the new edge has zero values (no crease, no
+        tags).
 
-        A cut is refused if the two vertices are the same, if they are already joined by an edge, if no face has both as
-        corners, or if several faces have both as corners, because the cut would be ambiguous.
+        A cut is refused if the two vertices are the same or are already joined by an edge. A cut is also refused if no
+        face has both vertices as corners, or if several faces do, because the cut would then be ambiguous.
 
         Example: ``mesh.split_faces(between=[])``
 
@@ -3841,24 +3877,25 @@ class MeshOperations:
         """Moves faces out of the surface and connects them to their old rim with side faces.
 
         Selected faces that share an edge form a region and move together, with one normal and one center. A region is
-        first scaled, then rotated, both about the mean of its vertices, and then moved. Side faces with four corners
-        are added along the rim of the region. The rim consists of the edges with a face of the region on one side only.
-        If all faces of an open sheet are extruded, the result is a box that is open where the sheet was. A closed
-        region has no rim, so its faces only move. If the area vectors of the faces cancel each other out, as in a
-        closed region, the region has no normal, and ``by`` must be an ``choice.Offset``.
+        first scaled, then rotated, and then moved. The fixed point of scaling and rotation is the mean of the vertices
+        of the region. Side faces with four corners are added along the rim of the region. The rim of a region consists
+        of the edges with a face of the region on exactly one side. If all faces of an open sheet are extruded, the
+        result is a box that is open where the sheet was. A closed region has no rim, so its faces only move. If the
+        area vectors of the faces cancel each other out, as in a closed region, the region has no normal, and ``by``
+        must be an ``choice.Offset``.
 
         The faces keep their ids, so the same selection can be extruded again in later steps, for example to grow an arm
         out of a body. Vertices and edges inside a region also keep their ids. The vertices and edges of the old rim do
-        not move, and the moved faces get a new rim. New side faces get the highest ids: region by region, in order of
-        the lowest face id of each region, then in order of the faces, then counter-clockwise around each face from its
-        first corner. New vertices are in the same order. Each new vertex is a copy of the first vertex of its side
-        face.
+        not move, and the moved faces get a new rim. New side faces get the highest ids. They are ordered by region (by
+        the lowest face id of each region), then by face, and then counter-clockwise around each face from its first
+        corner. The new vertices are in the same order as the side faces. Each new vertex is a copy of the first vertex
+        of the corresponding side face.
 
         A side face has the values of the adjacent moved face (material, tags). The corners of a side face have the
         values of the corners of the moved face, so textures have no seam between the two faces. However, a side face
-        shows only the line of the texture along the edge of the moved face, stretched over the side face. The new edges
-        of the rim have the values of the old ones (creases, tags), and the edges between the old and the new rim have
-        zero values (no crease, no tags). Normals are dropped.
+        shows only one line of the texture: the line along the edge of the moved face, stretched over the whole side
+        face. The edges of the new rim have the values of the edges of the old rim (creases, tags). The edges between
+        the old and the new rim have zero values (no crease, no tags). Normals are dropped.
 
         Example: ``mesh.extrude_faces(faces=sel.Faces([0]), by=choice.Distance(0.5))``
 
@@ -3870,8 +3907,8 @@ class MeshOperations:
         :param scale: The factor by which each region is scaled about its center. More than 0. Defaults to ``1.0``.
         :param rotate: Rotations of each region about its center, applied in order.
             ``"axis"``: The direction of the axis.
-            ``"angle"``: The angle in degrees, counter-clockwise when the axis points towards the viewer. Rotations by
-                multiples of 90 degrees are exact.
+            ``"angle"``: The angle of the rotation, in degrees. A positive angle is counter-clockwise if the axis points
+                towards the viewer. Rotations by multiples of 90 degrees have no rounding errors.
         :param tag: The name of a tag for the moved faces and their side faces. Faces that already have the tag keep it.
             If omitted, no faces are tagged.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
@@ -3897,9 +3934,10 @@ class MeshOperations:
         New vertices and faces get the highest ids: in order of the selected faces, and counter-clockwise around each
         face from its first corner.
 
-        Values at the new corners and vertices are interpolated between the values of the outer corner and the mean of
-        all corners of the face, so textures do not change. The ring has the values of the face (material, tags), and
-        the inner edges have the values of the outer edges. Normals are dropped.
+        Values at a new corner or vertex are interpolated between the value at the outer corner and the mean of the
+        values at all corners of the face. Textures therefore do not change. The faces of the ring have the values of
+        the old face (material, tags). The edges of the inner face have the values of the outer edges. Normals are
+        dropped.
 
         A face cannot be inset if it is on both sides of one of its edges.
 
@@ -3937,9 +3975,9 @@ class MeshOperations:
         highest ids: in order of the selected faces, and counter-clockwise around each face from its first corner. A
         zero-area face has no normal, so its inner face is not raised.
 
-        Values at the new corners and vertices are interpolated between the values of the outer corner and the mean of
-        all corners of the face. The ring has the values of the face (material, tags), and the inner edges have the
-        values of the outer edges. Normals are dropped.
+        Values at a new corner or vertex are interpolated between the value at the outer corner and the mean of the
+        values at all corners of the face. The faces of the ring have the values of the old face (material, tags). The
+        edges of the inner face have the values of the outer edges. Normals are dropped.
 
         A face cannot be beveled if it is on both sides of one of its edges.
 
@@ -3979,9 +4017,10 @@ class MeshOperations:
         kept, with its values. The remaining elements keep their order and their values but get new ids. Normals are
         dropped.
 
-        A vertex cannot be removed if it is isolated or has a single edge, if a neighbor would be left with a single
-        edge inside a face, if a face would contain a vertex twice or have fewer than three corners, or if an edge would
-        join two vertices that are already joined. A vertex at a seam is removed only if ``seams`` is ``Drop``.
+        A vertex cannot be removed if it is isolated or has a single edge, or if a neighbor would be left with a single
+        edge inside a face. A vertex also cannot be removed if a face would contain a vertex twice or have fewer than
+        three corners, or if an edge would join two vertices that are already joined. A vertex at a seam is removed only
+        if ``seams`` is ``Drop``.
 
         Example: ``mesh.dissolve_vertices(vertices=sel.Vertices([1]))``
 
@@ -4011,16 +4050,17 @@ class MeshOperations:
     ) -> Self:
         """Replaces vertices with faces.
 
-        Each edge at a selected vertex is cut at a fraction of the length that it had before the step, and a new face
-        joins the cuts. The new face has as many corners as the vertex had edges. If both ends of an edge are selected,
-        the fraction must be below 0.5. For example, a fraction of 0.25 turns a cube into a truncated cube.
+        Each edge at a selected vertex is cut near this vertex, and a new face joins the cuts. The distance of a cut
+        from the vertex is a fraction of the length that the edge had before the step. The new face has as many corners
+        as the vertex had edges. If both ends of an edge are selected, the fraction must be below 0.5. For example, a
+        fraction of 0.25 turns a cube into a truncated cube.
 
         The selected vertices are removed, so the ids of the vertices after them change. New vertices get the highest
         ids, in order of the selected vertices and clockwise around each vertex. Faces keep their ids; new faces get the
         highest ids, in order of the vertices.
 
         Values at the cuts are interpolated between the ends of the edge, so textures do not change. A new face has the
-        values (material, tags) of one of the faces at the vertex. Which of the faces is not specified, but the choice
+        values (material, tags) of one of the faces at the vertex. Which face is used is not specified, but the choice
         is the same in every run. New edges have zero values (no crease, no tags). Normals are dropped.
 
         A vertex cannot be beveled if it is on the boundary, if it has fewer than three edges, or if one of its edges is
@@ -4111,12 +4151,12 @@ class MeshOperations:
         a boundary loop; use ``around`` or ``max_edges`` to exclude it. No vertices are added, and existing elements
         keep their ids. A hole with n edges gets 1 face with n corners, or n - 2 triangles and n - 3 edges.
 
-        For holes with up to 500 edges, the triangles have the smallest possible total area. In larger holes, a triangle
-        is added at one corner after the other, each time at the corner whose two neighbors are closest to each other.
-        Straight and reflex corners come last. If the hole is far from convex, the triangles may overlap. Two vertices
-        that are already joined by an edge are not joined by a second edge. If no triangulation without second edges is
-        found, the hole cannot be filled (``DuplicateEdge``). A hole with two edges cannot be filled either
-        (``WrongPlace``); ``stitch()`` closes it.
+        For holes with up to 500 edges, the triangles have the smallest possible total area. A hole with more than 500
+        edges is filled one triangle at a time. Each triangle is added at the corner whose two neighbors are closest to
+        each other. Triangles at straight and reflex corners are added last. If the hole is far from convex, the
+        triangles may overlap. Two vertices that are already joined by an edge are not joined by a second edge. If no
+        triangulation without duplicate edges is found, the hole cannot be filled (``DuplicateEdge``). A hole with two
+        edges cannot be filled (``WrongPlace``). Use ``stitch()`` to close it.
 
         New faces have the values of a face beside the hole. New corners have the values of the corner at the same
         vertex in the adjacent face. Normals are dropped if a hole was filled.
@@ -4149,23 +4189,24 @@ class MeshOperations:
     ) -> Self:
         """Joins two holes with a band of faces.
 
-        Each hole is identified by one of its vertices. An edge joins the two vertices, and the band goes around both
-        holes from this edge. Holes with n and m edges, where n is at least m, are joined by m quadrilaterals and n - m
-        evenly spread triangles. The step adds n edges and no vertices. Both holes may be in one connected part of the
-        mesh, which then gets a tunnel or a handle, or in two separate parts of the same mesh. (``join()`` joins two
+        Each hole is identified by one of its vertices. The band starts at a new edge that joins the two given vertices,
+        and goes around both holes. Holes with n and m edges, where n is at least m, are joined by m quadrilaterals and
+        n - m evenly spread triangles. The step adds n edges and no vertices. Both holes may be in one connected part of
+        the mesh, which then gets a tunnel or a handle, or in two separate parts of the same mesh. (``join()`` joins two
         objects into one.)
 
-        New faces have the values of the adjacent faces at the longer hole. New corners have the values of the corners
-        at the same vertices in the adjacent faces. Normals are dropped.
+        New faces have the values of the adjacent faces at the hole with more edges. New corners have the values of the
+        corners at the same vertices in the adjacent faces. Normals are dropped.
 
-        The step is refused if a vertex is not on the boundary (``NotBoundary``), if both vertices are on the same hole
-        (``WrongPlace``), or if the band would join two vertices that are already joined by an edge (``DuplicateEdge``).
-        If the reason is ``DuplicateEdge``, the step may succeed with other vertices.
+        The step is refused if a vertex is not on the boundary (``NotBoundary``), or if both vertices are on the same
+        hole (``WrongPlace``). The step is also refused if the band would join two vertices that are already joined by
+        an edge (``DuplicateEdge``). If a step is refused as ``DuplicateEdge``, it may succeed with other vertices of
+        the same holes.
 
         Example: ``mesh.bridge_loops(first=0, second=5)``
 
         :param first: The id of a vertex on the first hole.
-        :param second: The id of the vertex on the second hole that is joined to ``first``.
+        :param second: The id of a vertex on the second hole. A new edge joins this vertex to the vertex ``first``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
             `True` for a bar of tqdm.
@@ -4184,17 +4225,18 @@ class MeshOperations:
         """Joins boundary edges that coincide.
 
         Two boundary edges coincide if both pairs of corresponding ends are at most ``distance`` apart. Two edges that
-        coincide only with each other form a pair. Choose a distance below the lengths of the edges. If an edge
-        coincides with several edges, neither this edge nor the others are joined (``NonManifold``). Unlike ``weld()``,
-        this operation never merges vertices inside the surface or vertices whose edges do not coincide.
+        coincide only with each other form a pair. Choose a ``distance`` that is less than the lengths of the edges. If
+        an edge coincides with several edges, none of these edges is joined (``NonManifold``). Unlike ``weld()``, this
+        operation never merges vertices inside the surface or vertices whose edges do not coincide.
 
-        Of each pair of vertices or edges, the one with the lower id keeps its position and its values. The other vertex
-        or edge is removed, so the ids of the vertices or edges after it change. Faces and corners do not change, so an
-        edge whose sides have different UVs becomes a seam. Remaining holes with two edges are also closed.
+        When two vertices or two edges become one, the one with the lower id is kept, with its position and values. The
+        vertex or edge with the higher id is removed, so the ids of the vertices or edges after it change. Faces and
+        corners do not change, so an edge whose sides have different UVs becomes a seam. Remaining holes with two edges
+        are also closed.
 
-        A pair cannot be joined if both edges belong to the same face (``SameFace``), if the ends of an edge would
-        become one vertex or a face would contain a vertex twice (``WrongPlace``), or if two edges would join the same
-        vertices (``DuplicateEdge``).
+        A pair of edges cannot be joined if both edges belong to the same face (``SameFace``), or if two edges would
+        then join the same vertices (``DuplicateEdge``). A pair also cannot be joined if the ends of an edge would
+        become one vertex, or if a face would contain a vertex twice (``WrongPlace``).
 
         Example: ``mesh.stitch(distance=0)``
 
@@ -4222,14 +4264,14 @@ class MeshOperations:
         """Opens the mesh along edges.
 
         The edges may form paths, loops and trees. A loop can cut out a piece. Each edge becomes two edges, one for each
-        side. If the cuts separate the faces around a vertex into several parts, each part gets a separate copy of the
-        vertex. The part that contains the face with the lowest id keeps the id of the vertex, and new vertices get the
-        highest ids. Faces keep their ids, and no vertex moves. Copies have the values of the originals, and corners
-        keep their values. ``stitch()`` is the inverse.
+        side of the cut. If the cuts separate the faces around a vertex into several parts, each part gets a separate
+        copy of the vertex. The part that contains the face with the lowest id keeps the id of the vertex, and new
+        vertices get the highest ids. Faces keep their ids, and no vertex moves. Copies of vertices and edges have the
+        values of the originals. Corners keep their values. ``stitch()`` is the inverse.
 
-        All edges are cut at once. An edge cannot be cut if it is on the boundary (``Boundary``), or if the cut would
-        not open the mesh because both ends are inside the mesh and no other cut continues at either end
-        (``DuplicateEdge``).
+        All edges are cut at once. An edge on the boundary cannot be cut (``Boundary``). An edge also cannot be cut if
+        both of its ends are inside the mesh and no other cut continues at either end, because such a cut would not open
+        the mesh (``DuplicateEdge``).
 
         Example: ``mesh.cut(edges="All")``
 
@@ -4342,19 +4384,19 @@ class MeshOperations:
     ) -> Self:
         """Splits every triangle into four and smooths the surface, for a number of levels.
 
-        A level turns V vertices, E edges and F triangles into V + E vertices, 2 E + 3 F edges and 4 F triangles, so V -
-        E + F does not change. Old vertices keep their ids, the vertex on edge e has the id V + e, edge e becomes edges
-        2e and 2e + 1, and face f becomes faces 4f to 4f + 3. All faces must be triangles.
+        A level turns V vertices, E edges and F triangles into V + E vertices, 2 E + 3 F edges and 4 F triangles. V - E
+        + F does not change. Old vertices keep their ids, and the vertex on edge e has the id V + e. Edge e becomes
+        edges 2e and 2e + 1, and face f becomes faces 4f to 4f + 3. All faces must be triangles.
 
-        Vertex attributes are smoothed with the weights of the positions. Texture coordinates and other corner values
-        are smoothed according to ``face_varying``, and seams are kept. Parts of an edge or a triangle copy the values
-        of the old edge or triangle. Normals are dropped, because they would be wrong. An edge or a vertex to which
-        ``crease()`` gave the sharpness s stays sharp for s levels.
+        Vertex attributes are smoothed with the same weights as the positions. Texture coordinates and other corner
+        values are smoothed according to ``face_varying``, and seams are kept. Parts of an edge or a triangle copy the
+        values of the old edge or triangle. Normals are dropped, because they would be wrong. An edge or a vertex to
+        which ``crease()`` gave the sharpness s stays sharp for s levels.
 
         Example: ``mesh.loop_subdivide(levels=2)``
 
         :param levels: The number of levels. Each level multiplies the number of triangles by four. Defaults to 1. With
-            ``until``, this is the maximum number of levels, and it defaults to 16.
+            ``until``, ``levels`` is the maximum number of levels and defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
@@ -4374,13 +4416,12 @@ class MeshOperations:
         :param face_varying: How texture coordinates and other corner values are smoothed. Defaults to ``"All"``.
             ``"None"``: Values are smoothed everywhere.
             ``"CornersOnly"``: Like ``None_``, but the value of a piece with a single face does not change.
-            ``"CornersPlus1"``: Like ``CornersOnly``, but values also do not change where three or more pieces meet, or
-                where two pieces meet and one of them has a sharp edge inside or is not contiguous.
+            ``"CornersPlus1"``: Like ``CornersOnly``, but values also do not change where three or more pieces meet.
             ``"CornersPlus2"``: Like ``CornersPlus1``, but values also do not change at the ends of seams.
             ``"Boundaries"``: Values are interpolated linearly along seams and boundaries, and smoothed elsewhere.
             ``"All"``: Values are interpolated linearly everywhere: each new value is a mean of values of one old face.
-        :param to_limit: Whether to move the vertices of the last level to the limit surface and to store its normals
-            and tangents. Defaults to ``False``.
+        :param to_limit: Whether to move the vertices of the last level to the limit surface and to store the normals
+            and tangents of this surface. Defaults to ``False``.
         :param faces: The faces to refine. If omitted, all faces. Triangles next to the refined faces are cut in two or
             four, so that no vertex lies inside an edge. The surface outside the refined faces does not move. For the
             ids of new elements, see ``subdivision::refine_faces``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``,
@@ -4408,19 +4449,20 @@ class MeshOperations:
         """Splits every face into quads and smooths the surface, for a number of levels.
 
         A level creates a quad at each corner of each face. A level turns V vertices, E edges and F faces with C corners
-        in total into V + E + F vertices, 2 E + C edges and C quads, so V - E + F does not change. Old vertices keep
-        their ids, the vertex on edge e has the id V + e, the vertex at the center of face f has the id V + E + f, and
-        edge e becomes edges 2e and 2e + 1. The ids of quads follow the order of the faces and of their corners.
+        in total into V + E + F vertices, 2 E + C edges and C quads. V - E + F does not change. Old vertices keep their
+        ids. The vertex on edge e has the id V + e, and the vertex at the center of face f has the id V + E + f. Edge e
+        becomes edges 2e and 2e + 1. The quads are numbered in the order of the old faces and, in each face, in the
+        order of its corners.
 
-        Vertex attributes are smoothed with the weights of the positions. Texture coordinates and other corner values
-        are smoothed according to ``face_varying``, and seams are kept. Parts of an edge or a face copy the values of
-        the old edge or face. Normals are dropped, because they would be wrong. An edge or a vertex to which
+        Vertex attributes are smoothed with the same weights as the positions. Texture coordinates and other corner
+        values are smoothed according to ``face_varying``, and seams are kept. Parts of an edge or a face copy the
+        values of the old edge or face. Normals are dropped, because they would be wrong. An edge or a vertex to which
         ``crease()`` gave the sharpness s stays sharp for s levels.
 
         Example: ``mesh.catmull_clark(levels=2)``
 
         :param levels: The number of levels. Each level replaces every corner of a face with a quad. Defaults to 1. With
-            ``until``, this is the maximum number of levels, and it defaults to 16.
+            ``until``, ``levels`` is the maximum number of levels and defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
@@ -4437,13 +4479,12 @@ class MeshOperations:
         :param face_varying: How texture coordinates and other corner values are smoothed. Defaults to ``"All"``.
             ``"None"``: Values are smoothed everywhere.
             ``"CornersOnly"``: Like ``None_``, but the value of a piece with a single face does not change.
-            ``"CornersPlus1"``: Like ``CornersOnly``, but values also do not change where three or more pieces meet, or
-                where two pieces meet and one of them has a sharp edge inside or is not contiguous.
+            ``"CornersPlus1"``: Like ``CornersOnly``, but values also do not change where three or more pieces meet.
             ``"CornersPlus2"``: Like ``CornersPlus1``, but values also do not change at the ends of seams.
             ``"Boundaries"``: Values are interpolated linearly along seams and boundaries, and smoothed elsewhere.
             ``"All"``: Values are interpolated linearly everywhere: each new value is a mean of values of one old face.
-        :param to_limit: Whether to move the vertices of the last level to the limit surface and to store its normals
-            and tangents. Defaults to ``False``.
+        :param to_limit: Whether to move the vertices of the last level to the limit surface and to store the normals
+            and tangents of this surface. Defaults to ``False``.
         :param faces: The faces to refine. If omitted, all faces. Faces next to the refined faces get the new vertices
             on common edges as additional corners. The surface outside the refined faces does not move. For the ids of
             new elements, see ``subdivision::refine_faces``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a
@@ -4469,10 +4510,10 @@ class MeshOperations:
 
         ``into="Triangles"`` requires a mesh of triangles. A level turns V vertices, E edges and F triangles into V + E
         vertices, 2 E + 3 F edges and 4 F triangles. ``into="Quads"`` accepts all polygons and creates a quad at each
-        corner: V vertices, E edges and F faces with C corners in total become V + E + F vertices, 2 E + C edges and C
-        quads. Old vertices keep their ids and positions, the vertex on edge e has the id V + e, and edge e becomes
-        edges 2e and 2e + 1. Triangle f becomes faces 4f to 4f + 3. The ids of quads follow the order of the faces, and
-        the vertex at the center of face f has the id V + E + f.
+        corner. V vertices, E edges and F faces with C corners in total become V + E + F vertices, 2 E + C edges and C
+        quads. Old vertices keep their ids and positions, and the vertex on edge e has the id V + e. Edge e becomes
+        edges 2e and 2e + 1. Triangle f becomes faces 4f to 4f + 3. The quads are numbered in the order of the old
+        faces. The vertex at the center of face f has the id V + E + f.
 
         Vertex attributes are interpolated. Corner values are interpolated within each old face separately. Parts of an
         edge or a face copy the values of the old edge or face, including sharpness. Normals are dropped.
@@ -4480,7 +4521,7 @@ class MeshOperations:
         Example: ``mesh.midpoint(levels=2, into="Quads")``
 
         :param levels: The number of levels. Each level multiplies the number of faces by about four. Defaults to 1.
-            With ``until``, this is the maximum number of levels, and it defaults to 16.
+            With ``until``, ``levels`` is the maximum number of levels and defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
@@ -4511,18 +4552,18 @@ class MeshOperations:
         """Splits every triangle into four and smooths the surface without moving the old vertices, for a number of
         levels.
 
-        A level turns V vertices, E edges and F triangles into V + E vertices, 2 E + 3 F edges and 4 F triangles, so V -
-        E + F does not change. Old vertices keep their ids, the vertex on edge e has the id V + e, edge e becomes edges
-        2e and 2e + 1, and face f becomes faces 4f to 4f + 3. All faces must be triangles.
+        A level turns V vertices, E edges and F triangles into V + E vertices, 2 E + 3 F edges and 4 F triangles. V - E
+        + F does not change. Old vertices keep their ids, and the vertex on edge e has the id V + e. Edge e becomes
+        edges 2e and 2e + 1, and face f becomes faces 4f to 4f + 3. All faces must be triangles.
 
-        Vertex attributes are interpolated with the weights of the positions, and corner values are interpolated
-        linearly within each old triangle separately. Parts of an edge or a triangle copy the values of the old edge or
+        Vertex attributes are interpolated with the same weights as the positions. Corner values are interpolated
+        linearly, separately in each old triangle. Parts of an edge or a triangle copy the values of the old edge or
         triangle. Normals are dropped, because they would be wrong. Sharpness has no effect and is copied unchanged.
 
         Example: ``mesh.butterfly(levels=1)``
 
         :param levels: The number of levels. Each level multiplies the number of triangles by four. Defaults to 1. With
-            ``until``, this is the maximum number of levels, and it defaults to 16.
+            ``until``, ``levels`` is the maximum number of levels and defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
@@ -4544,22 +4585,23 @@ class MeshOperations:
     ) -> Self:
         """Splits every triangle into three, flips the old edges, and smooths the surface, for a number of levels.
 
-        A level turns V vertices, E edges and F triangles into V + F vertices, E + 3 F edges and 3 F triangles. Every
-        second level adds one more vertex and one more edge for each boundary edge. V - E + F does not change. Old
-        vertices keep their ids, the vertex in face f has the id V + f, and face f becomes faces 3f to 3f + 2. All faces
+        A level turns V vertices, E edges and F triangles into V + F vertices, E + 3 F edges and 3 F triangles. In
+        addition, every second level adds one vertex and one edge for each boundary edge. V - E + F does not change. Old
+        vertices keep their ids. The vertex in face f has the id V + f, and face f becomes faces 3f to 3f + 2. All faces
         must be triangles. Levels are counted from the start of the step. One step of two levels therefore cuts the
         boundary edges, but two steps of one level leave the boundary unchanged.
 
-        Vertex attributes are smoothed with the weights of the positions. Corner values are interpolated linearly within
-        each old triangle separately. A triangle next to a flipped edge covers parts of two old triangles. If the old
-        edge was a seam, the triangle mixes texture coordinates of both sides, which distorts textures. New triangles
-        copy the values of their old triangle. Parts of a boundary edge copy the values of the edge; other edges have
-        zero values (no crease, no tags). Normals are dropped, because they would be wrong.
+        Vertex attributes are smoothed with the same weights as the positions. Corner values are interpolated linearly
+        within each old triangle separately. A triangle next to a flipped edge covers parts of two old triangles. If the
+        flipped edge was a seam, the triangle mixes texture coordinates of both sides of the seam, which distorts
+        textures. New triangles copy the values of their old triangle. Parts of a boundary edge copy the values of the
+        boundary edge. All other edges have zero values (no crease, no tags). Normals are dropped, because they would be
+        wrong.
 
         Example: ``mesh.sqrt3(levels=1)``
 
         :param levels: The number of levels. Each level multiplies the number of triangles by three. Defaults to 1. With
-            ``until``, this is the maximum number of levels, and it defaults to 16.
+            ``until``, ``levels`` is the maximum number of levels and defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
@@ -4583,20 +4625,20 @@ class MeshOperations:
 
         A level turns a closed mesh with V vertices, E edges and F faces into a mesh with 2 E vertices, 4 E edges and V
         + E + F faces. If the mesh has a boundary, a level creates additional elements along the boundary. V - E + F
-        does not change. The face inside old face f has the id f, the face of edge e has the id F + e, and the faces of
-        vertices follow. Isolated vertices are kept. Their ids follow the ids of all other vertices. Isolated vertices
-        and inner vertices of valence 2 do not become faces.
+        does not change. The face inside old face f has the id f, and the face of edge e has the id F + e. The faces of
+        vertices have the highest ids. Isolated vertices are kept. The ids of isolated vertices follow the ids of all
+        other vertices. Isolated vertices and inner vertices of valence 2 do not become faces.
 
-        Vertex attributes are smoothed with the weights of the positions. Corner values are smoothed within each old
-        face separately. The new faces at edges and vertices mix corner values of several old faces. At a seam, this
+        Vertex attributes are smoothed with the same weights as the positions. Corner values are smoothed within each
+        old face separately. The new faces at edges and vertices mix corner values of several old faces. At a seam, this
         distorts textures. A face inside an old face copies the values of the old face; the face of an edge or a vertex
-        copies the values of an adjacent face. The two edges along an old edge copy its values; other edges have zero
-        values (no crease, no tags). Normals are dropped, because they would be wrong.
+        copies the values of an adjacent face. The two new edges along an old edge copy the values of this edge. All
+        other edges have zero values (no crease, no tags). Normals are dropped, because they would be wrong.
 
         Example: ``mesh.doo_sabin(levels=1)``
 
         :param levels: The number of levels. Each level multiplies the number of faces by about four. Defaults to 1.
-            With ``until``, this is the maximum number of levels, and it defaults to 16.
+            With ``until``, ``levels`` is the maximum number of levels and defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
@@ -4620,18 +4662,19 @@ class MeshOperations:
     ) -> Self:
         """Cuts meshes along a plane.
 
-        Every edge that crosses the plane gets a vertex on the plane. Every face that crosses the plane is cut along it.
-        A concave face can be cut several times. A vertex counts as on the plane if its distance from the plane is at
-        most 1e-9 times the largest extent of the mesh, or at most 1e-14 times the largest absolute coordinate. Such a
-        vertex is not moved. When an edge is cut, the part at the start of its first half-edge keeps the id of the edge.
-        When a face is cut, the part with the first corner keeps the id of the face. New elements get the highest ids.
-        Attributes are interpolated at the crossings, separately on each side of a seam.
+        Every edge that crosses the plane gets a vertex on the plane. Every face that crosses the plane is cut along the
+        plane. A concave face can be cut several times. A vertex counts as on the plane if its distance from the plane
+        is at most 1e-9 times the largest extent of the mesh, or at most 1e-14 times the largest absolute coordinate.
+        Such a vertex is not moved. When an edge is cut, the part at the start of its first half-edge keeps the id of
+        the edge. When a face is cut, the part with the first corner keeps the id of the face. New elements get the
+        highest ids. Where an edge crosses the plane, attributes are interpolated. At a seam, the two sides are
+        interpolated separately.
 
         With ``keep="Front"`` or ``keep="Back"``, the other side of the plane is removed. A face in the plane belongs to
         the back if its normal points to the front, because the face then closes the solid behind the plane. Vertices
         left without a face are removed. If the remaining faces around a vertex form several fans, each fan gets a
-        separate copy of the vertex. No faces are added to close the cut. To close it, use ``fill_holes()`` in a later
-        step.
+        separate copy of the vertex. No faces are added to close the cut. To close the cut, use ``fill_holes()`` in a
+        later step.
 
         Example: ``mesh.bisect(normal=(0, 0, 1))``
 
@@ -4674,7 +4717,8 @@ class MeshOperations:
 
         Example: ``mesh.symmetrize(normal=(1, 0, 0))``
 
-        :param normal: The normal of the plane, which points to the front. Its length does not matter but must not be 0.
+        :param normal: The normal of the plane, which points to the front. The length of the normal does not matter but
+            must not be 0.
         :param point: A point on the plane.
         :param from_: The half that is kept and mirrored. Defaults to ``"Front"``.
             ``"Front"``: The side that the normal points to.
@@ -4721,8 +4765,8 @@ class MeshOperations:
           attribute are not merged.
 
         In a texture, the border of a chart is also simplified, and can then cross a chart that is close to it. The
-        report counts the faces that overlap. To leave more space between charts, use ``pack_uvs()`` with a larger
-        ``padding`` before this step.
+        report counts the faces that overlap in the texture. To leave more space between charts, use ``pack_uvs()`` with
+        a larger ``padding`` before this step.
 
         No triangle is turned over. Remaining elements get new ids, in the order of their old ids. If the number of
         faces cannot be reached and ``error`` is not given, the step is refused as ``Unreached``, and the message states
@@ -4730,20 +4774,20 @@ class MeshOperations:
 
         Example: ``mesh.simplify(ratio=0.5)``
 
-        :param faces: The number of faces to reach, for each mesh. The result can have one face fewer. A mesh that
-            already has at most this number of faces does not change.
+        :param faces: The number of faces to reach, for each mesh. The result can have one face fewer than this number.
+            A mesh that already has at most this number of faces does not change.
         :param ratio: The number of faces to reach, as a fraction of the number of faces of each mesh.
         :param error: The largest allowed Hausdorff distance between the old and the new surface, in scene units. The
-            limit is guaranteed: for each collapse, the step adds an upper bound of the distance by which the surface
-            moves. The true distance is usually between a third of the limit and the limit. If omitted, there is no
+            limit is guaranteed, because the step adds up upper bounds of the distances by which the collapses move the
+            surface. The true distance is usually between a third of the limit and the limit. If omitted, there is no
             limit.
         :param features: Edges to keep as lines, in addition to the lines that are always kept. For example,
             ``sel.Sharp(above=30)``. If omitted, no additional edges. ``"All"``, ``"Boundary"``, or a value of
             ``meshwright.sel``.
         :param pin: Vertices that keep their exact positions, for example ``Boundary``. If omitted, no vertices.
             ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
-        :param intersections: Whether the step may create intersections of faces. They can occur where parts of the
-            surface are close together. Defaults to ``"Allow"``.
+        :param intersections: Whether the step may create intersections of faces. Such intersections can occur where
+            parts of the surface are close together. Defaults to ``"Allow"``.
             ``"Allow"``: New intersections are allowed, and not detected.
             ``"Refuse"``: No changed face intersects another face, so a mesh without self-intersections stays without
                 self-intersections.
@@ -4774,11 +4818,11 @@ class MeshOperations:
 
         Each pass splits long edges, collapses short edges, flips edges so that most vertices have six edges, and moves
         vertices along the surface (Botsch, Kobbelt, 2004). Most edges of the result have 4/5 to 4/3 of the target
-        length. All vertices lie on the original surface, with one exception: a new vertex stays where it is if moving
-        it onto the surface would turn a triangle too far or would move the surface too far. The target length is either
-        ``length``, or it follows ``curvature``: edges are short where the surface is curved, and long where it is flat
-        (Dunyach and others, 2013). Exactly one of ``length`` and ``curvature`` must be given. All faces must be
-        triangles.
+        length. All vertices lie on the original surface, with one exception. A new vertex stays where it is if moving
+        it onto the surface would turn a triangle too far or would move the surface too far. The target length of edges
+        is either ``length``, or it follows ``curvature``. With ``curvature``, edges are short where the surface is
+        curved, and long where it is flat (Dunyach and others, 2013). Exactly one of ``length`` and ``curvature`` must
+        be given. All faces must be triangles.
 
         The following properties are kept:
 
@@ -4795,12 +4839,12 @@ class MeshOperations:
           positions. Vertices with sharpness also keep their exact positions.
 
         The number of faces depends on the area of the mesh, which is not known before the run. Therefore ``check``
-        shows the largest number that fits the memory budget. When the step starts, it estimates the number from the
-        area, and fails if the estimate exceeds the budget.
+        shows the largest number of faces that fits the memory budget. When the step starts, it estimates the number of
+        faces from the area. The step fails if the estimate exceeds the memory budget.
 
         Edits that would turn a triangle by more than 60 degrees are refused. All elements get new ids. If the distance
         between the result and the original could exceed ``error``, the step is refused as ``Unreached``. With
-        ``on_refusal="Skip"``, the mesh then does not change.
+        ``on_refusal="Skip"``, a refused step does not change the mesh.
 
         Example: ``mesh.remesh(length=0.5)``
 
@@ -4808,14 +4852,14 @@ class MeshOperations:
         :param curvature: Target lengths that follow the curvature. Replaces ``length``.
             ``"error"``: The intended distance between the surface and the triangles, in scene units. It is not
                 guaranteed. To guarantee a distance, use the parameter ``error`` of the step.
-            ``"min"``: The smallest length, in scene units.
-            ``"max"``: The largest length, in scene units.
+            ``"min"``: The smallest target length of edges, in scene units.
+            ``"max"``: The largest target length of edges, in scene units.
         :param features: Edges to keep as lines, in addition to the lines that are always kept. For example,
             ``sel.Sharp(above=30)``. If omitted, no additional edges. ``"All"``, ``"Boundary"``, or a value of
             ``meshwright.sel``.
         :param error: The largest allowed Hausdorff distance between the old and the new surface, in scene units. To
-            keep this limit, some edges can become shorter than the target length. The distance is measured at the end,
-            in both directions and for all points. If omitted, there is no limit.
+            keep this limit, some edges can become shorter than the target length. The distance is measured at the end
+            of the step, in both directions and for all points of both surfaces. If omitted, there is no limit.
         :param pin: Vertices that keep their exact positions, for example ``Boundary``. If omitted, no vertices.
             ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
         :param passes: The largest number of passes, from 1 to 1000. The step ends earlier if a pass changes almost
@@ -4847,7 +4891,7 @@ class MeshOperations:
 
         A vertex moves only if it is in ``vertices``, is not in ``pin``, and has a face. All other vertices keep their
         exact positions. Faces can have any number of corners, and degenerate faces are allowed. All elements keep their
-        ids. Attributes are kept, so textures stretch with the surface, but normals are dropped.
+        ids. Attributes are kept, so textures stretch with the surface, but normals and tangents are dropped.
 
         - ``choice.Laplacian``: strong smoothing; shrinks.
         - ``choice.Taubin``: removing noise; nearly the same.
@@ -4875,8 +4919,9 @@ class MeshOperations:
             ``"Fixed"``: The vertices do not move.
             ``"Free"``: The boundary is smoothed as a set of curves, so the movement of a vertex on the boundary depends
                 only on its neighbors along the boundary.
-        :param keep_volume: Whether to restore the original volume of the mesh. To restore it, the step finally shifts
-            all moved vertices along their normals by the same distance. The mesh must be closed. Defaults to ``False``.
+        :param keep_volume: Whether to restore the original volume of the mesh. To restore the volume, the step finally
+            shifts all moved vertices along their normals by the same distance. The mesh must be closed. Defaults to
+            ``False``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
             `True` for a bar of tqdm.
@@ -4895,21 +4940,23 @@ class MeshOperations:
     ) -> Self:
         """Copies attributes from the nearest points of another object.
 
-        An attribute of vertices, corners or faces of the object ``from_`` becomes an attribute of the same kind of
-        elements of the changed mesh. Numbers and vectors of vertices and corners are interpolated inside the face that
-        contains the nearest point. Whole numbers, tags, and attributes that edits do not interpolate are copied from
-        the nearest corner of this face. Values of faces are copied from the face that contains the nearest point. If
-        the attribute already exists with the same type of values, it is overwritten. If its type is different, the step
-        fails. Without ``on``, the step acts on all meshes except ``from_``.
+        The step copies vertex, corner and face attributes from the object ``from_`` to elements of the same kind in the
+        changed mesh. Numbers and vectors of vertices and corners are interpolated inside the face that contains the
+        nearest point. Whole numbers, tags, and attributes that edits do not interpolate are copied from the nearest
+        corner of the face that contains the nearest point. Values of faces are copied from the face that contains the
+        nearest point. If the attribute already exists with the same type of values, it is overwritten. If the attribute
+        already exists with a different type of values, the step fails. Without ``on``, the step acts on all meshes
+        except ``from_``.
 
         All corners of a face take their values from one side of each seam, so no triangle is stretched across a seam of
-        texture coordinates. Usually this is the side at the center of the face. Seams divide the source into charts. If
-        the chart at a corner is much nearer to the whole face than the chart at the center, the values of the chart at
-        the corner are used. This happens where parts of the source intersect.
+        texture coordinates. Usually the corners take their values from the side that is nearest to the center of the
+        face. Seams divide the source into charts. The chart that is nearest to a corner is used instead if it is much
+        nearer to the whole face than the chart that is nearest to the center of the face. This happens where parts of
+        the source intersect.
 
         Elements whose distance from the source exceeds ``within`` keep their values, or get zeros if the attribute is
         new. If the distance of a corner or of the center of a face exceeds ``within``, all corners of the face keep
-        their values or get zeros. The report counts these elements.
+        their values or get zeros. The report counts the elements that are too far away.
 
         Example: ``mesh.transfer(from_=scan, attributes=["uv", "color"], within=0.01)``
 
@@ -4949,11 +4996,12 @@ class MeshOperations:
         :param vertices: The vertices to move. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of
             ``meshwright.sel``.
         :param by: How the vertices move.
-            ``choice.Offset(..)``: By this offset along x, y and z, in scene units.
-            ``choice.Distance(..)``: By this distance along the normal of each vertex, in scene units.
-            ``choice.To(..)``: By one common offset, so that the mean of the selected vertices arrives at this point.
-            ``choice.Rotate(..)``: By a rotation around an axis through the mean of the selected vertices.
-            ``choice.Scale(..)``: By scaling along x, y and z about the mean of the selected vertices.
+            ``choice.Offset(..)``: Moves by this offset along x, y and z, in scene units.
+            ``choice.Distance(..)``: Moves by this distance along the normal of each vertex, in scene units.
+            ``choice.To(..)``: Moves by one common offset, so that the mean of the selected vertices arrives at this
+                point.
+            ``choice.Rotate(..)``: Rotates around an axis through the mean of the selected vertices.
+            ``choice.Scale(..)``: Scales along x, y and z about the mean of the selected vertices.
         :param falloff: The distance from the selected vertices at which the movement has fallen to 0, in scene units.
             If omitted, only the selected vertices move.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
@@ -5018,8 +5066,9 @@ class MeshOperations:
         Vertices at or below ``from_`` do not move. Between ``from_`` and ``to``, the axis becomes an arc of the same
         length, which turns by ``angle`` in total. Vertices above ``to`` move rigidly. Vertices between the axis and the
         center of the circle move closer together, and vertices on the other side of the axis move apart. The distance
-        between the center and the axis is (to - from) / angle, with the angle in radians. Parts of the mesh beyond the
-        center turn inside out. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
+        between the center of the circle and the axis is (to - from) / angle, with the angle in radians. Parts of the
+        mesh beyond the center of the circle turn inside out. Source: Barr, "Global and Local Deformations of Solid
+        Primitives", 1984.
 
         Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch
         with the surface. Only vertices move, so refine the mesh first if its faces are large.
@@ -5066,9 +5115,9 @@ class MeshOperations:
         """Rotates vertices around an axis, by an angle that grows along the axis.
 
         The angle grows linearly from 0 at ``from_`` to ``angle`` at ``to``. Below ``from_`` and above ``to``, vertices
-        rotate by the angle of the nearer end. The volume changes only because edges stay straight, so on a fine mesh it
-        hardly changes. A twist by the opposite angle undoes a twist. Source: Barr, "Global and Local Deformations of
-        Solid Primitives", 1984.
+        rotate by the angle of the nearer end. The volume changes only because edges stay straight, so the volume of a
+        fine mesh hardly changes. A twist by the opposite angle undoes a twist. Source: Barr, "Global and Local
+        Deformations of Solid Primitives", 1984.
 
         Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch
         with the surface. Only vertices move, so refine the mesh first if its faces are large.
@@ -5149,11 +5198,11 @@ class MeshOperations:
     ) -> Self:
         """Deforms vertices with a box of control points.
 
-        The box has a grid of ``size`` control points along x, y and z. ``moves`` moves some of them, and the space in
-        the box follows smoothly. Each point becomes a sum of the control points with Bernstein polynomials as weights
-        (Sederberg, Parry, "Free-Form Deformation of Solid Geometric Models", 1986). If all control points move by the
-        same offset, the whole box moves by this offset. A control point attracts the surface, but the surface usually
-        does not reach it, except at the corners of the box.
+        The box has a grid of ``size`` control points along x, y and z. ``moves`` moves some of the control points, and
+        the space in the box follows smoothly. Each point in the box moves to a sum of the control points with Bernstein
+        polynomials as weights (Sederberg, Parry, "Free-Form Deformation of Solid Geometric Models", 1986). If all
+        control points move by the same offset, the whole box moves by this offset. A control point attracts the
+        surface, but the surface usually does not reach it, except at the corners of the box.
 
         Vertices outside the box do not move. Normals and tangents are dropped. Faces, element ids and other attributes
         do not change, so textures stretch with the surface. Only vertices move, so refine the mesh first if its faces
@@ -5188,21 +5237,23 @@ class MeshOperations:
     ) -> Self:
         """Moves vertices onto the surface of another object (shrinkwrap).
 
-        Only vertices in ``vertices`` that are not in ``pin`` move. All others keep their exact positions. Without
-        ``on``, the step acts on all meshes except the object ``onto``, which does not change. Normals and tangents are
-        dropped. Faces, element ids and other attributes do not change, so textures stretch with the surface.
+        Only vertices in ``vertices`` that are not in ``pin`` move. All other vertices keep their exact positions.
+        Without ``on``, the step acts on all meshes except the object ``onto``, which does not change. Normals and
+        tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch with the
+        surface.
 
         Vertices that would move farther than ``distance`` do not move. With ``Normal`` and ``choice.Direction``,
-        vertices whose line misses the surface do not move either. The report counts both kinds of vertices.
+        vertices whose line misses the surface do not move either. The report counts the vertices that would move too
+        far, and the vertices whose line misses the surface.
 
         Example: ``mesh.project(onto=scan, distance=0.1)``
 
         :param onto: The mesh with the surface.
         :param along: Where each vertex goes. Defaults to ``"Nearest"``.
-            ``"Nearest"``: To the nearest point of the surface.
-            ``"Normal"``: To the nearest point of the surface on the line through the vertex along its normal, on either
-                side.
-            ``choice.Direction(..)``: To the first point of the surface in this direction.
+            ``"Nearest"``: Moves to the nearest point of the surface.
+            ``"Normal"``: Moves to the nearest point of the surface on the line through the vertex along its normal, on
+                either side.
+            ``choice.Direction(..)``: Moves to the first point of the surface in this direction.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
         :param pin: Vertices that do not move. If omitted, no vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
@@ -5259,8 +5310,9 @@ class MeshOperations:
             ``choice.Winding(..)``: The winding number of another mesh of the scene around each vertex: 1 inside, 0
                 outside, and numbers between 0 and 1 near gaps of the other mesh (Jacobson, Kavan, Sorkine-Hornung,
                 2013; Barill, Dickson, Schmidt, Levin, Jacobson, 2018).
-        :param name: The name of the attribute. If omitted, the name of the quantity in lower case, such as
-            ``mean_curvature``, or ``largest_curvature`` or ``smallest_curvature`` for a principal curvature.
+        :param name: The name of the attribute. If omitted, the attribute has the name of the quantity in lower case,
+            such as ``mean_curvature``. For principal curvatures, the default names are ``largest_curvature`` and
+            ``smallest_curvature``.
         :param missing: The value for elements at which the quantity is not defined, such as the curvature of a vertex
             without faces. The report counts these elements. If omitted, 0 for quantities that can be negative, and -1
             for all others.
@@ -5288,17 +5340,18 @@ class MeshOperations:
         """Computes texture coordinates without overlaps.
 
         The surface is cut into charts, which are flattened and packed into a square page. Charts grow from flat regions
-        as far as ``max_angle`` allows. They are flattened by least squares conformal maps (Levy and others, 2002) and
-        the hybrid method of Liu and others (2008). A chart is cut again in three cases: it would overlap itself, it
-        would exceed ``max_stretch``, or the ratio of the largest to the smallest stretch would exceed 1.15 on more than
-        5 % of its area. All charts of a mesh have the same scale, and no chart is mirrored. A polygon stays in one
-        chart. Each mesh gets its own page.
+        as far as ``max_angle`` allows. The charts are flattened by least squares conformal maps (Levy and others, 2002)
+        and the hybrid method of Liu and others (2008). A chart is cut again if it would overlap itself or exceed
+        ``max_stretch``. It is also cut again if the ratio of the largest to the smallest stretch would exceed 1.15 on
+        more than 5 % of its area. All charts of a mesh have the same scale, and no chart is mirrored. A polygon stays
+        in one chart. Each mesh gets its own page.
 
         The coordinates are written to the corner attribute ``uv``, which is replaced if it exists. Edges at which
         charts meet become seams. Positions, faces and other attributes do not change, but tangents are removed.
         Zero-area faces have no area in the texture. The report counts them. If a polygon is bent so far that it
-        overlaps itself in the texture, the step is refused as ``WrongPlace``. Triangulate such polygons first. With
-        ``on_refusal="Skip"``, the triangles of the polygon overlap in the texture.
+        overlaps itself in the texture, the step is refused as ``WrongPlace``. Before this step, triangulate polygons
+        that would overlap themselves. With ``on_refusal="Skip"``, the triangles of such a polygon overlap in the
+        texture.
 
         Example: ``mesh.unwrap(max_angle=60)``
 
@@ -5336,11 +5389,11 @@ class MeshOperations:
     ) -> Self:
         """Moves, rotates and scales charts of texture coordinates so that they do not overlap and have the same scale.
 
-        A chart is a set of faces that are connected without seams of the texture coordinates. Afterwards, the area of
-        each chart in the texture is proportional to its area on the surface. The shape of each chart does not change,
-        even if it is stretched, mirrored or overlaps itself. Each zero-area chart becomes a point. The report counts
-        zero-area charts and charts that overlap themselves. Each mesh gets its own page, that is, the whole square of a
-        texture. Tangents are removed, because charts are rotated.
+        A chart is a set of faces that are connected without seams of the texture coordinates. After the step, the area
+        of each chart in the texture is proportional to its area on the surface. The shape of each chart does not
+        change, even if it is stretched, mirrored or overlaps itself. Each zero-area chart becomes a point. The report
+        counts zero-area charts and charts that overlap themselves. Each mesh gets its own page, that is, the whole
+        square of a texture. Tangents are removed, because charts are rotated.
 
         Example: ``mesh.pack_uvs(page=2048, padding=4)``
 
@@ -5376,9 +5429,10 @@ class MeshOperations:
     ) -> Self:
         """Draws the scene into an image file.
 
-        The extension of the file determines the format: ``.png`` for an image or, with ``turntable``, ``.gif`` for an
-        animated GIF and ``.apng`` or ``.png`` for an animated PNG. The file is written only if the whole recipe
-        succeeds. The scene does not change. Drawing needs no GPU and gives the same bytes on every machine.
+        The extension of the file determines the format. A single image has the extension ``.png``. With ``turntable``,
+        ``.gif`` gives an animated GIF, and ``.apng`` or ``.png`` gives an animated PNG. The file is written only if the
+        whole recipe succeeds. The scene does not change. Drawing needs no GPU and gives the same bytes on every
+        machine.
 
         Example: ``mesh.picture(path="a.png", size=(64, 48), highlight=sel.Edges(sel.Sharp(above=30)), color_by={"of":
         "Valence"}, style={"wireframe": {}})``
@@ -5413,9 +5467,9 @@ class MeshOperations:
             ``sel.Faces(sel.Tagged("top"))``. ``"All"``, ``"Boundary"``, ``"Isolated"``, ``"SelfIntersecting"``, or a
             value of ``meshwright.sel``.
         :param highlight_width: The width of highlighted edges and the diameter of highlighted vertices, in pixels. The
-            defaults depend on the shorter side of a view: 2.8 and 7.5 for 240 pixels, 3.4 and 10 for 480, 4 and 13 for
-            960, 8 and 26 for 1920. If there are many highlighted vertices, they are drawn smaller. Hidden edges are
-            drawn faintly, and hidden vertices as rings.
+            default width and the default diameter depend on the shorter side of a view: 2.8 and 7.5 for 240 pixels, 3.4
+            and 10 for 480, 4 and 13 for 960, 8 and 26 for 1920. If there are many highlighted vertices, they are drawn
+            smaller. Hidden edges are drawn faintly, and hidden vertices as rings.
         :param marks: More selections of elements to highlight, each with its own color.
             ``"of"``: The elements.
             ``"color"``: The color.
@@ -5426,8 +5480,8 @@ class MeshOperations:
             ``"map"``: The color map. If omitted, ``Classes`` for valences, ``Diverging`` for curvatures, else
                 ``Viridis``.
             ``"range"``: The values that the first and the last color represent, as in ``(0, 60)``. If omitted, the
-                range depends on the values of the quantity. For curvatures, the range is symmetric about 0 and leaves
-                out the lowest and the highest eighth of the values, or fewer values if the others are all 0.
+                range depends on the values of the quantity. For curvatures, the range is symmetric about 0. It leaves
+                out the lowest and the highest eighth of the values, or fewer values if all remaining values are 0.
             ``"legend"``: Whether a legend in a corner explains the colors.
         :param turntable: If given, the picture is an animation in which the camera moves once around the scene.
             ``"frames"``: The number of images.
@@ -5459,12 +5513,13 @@ class MeshOperations:
     ) -> Self:
         """Draws Bezier curves, and de Casteljau's construction of their points, into an image file.
 
-        The figure has one panel for each combination of a curve and a value of ``t``. With ``by_level``, it has one
-        panel for each combination of a curve, a value of ``t`` and a level. A panel shows the control polygon, every
-        level of de Casteljau's algorithm in a different color, the constructed point, and the curve, with the same
-        scale in both axes. With ``by_level``, each panel for a value of ``t`` shows one level more than the previous
-        panel, and only the last of these panels shows the constructed point. The extension of the file determines the
-        format: ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The scene does not change.
+        The figure has one panel for each combination of a curve and a value of ``t``. With ``by_level``, the figure has
+        one panel for each combination of a curve, a value of ``t`` and a level. A panel shows the curve, its control
+        polygon, every level of de Casteljau's algorithm in a different color, and the constructed point. Both axes have
+        the same scale. With ``by_level``, each panel shows one level more than the previous panel for the same value of
+        ``t``. Only the last panel for a value of ``t`` shows the constructed point. The extension of the file
+        determines the format: ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The scene
+        does not change.
 
         Example: ``mesh.curve_figure(path="figure.svg", t=[0.25, 0.5])``
 
@@ -5473,8 +5528,8 @@ class MeshOperations:
             their control polygons are drawn.
         :param by_level: Whether each level of the algorithm has its own panel. If false, one panel shows all levels.
             Defaults to ``False``.
-        :param before: The name of a curve that shows an earlier state of the other curves. This curve is drawn faintly
-            behind the other curves, with arrows to the control points that moved.
+        :param before: The name of a curve that shows an earlier state of the other curves. The earlier curve is drawn
+            faintly behind the other curves, with arrows to the control points that moved.
         :param width: The width of the figure in SVG pixels. The font size is 12 to 19 pixels. Defaults to ``640``.
         :param columns: The number of panels in a row. If omitted, the number of values of ``t`` (with ``by_level``, the
             number of levels), but at most 4.
@@ -5507,8 +5562,8 @@ class MeshOperations:
         out, and the report counts them. The extension of the file determines the format: ``.svg`` or ``.png``. The file
         is written only if the whole recipe succeeds. The scene does not change.
 
-        A name is a letter and the id of the element: ``v`` for vertices, ``h`` for half-edges, ``f`` for faces.
-        Half-edges ``2e`` and ``2e + 1`` belong to edge ``e``.
+        The name of an element is a letter followed by the id of the element: ``v`` for vertices, ``h`` for half-edges,
+        ``f`` for faces. Half-edges ``2e`` and ``2e + 1`` belong to edge ``e``.
 
         Example: ``mesh.half_edge_figure(path="figure.svg")``
 
@@ -5540,8 +5595,9 @@ class MeshOperations:
 
         A gray frame shows the page of the texture, where u and v are from 0 to 1; v points upwards. Thick lines are the
         borders of charts, and thin lines are the other edges. Coordinates outside the page are also drawn. To make room
-        for them, the figure becomes higher or its scale becomes smaller. The extension of the file determines the
-        format: ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The scene does not change.
+        for coordinates outside the page, the figure becomes higher or its scale becomes smaller. The extension of the
+        file determines the format: ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The
+        scene does not change.
 
         Example: ``mesh.uv_picture(path="uv.svg")``
 

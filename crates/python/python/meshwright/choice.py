@@ -27,11 +27,11 @@ def Angles(*, azimuth: float | Arg | Ron, elevation: float | Arg | Ron) -> Choic
 def Attribute(*, name: str | Arg | Ron, component: int | Arg | Ron | None = None) -> Choice:
     """A vertex attribute that holds one number for each vertex.
 
-    An attribute. If several domains have an attribute of this name, the first of these domains that has it is used:
-    vertices, faces, corners, edges.
+    An attribute. If several domains have an attribute of this name, the attribute of the first of them is used, in the
+    order vertices, faces, corners, edges.
 
     :param name: The name of the attribute.
-    :param component: The index of the component of a vector, from 0. If omitted, the length of the vector.
+    :param component: The index of the component of a vector, from 0. If omitted, the length of the vector is used.
     """
     return Choice('Attribute', name=name, component=component)
 
@@ -49,7 +49,7 @@ def Denoise(*, angle: float | Arg | Ron | None = None) -> Choice:
 
 
 def Direction(value: Sequence[float] | NDArray[Any] | Arg | Ron, /) -> Choice:
-    """To the first point of the surface in this direction."""
+    """Moves to the first point of the surface in this direction."""
     return Choice('Direction', value)
 
 
@@ -63,12 +63,12 @@ def Distance(
 ) -> Choice:
     """The distance along the normal of each region, in scene units.
 
-    A negative distance moves the faces inwards. The normal is the mean of the face normals, weighted by area. By this
-    distance along the normal of each vertex, in scene units. A negative distance moves vertices inwards. The distance
-    from each vertex to the nearest point of another mesh of the scene, in scene units. Without ``on``, all meshes
-    except the other mesh are measured.
+    A negative distance moves the faces inwards. The normal is the mean of the face normals, weighted by area. Moves by
+    this distance along the normal of each vertex, in scene units. A negative distance moves vertices inwards. The
+    distance from each vertex to the nearest point of another mesh of the scene, in scene units. Without ``on``, the
+    step measures all meshes except the mesh to which distances are measured.
 
-    :param to: The name of the object with the other mesh.
+    :param to: The name of the object to which distances are measured.
     :param signed: Whether distances are negative inside the other mesh, that is, where its winding number is more than
         1/2 or less than -1/2. Defaults to ``False``.
     """
@@ -132,8 +132,8 @@ def Geodesic(*, from_: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | R
     """The distance along the surface from each vertex to the nearest selected vertex, in scene units, by the heat
     method (Crane, Weischedel, Wardetzky, "Geodesics in Heat", 2013; Sharp, Crane, 2020).
 
-    On fine meshes of smooth surfaces, the mean error is below 1 %. A vertex that no path of edges joins to a selected
-    vertex has no distance.
+    On fine meshes of smooth surfaces, the mean error is below 1 %. A vertex has no distance if no path of edges joins
+    it to a selected vertex.
 
     :param from_: The vertices from which distances are measured. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value
         of ``meshwright.sel``.
@@ -178,8 +178,8 @@ def Laplacian(
     :param weights: The weights of the neighbors. Defaults to ``"Uniform"``.
         ``"Uniform"``: All vertices that share an edge with the vertex have the same weight.
         ``"Cotangent"``: The weights depend on the angles of the faces (cotangent weights).
-    :param factor: The distance of the movement, as a fraction of the distance to the mean. From 0 to 1. Defaults to
-        0.5.
+    :param factor: The distance of the movement, as a fraction of the distance from the vertex to the mean of its
+        neighbors. From 0 to 1. Defaults to 0.5.
     """
     return Choice('Laplacian', weights=weights, factor=factor)
 
@@ -249,7 +249,7 @@ def Occlusion(*, rays: int | Arg | Ron | None = None, seed: int | Arg | Ron | No
 def Offset(value: Sequence[float] | NDArray[Any] | Arg | Ron, /) -> Choice:
     """The offset along x, y and z, in scene units.
 
-    By this offset along x, y and z, in scene units.
+    Moves by this offset along x, y and z, in scene units.
     """
     return Choice('Offset', value)
 
@@ -302,7 +302,7 @@ def Random(*, seed: int | Arg | Ron | None = None) -> Choice:
 
 
 def Rotate(*, axis: Literal['X', 'Y', 'Z'] | Arg | Ron, angle: float | Arg | Ron) -> Choice:
-    """By a rotation around an axis through the mean of the selected vertices.
+    """Rotates around an axis through the mean of the selected vertices.
 
     :param axis: The direction of the axis.
         ``"X"``: The x axis.
@@ -315,7 +315,7 @@ def Rotate(*, axis: Literal['X', 'Y', 'Z'] | Arg | Ron, angle: float | Arg | Ron
 
 
 def Scale(value: Sequence[float] | NDArray[Any] | Arg | Ron, /) -> Choice:
-    """By scaling along x, y and z about the mean of the selected vertices.
+    """Scales along x, y and z about the mean of the selected vertices.
 
     A factor of 0 along an axis gives all selected vertices the same coordinate along this axis.
     """
@@ -340,14 +340,15 @@ def Taubin(
 ) -> Choice:
     """Moves each vertex towards the mean of its neighbors, and then back by a slightly larger factor.
 
-    Removes noise, and keeps larger shapes and the volume nearly unchanged. One pass consists of both steps.
+    Removes noise, and keeps larger shapes and the volume nearly unchanged. One pass consists of the movement towards
+    the mean and the movement back.
 
     :param weights: The weights of the neighbors. Defaults to ``"Uniform"``.
         ``"Uniform"``: All vertices that share an edge with the vertex have the same weight.
         ``"Cotangent"``: The weights depend on the angles of the faces (cotangent weights).
-    :param factor: The distance of the first step, as a fraction of the distance to the mean. From 0 to 1, exclusive.
-        Factors that would amplify noise are refused. With the default ``pass_band``, these are the factors of more than
-        about 0.7. Defaults to 0.33.
+    :param factor: The distance of the movement towards the mean, as a fraction of the distance from the vertex to the
+        mean. From 0 to 1, exclusive. Factors that would amplify noise are refused. With the default ``pass_band``,
+        factors of more than about 0.7 are refused. Defaults to 0.33.
     :param pass_band: The frequency below which shapes are kept. A lower value smooths more. From 0 to 1, exclusive.
         Defaults to 0.05.
     """
@@ -356,7 +357,7 @@ def Taubin(
 
 
 def To(value: Sequence[float] | NDArray[Any] | Arg | Ron, /) -> Choice:
-    """By one common offset, so that the mean of the selected vertices arrives at this point."""
+    """Moves by one common offset, so that the mean of the selected vertices arrives at this point."""
     return Choice('To', value)
 
 
@@ -366,8 +367,9 @@ def Winding(*, of: str | Arg | Ron) -> Choice:
     and 1 near gaps of the other mesh (Jacobson, Kavan, Sorkine-Hornung, 2013; Barill, Dickson, Schmidt, Levin,
     Jacobson, 2018).
 
-    The error is usually below 0.001. Without ``on``, all meshes except the other mesh are measured.
+    The error is usually below 0.001. Without ``on``, the step measures all meshes except the mesh whose winding number
+    is computed.
 
-    :param of: The name of the object with the other mesh.
+    :param of: The name of the object whose winding number is computed.
     """
     return Choice('Winding', of=of)

@@ -23,7 +23,7 @@ def Area(
 ) -> Choice:
     """The sum of the areas of the faces.
 
-    :param eq: This value, within the tolerance.
+    :param eq: The value must equal this number within the tolerance.
     :param min: At least this value.
     :param max: At most this value.
     :param tolerance: The allowed deviation from ``eq``. Defaults to ``1e-09``.
@@ -45,10 +45,10 @@ def Attribute(
     Every mesh must have the attribute. Fails if no element has a value.
 
     :param name: The name of the attribute.
-    :param of: Which elements. If omitted, all elements of one kind: the first of vertices, faces, corners and edges
-        that has an attribute of this name. ``"All"``, ``"Boundary"``, ``"Isolated"``, ``"SelfIntersecting"``, or a
-        value of ``meshwright.sel``.
-    :param component: The component of a vector, from 0. Required for vectors.
+    :param of: Which elements. If omitted, all elements of one kind: the first kind in the order vertices, faces,
+        corners, edges that has an attribute of this name. ``"All"``, ``"Boundary"``, ``"Isolated"``,
+        ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
+    :param component: The index of the component of a vector, starting at 0. Required for vectors.
     :param min: Every value is at least this number.
     :param max: Every value is at most this number.
     """
@@ -148,30 +148,30 @@ def DihedralAngle(
     max: float | Arg | Ron | None = None,
     reaches: float | Arg | Ron | None = None,
 ) -> Choice:
-    """The dihedral angle, in degrees, of every selected edge between two faces: the angle between the face normals, 0
-    if the faces are coplanar.
+    """The dihedral angle of every selected edge between two faces, in degrees.
 
-    Edges of a zero-area face are skipped. Fails if no selected edge has an angle.
+    The dihedral angle is the angle between the normals of the two faces: 0 if the faces are coplanar. Edges of a face
+    with zero area are skipped. Fails if no selected edge has an angle.
 
     :param of: Which edges. Defaults to ``"All"``. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
     :param min: The smallest angle is at least this value.
     :param max: The largest angle is at most this value.
-    :param reaches: The largest angle is at least this value.
+    :param reaches: At least one angle has this value or a larger value.
     """
     return Choice('DihedralAngle', of=of, min=min, max=max, reaches=reaches)
 
 
 
 def DistanceTo(*, other: Choice | Arg | Ron, below: float | Arg | Ron) -> Choice:
-    """The two-sided Hausdorff distance between the surface of the mesh and that of another mesh: the largest distance
-    from a point of one surface to the other surface.
+    """The two-sided Hausdorff distance between the surfaces of the mesh and of another mesh.
 
-    Fails unless the distance is proven to be below the limit.
+    The Hausdorff distance is the largest distance from a point of either surface to the other surface. Fails unless the
+    distance is proven to be below the limit ``below``.
 
     :param other: The mesh to compare with.
         ``choice.Object(..)``: The name of an object of the scene.
         ``choice.File(..)``: The first mesh in a file.
-    :param below: The limit, in scene units: the distance must be below it.
+    :param below: The distance must be below this limit, in scene units.
     """
     return Choice('DistanceTo', other=other, below=below)
 
@@ -246,7 +246,7 @@ def Faces(
 def File(value: str | Arg | Ron, /) -> Choice:
     """The first mesh in a file.
 
-    The path is relative to the recipe's folder.
+    The path of a file, relative to the recipe's folder.
     """
     return Choice('File', value)
 
@@ -282,8 +282,8 @@ def HasAttribute(*, domain: Literal['Vertex', 'Corner', 'Edge', 'Face'] | Arg | 
 
 
 Manifold = Choice('Manifold')
-"""There is at least one mesh, and every mesh is a valid manifold in which no two edges join the same vertices. Meshes
-are built as manifolds; this expectation validates them again."""
+"""There is at least one mesh. Every mesh is a valid manifold, and no two edges of a mesh join the same vertices. Meshes
+are always built as manifolds. The expectation ``Manifold`` checks the meshes once more."""
 
 
 def MeanFaceArea(
@@ -310,9 +310,9 @@ def MeanMinAngle(
     min: float | Arg | Ron | None = None,
     max: float | Arg | Ron | None = None,
 ) -> Choice:
-    """The mean, over the selected faces, of the smallest corner angle of each face, in degrees.
+    """The smallest corner angle of each selected face, averaged over these faces, in degrees.
 
-    It is 60 for equilateral triangles. Fails if the selection is empty.
+    The smallest corner angle of an equilateral triangle is 60. Fails if the selection is empty.
 
     :param of: Which faces. Defaults to ``"All"``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
         ``meshwright.sel``.
@@ -343,10 +343,10 @@ def MinAngle(
 
 
 def Not(value: Literal['Manifold', 'Closed'] | Choice | Arg | Ron, /) -> Choice:
-    """The inner expectation does not hold.
+    """The inner expectation must not hold.
 
-    Also fails if the inner expectation cannot be checked, for example because a file cannot be read or a selection is
-    empty.
+    ``Not`` also fails if the inner expectation cannot be checked, for example because a file cannot be read or a
+    selection is empty.
     """
     return Choice('Not', value)
 
@@ -376,13 +376,13 @@ def Objects(
 
 def Output(*, path: str | Arg | Ron, as_: str | Arg | Ron, tolerance: int | Arg | Ron | None = None) -> Choice:
     """A file that a step writes equals a reference file, which ``meshwright test --update`` creates and updates.
-    Pictures (.png, .apng) are compared by their pixels, mesh files by the objects that are read from them, and other
-    files by their bytes.
+    Pictures (.png, .apng) are compared pixel by pixel.
 
-    Recorded provenance is ignored.
+    Mesh files are compared by the objects that are read from them, and all other files byte by byte. Differences in the
+    recorded provenance are ignored.
 
-    :param path: The written file: the path relative to the output folder, as in the step that writes the file.
-    :param as_: The reference file: a path relative to the recipe's folder, and inside it.
+    :param path: The path of the written file, relative to the output folder, as in the step that writes the file.
+    :param as_: The path of the reference file, relative to the recipe's folder. The file must be inside this folder.
     :param tolerance: The allowed difference between the colors of two pictures, in steps of 1/255. Defaults to 0.
     """
     return Choice('Output', path=path, as_=as_, tolerance=tolerance)
@@ -398,11 +398,11 @@ def Point(
 ) -> Choice:
     """The position of one point of a polyline.
 
-    The position is in object space, because nodes place only meshes.
+    The position is in object space, because nodes do not place polylines.
 
-    :param index: The index of the point in the polyline, counted from 0.
+    :param index: The index of the point in the polyline, starting at 0.
     :param is_: The expected position.
-    :param line: The index of the polyline in its object, counted from 0. Defaults to ``0``.
+    :param line: The index of the polyline in its object, starting at 0. Defaults to ``0``.
     :param tolerance: The allowed distance from the expected position. Defaults to ``1e-09``.
     """
     return Choice('Point', index=index, is_=is_, line=line, tolerance=tolerance)
@@ -417,8 +417,8 @@ def Position(
 ) -> Choice:
     """The position of one vertex.
 
-    :param of: Which vertex. The selection must match exactly one. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value
-        of ``meshwright.sel``.
+    :param of: Which vertex. The selection must match exactly one vertex. ``"All"``, ``"Boundary"``, ``"Isolated"``, or
+        a value of ``meshwright.sel``.
     :param is_: The expected position.
     :param tolerance: The allowed distance from the expected position. Defaults to ``1e-09``.
     """
@@ -471,7 +471,7 @@ def SymmetricUnder(
     tolerance: float | Arg | Ron | None = None,
     connectivity: bool | Arg | Ron | None = None,
 ) -> Choice:
-    """How many motions of a symmetry group about the origin map the mesh onto itself.
+    """The number of motions in a symmetry group about the origin that map the mesh onto itself.
 
     If ``eq``, ``min`` and ``max`` are omitted, all motions of the group must map the mesh onto itself.
 
@@ -482,9 +482,9 @@ def SymmetricUnder(
     :param eq: Exactly this number of motions, including the identity.
     :param min: At least this number of motions.
     :param max: At most this number of motions.
-    :param tolerance: The allowed distance between a moved vertex and the vertex that it is mapped onto. Defaults to
-        ``1e-09``.
-    :param connectivity: Whether every face must also be mapped onto a face. Defaults to ``True``.
+    :param tolerance: The allowed distance between a vertex that was moved by a motion and the vertex onto which it is
+        mapped. Defaults to ``1e-09``.
+    :param connectivity: Whether each motion must also map every face onto a face. Defaults to ``True``.
     """
     return Choice('SymmetricUnder', group=group, eq=eq, min=min, max=max, tolerance=tolerance, connectivity=connectivity)
 
@@ -496,10 +496,10 @@ def Thickness(
     min: float | Arg | Ron | None = None,
     max: float | Arg | Ron | None = None,
 ) -> Choice:
-    """The thickness of the solid at each selected vertex, in scene units, as ``measure(of="Thickness", ..)`` measures
-    it. The thickness is infinite where the surface has no opposite side, as on an open sheet.
+    """The thickness of the solid at each selected vertex, in scene units.
 
-    Fails if the selection is empty.
+    ``measure(of="Thickness", ..)`` measures it in the same way. The thickness is infinite where the surface has no
+    opposite side, for example on an open sheet. Fails if the selection is empty.
 
     :param of: Which vertices. Defaults to ``"All"``. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of
         ``meshwright.sel``.
@@ -533,9 +533,10 @@ def UvOverlap(
 def UvStretch(*, max: float | Arg | Ron, uv: str | Arg | Ron | None = None) -> Choice:
     """The stretch of texture coordinates.
 
-    A small circle on the surface becomes an ellipse in the texture. The stretch is the ratio of the axes of the
-    ellipse: 1 if angles are preserved. The value of a mesh is the stretch that 95 % of the surface area does not
-    exceed. The largest value of all meshes counts. Fails if no mesh has the texture coordinates.
+    A small circle on the surface becomes an ellipse in the texture. The stretch is the ratio of the axes of this
+    ellipse: 1 where angles are preserved. The value of a mesh is the stretch that is not exceeded on 95 % of the
+    surface area. If there are several meshes, the largest of their values is checked. Fails if no mesh has the texture
+    coordinates.
 
     :param max: At most this value.
     :param uv: The name of the texture coordinates. Defaults to ``uv``.
@@ -590,7 +591,7 @@ def Volume(
 ) -> Choice:
     """The enclosed volume.
 
-    :param eq: This value, within the tolerance.
+    :param eq: The value must equal this number within the tolerance.
     :param min: At least this value.
     :param max: At most this value.
     :param tolerance: The allowed deviation from ``eq``. Defaults to ``1e-09``.

@@ -83,19 +83,19 @@ def Degree(value: int | Arg | Ron, /) -> Choice:
 
 
 def EdgeLoop(value: Literal['All', 'Boundary'] | Choice | Arg | Ron, /) -> Choice:
-    """These edges and the edge loops through them.
+    """The given edges and all edge loops through them.
 
-    A loop goes straight across each interior vertex with four edges. A loop that starts at a boundary edge follows the
-    boundary.
+    An edge loop continues straight across each interior vertex that has four edges. An edge loop that starts at a
+    boundary edge follows the boundary.
     """
     return Choice('EdgeLoop', value)
 
 
 
 def EdgeRing(value: Literal['All', 'Boundary'] | Choice | Arg | Ron, /) -> Choice:
-    """These edges and the edge rings through them.
+    """The given edges and all edge rings through them.
 
-    A ring goes from an edge to the opposite edge of each face with four corners.
+    An edge ring passes through each face with four corners, from an edge to the opposite edge.
     """
     return Choice('EdgeRing', value)
 
@@ -136,8 +136,8 @@ def Expand(
     to_angle: float | Arg | Ron,
     of: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron,
 ) -> Choice:
-    """These faces and all faces that can be reached from them by crossing only edges at which the normals of the two
-    faces differ by at most the angle ``to_angle``.
+    """The given faces, and all faces that can be reached from them across edges at which the normals of the two faces
+    differ by at most the angle ``to_angle``.
 
     :param to_angle: The largest angle between the normals of two neighboring faces, in degrees, from 0 (flat) to 180.
     :param of: The faces to start from. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
@@ -154,7 +154,7 @@ def Expect(
 ) -> Choice:
     """All elements of the selection ``of``.
 
-    Refused unless the number of these elements is exactly ``count``.
+    Refused unless the selection has exactly ``count`` elements.
 
     :param count: The expected number of vertices.
     :param of: The selection to count. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
@@ -275,7 +275,7 @@ def Longest(
 ) -> Choice:
     """The longest edges.
 
-    If edges are equally long, those with the lower ids are selected.
+    If several edges have the same length, the edges with the lowest ids are chosen.
 
     :param count: The number of edges. If fewer are available, all are selected. Defaults to ``1``.
     :param of: The selection to choose from. Defaults to ``"All"``. ``"All"``, ``"Boundary"``, or a value of
@@ -459,8 +459,9 @@ def Where(
     has this name.
 
     :param attribute: The name of the attribute.
-    :param component: The component of a vector, from 0. Required for vectors, not allowed for numbers.
-    :param above: Only values above this number. At least one of ``above`` and ``below`` is required.
+    :param component: The index of the component of a vector, starting at 0. Required if the attribute is a vector, and
+        not allowed if it is a number.
+    :param above: Only values above this number. At least one of the bounds ``above`` and ``below`` is required.
     :param below: Only values below this number.
     """
     return Choice('Where', attribute=attribute, component=component, above=above, below=below)

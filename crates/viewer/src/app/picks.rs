@@ -10,8 +10,8 @@ use scene::Scene;
 use super::Parts;
 use crate::view_pane::{Gizmo, Tool, ViewEvent};
 
-/// The default of the angle at which picking by angle stops, in degrees. The user can change this angle in the text of
-/// the selection.
+/// The default angle at which picking by angle stops, in degrees. The user can change this angle in the text of the
+/// selection.
 const ANGLE: u32 = 30;
 
 impl Parts {

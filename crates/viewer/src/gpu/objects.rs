@@ -39,7 +39,8 @@ pub(super) struct Key {
 }
 
 impl Key {
-    /// Whether both objects have the same color and style, and their buffers depend on nothing else but the geometry.
+    /// Whether both objects have the same color and style, and their buffers depend on nothing else except the geometry
+    /// of each object.
     pub(super) fn looks_like(&self, other: &Self) -> bool {
         self.color == other.color
             && self.style == other.style

@@ -123,7 +123,7 @@ fn unmet_in_text<'o>(
 }
 
 /// Returns an expectation in the tree and the fix that makes it record the actual value, or the reason why it cannot be
-/// fixed. `turns` has one entry for each repetition.
+/// fixed. `turns` has one entry for each repetition of the step.
 fn find_fix<'t>(
     tree: &'t Value,
     recipe: &Recipe,

@@ -391,8 +391,8 @@ impl View {
     /// Returns a number that is at least 0 if the point `v`, in [camera coordinates](Self::camera_space), is inside of
     /// a clipping plane. The number is linear in `v`.
     ///
-    /// Plane 0 is the near plane. The other four planes are at a distance of `far` pixels from the upper left corner of
-    /// the picture: to the left, to the right, above and below.
+    /// Plane 0 is the near plane. Planes 1 to 4 are at a distance of `far` pixels from the upper left corner of the
+    /// picture: to the left, to the right, above and below.
     pub(crate) fn clip_distance(&self, plane: usize, far: f64, v: DVec3) -> f64 {
         let distance = if self.is_perspective { v.z } else { 1.0 };
         let (x, y) = (self.scale * v.x, -self.scale * v.y);

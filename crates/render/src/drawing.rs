@@ -28,7 +28,7 @@ pub struct Part<'a> {
     pub points: Cow<'a, [DVec3]>,
     /// The indices of the points of each triangle, counter-clockwise seen from the front.
     pub triangles: Vec<[u32; 3]>,
-    /// The indices of the corners of each triangle. The list is empty if no values are per corner.
+    /// The indices of the corners of each triangle. The list is empty if no values are given per corner.
     pub corners: Vec<[u32; 3]>,
     /// The face that each triangle belongs to, in ascending order. The list is empty if each triangle is a face.
     pub faces: Vec<u32>,
@@ -97,13 +97,13 @@ pub struct Line {
     pub width: f32,
     /// Linear red, green, blue and alpha.
     pub color: [f32; 4],
-    /// The indices of the faces beside the line. These faces never hide the line. Face indices continue from part to
-    /// part; [`NO_FACE`] means no face.
+    /// The indices of the faces beside the line. The faces beside the line never hide it. Face indices continue from
+    /// part to part; [`NO_FACE`] means no face.
     pub faces: [u32; 2],
     /// The opacity of the line where a surface hides it, from 0 to 1. A hidden point is drawn as a ring.
     pub hidden: f32,
     /// The distance to similar lines, such as other edges of a mesh, in scene units. Where such lines would cover the
-    /// surface, they are drawn thinner. For a single line, the distance is infinite.
+    /// surface, they are drawn thinner. The distance is infinite for a line without similar lines.
     pub spacing: f64,
 }
 

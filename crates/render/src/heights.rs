@@ -10,7 +10,7 @@ use crate::image::{Image, decoder, png_samples};
 pub struct Heights {
     width: usize,
     height: usize,
-    /// The rows from top to bottom, each from left to right.
+    /// The rows are stored from top to bottom, and the heights of each row from left to right.
     values: Vec<f32>,
 }
 

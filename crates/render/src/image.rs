@@ -23,8 +23,8 @@ pub struct Image {
     pub width: u32,
     /// The height in pixels.
     pub height: u32,
-    /// The rows from top to bottom, each from left to right. A pixel is red, green and blue in sRGB, and straight
-    /// alpha: the colors are not multiplied by alpha.
+    /// The rows are stored from top to bottom, and the pixels of each row from left to right. A pixel is red, green and
+    /// blue in sRGB, and straight alpha: the colors are not multiplied by alpha.
     pub pixels: Vec<[u8; 4]>,
 }
 
@@ -121,7 +121,7 @@ impl Image {
 
     /// Encodes the image as a PNG file, without an alpha channel if all pixels are opaque.
     ///
-    /// Each of `texts` is a keyword of 1 to 79 Latin-1 characters and a string. They are stored in the file, for
+    /// Each of `texts` is a keyword of 1 to 79 Latin-1 characters and a string. The texts are stored in the file, for
     /// example to record its provenance.
     ///
     /// # Errors

@@ -1,7 +1,7 @@
 //! Textures with mipmaps.
 //!
 //! Where colors are averaged, transparent pixels have less weight than opaque ones, so that the color of invisible
-//! pixels hardly bleeds into visible ones. If alpha is ignored, all pixels have the same weight.
+//! pixels hardly bleeds into visible ones. If the alpha of a texture is ignored, all its pixels have the same weight.
 
 use std::sync::Arc;
 
@@ -69,7 +69,7 @@ const MIN_WEIGHT: f32 = 1.0 / 1024.0;
 
 impl Alpha {
     /// Returns the fraction of a pixel that the surface covers. `alpha` is the alpha of the pixel. Level 0 is the image
-    /// itself. In smaller levels, the alpha is already the covered fraction.
+    /// itself. In smaller mipmap levels, `alpha` is already the fraction of the pixel that the surface covers.
     fn coverage(self, level: usize, alpha: f32) -> f32 {
         match self {
             Self::Ignored => 1.0,
@@ -156,9 +156,9 @@ impl Texture {
         self.scale_and_rotate(DVec2::new(uv.x, 1.0 - uv.y)) + DVec2::from(self.transform.offset)
     }
 
-    /// Returns a mipmap level as graphics cards store it: the image with its width and height divided by 2 to the power
-    /// of `level` and rounded down, but at least 1. Alpha is the fraction of a pixel that the surface covers. The
-    /// colors are multiplied by alpha, so that the color of invisible pixels hardly bleeds into visible ones when
+    /// Returns a mipmap level as graphics cards store it. Its width and height are those of the image, divided by 2 to
+    /// the power of `level` and rounded down, but at least 1. Alpha is the fraction of a pixel that the surface covers.
+    /// The colors are multiplied by alpha, so that the color of invisible pixels hardly bleeds into visible ones when
     /// pixels are interpolated.
     pub fn level(&self, level: u32) -> Image {
         let [width, height] = self
@@ -217,9 +217,10 @@ impl Texture {
     /// Returns the coverage of the surface, from 0 to 1, at texture coordinates with v upwards. `steps` are the
     /// differences of the texture coordinates between this sample and the next samples, to the right and downwards.
     ///
-    /// With [`Alpha::Cut`], the interpolated alpha of the first level is compared with the cutoff. In the other levels,
-    /// the alpha of each pixel of the image was compared first, and the results are averaged. Therefore fine structures
-    /// such as leaves keep their density when they are seen from far away.
+    /// With [`Alpha::Cut`], the interpolated alpha of the first level is compared with the cutoff. In the other mipmap
+    /// levels, the alpha of each pixel of the image was compared with the cutoff first, and the results of the
+    /// comparisons are averaged. Therefore fine structures such as leaves keep their density when they are seen from
+    /// far away.
     pub(crate) fn coverage(&self, uv: DVec2, steps: [DVec2; 2]) -> f32 {
         let footprint = self.footprint(uv, steps);
         let [coverage] = footprint.interpolate(|level| {

@@ -340,9 +340,9 @@ fn read_name<'de, T: DeserializeSeed<'de>>(
     })
 }
 
-/// A field of a struct, or an entry of a map. Fields and entries have different types. With a common type, the code
-/// that reads field names would also be compiled for keys of any kind. That code is the largest part of the code that
-/// is generated for a struct.
+/// A field of a struct, or an entry of a map. Fields and entries have different types. If fields and entries had a
+/// common type, the code that reads field names would also be compiled for keys of any kind. The code that reads field
+/// names is the largest part of the code that is generated for a struct.
 trait Pair {
     fn read_key<'de, K: DeserializeSeed<'de>>(&'de self, seed: K) -> Result<K::Value>;
     fn value(&self) -> &Value;

@@ -112,8 +112,7 @@ pub struct Lexer<'s> {
     at: usize,
     /// Whether a `"` string must end in the line in which it starts.
     lines_end_strings: bool,
-    /// The rest of the text does not contain the end of a raw string with this number of hashes, or with more
-    /// hashes.
+    /// No raw string with at least this number of hashes ends in the rest of the text.
     unclosed_hashes: usize,
 }
 
@@ -121,8 +120,8 @@ impl<'s> Lexer<'s> {
     /// Creates a lexer for `source`.
     ///
     /// A string can span several lines. If a quote is missing, everything after it is misread: strings as other tokens,
-    /// and other tokens as strings. Therefore, in a source text with an unclosed string, every string except raw
-    /// strings ends at the latest at the end of its line, so that only the line with the missing quote is misread.
+    /// and other tokens as strings. Therefore, if a source text has an unclosed string, every string except raw strings
+    /// ends at the end of its line at the latest. Only the line with the missing quote is then misread.
     pub fn new(source: &'s str) -> Self {
         let mut lexer = Self {
             source,

@@ -1,7 +1,7 @@
 //! Reads the values of literals: numbers, strings, characters, names.
 //!
-//! The rules are the same as in `ron`, except that numbers cannot have a type suffix (`1u32`), a line feed in single
-//! quotes must be written as `'\n'`, and byte strings are not supported.
+//! The rules are the same as in `ron`, with three exceptions. Numbers cannot have a type suffix (`1u32`), a line feed
+//! in single quotes must be written as `'\n'`, and byte strings are not supported.
 
 use std::str::FromStr;
 

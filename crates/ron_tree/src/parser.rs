@@ -19,7 +19,8 @@ pub const MAX_DEPTH: usize = 128;
 /// The maximum number of values in a source text. Each value takes about a hundred bytes of memory.
 pub const MAX_VALUES: usize = 4 << 20;
 
-/// The maximum number of errors that are reported. If there are more, one more diagnostic says so, and parsing stops.
+/// The maximum number of errors that are reported. If there are more errors, one more diagnostic says so, and parsing
+/// stops.
 const MAX_DIAGNOSTICS: usize = 100;
 
 /// A parsed text.
@@ -84,7 +85,7 @@ pub(super) struct Parser<'s> {
     /// The brackets around `current`, outermost first.
     pub(super) open: Vec<OpenBracket>,
     diagnostics: Vec<Diagnostic>,
-    /// The start of the token of the last error. No second error is reported about that token.
+    /// The start of the token of the last error. No second error is reported about the token of the last error.
     pub(super) complained_at: Option<usize>,
     values: usize,
     pub(super) too_deep: bool,

@@ -79,8 +79,8 @@ impl Parser<'_> {
         }
     }
 
-    /// Whether `current` seems to start an item of an outer group. If so, the closing bracket of the innermost group is
-    /// missing.
+    /// Whether `current` seems to start an item of an outer group. An item of an outer group means that the closing
+    /// bracket of the innermost group is missing.
     pub(super) fn belongs_outside(&self, contents: &Contents) -> bool {
         let Lexeme {
             kind, starts_line, ..

@@ -11,8 +11,8 @@ pub struct Value {
     pub span: Span,
     /// The kind and the content of the value.
     pub kind: ValueKind,
-    /// The name of the recipe parameter, if this value was substituted for an `arg(..)`. The span is then the span of
-    /// the `arg(..)`.
+    /// The name of the recipe parameter, if this value was substituted for an `arg(..)`. The span of a substituted
+    /// value is the span of the `arg(..)`.
     pub parameter: Option<Box<str>>,
 }
 
@@ -52,8 +52,8 @@ pub enum ValueKind {
 pub struct Struct {
     /// The fields in the order of the text.
     pub fields: Vec<Field>,
-    /// Whether everything between the parentheses could be read. If not, a field that seems to be missing may be in the
-    /// part that could not be read.
+    /// Whether everything between the parentheses could be read. If a part could not be read, a field that seems to be
+    /// missing may be in that part.
     pub complete: bool,
 }
 

@@ -52,7 +52,7 @@ impl fmt::Debug for Digest {
 }
 
 impl Scene {
-    /// Returns the digest of the canonical form of the scene. It is the same on every machine.
+    /// Returns the digest of the canonical form of the scene. The digest is the same on every machine.
     pub fn digest(&self) -> Digest {
         let mut hasher = blake3::Hasher::new();
         self.encode(&mut |bytes| {
@@ -111,7 +111,7 @@ impl Scene {
 /// nor the graph.
 pub(crate) const GRAPH: &str = "graph";
 
-/// The first string of the canonical form. It contains the version of the form.
+/// The first string of the canonical form. The string contains the version of the canonical form.
 pub(crate) const FORM: &str = "meshwright scene 1";
 /// The marker before the other properties of a material. The marker is at a position where a decoder could expect
 /// the length of a string. No string has this length, so the marker cannot be mistaken for a string.

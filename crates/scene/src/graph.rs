@@ -36,7 +36,7 @@ pub struct Graph {
     pub skins: Vec<Skin>,
     /// The animations of nodes.
     pub animations: Vec<Animation>,
-    /// Arrays of numbers. Skins and animations refer to them by index, and can share an array.
+    /// Arrays of numbers. Skins and animations refer to these arrays by index, and can share an array.
     pub arrays: Vec<Vec<f32>>,
     /// Other parts of a glTF file, as JSON objects by name. `asset` has the copyright and the extras of the asset,
     /// `scene` has the name and the extras of the scene, and `root` has the extras of the document.

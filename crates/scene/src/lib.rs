@@ -136,7 +136,8 @@ impl Scene {
     }
 
     /// Returns a scene of the objects that `is_wanted` accepts. The scene has the nodes of these objects, the joints of
-    /// their skins, the roots of these joints, and the ancestors of all these nodes. It has no cameras and no lights.
+    /// their skins, the roots of these joints, and the ancestors of all these nodes. The returned scene has no cameras
+    /// and no lights.
     #[must_use]
     pub fn only(&self, is_wanted: impl Fn(&str) -> bool) -> Self {
         let objects = self.objects.iter().filter(|o| is_wanted(&o.name));

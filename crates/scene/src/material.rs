@@ -169,7 +169,8 @@ pub enum Image {
     /// The path of an image file that was not read, as written in the model file, with `/` as separator; or a URI
     /// with a scheme.
     File(String),
-    /// An image file that was read from the folder of the model file. As in `Embedded`, the bytes are shared.
+    /// An image file that was read from the folder of the model file. The bytes are shared between copies, as in
+    /// `Embedded`.
     Loaded {
         /// The path, as in `File`.
         path: String,

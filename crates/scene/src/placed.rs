@@ -32,8 +32,8 @@ pub struct Instance<'s> {
 
 impl Instance<'_> {
     /// Returns the object with the name of the instance. The points of a mesh are mapped to scene space; other geometry
-    /// is unchanged. Morph targets deform the mesh by the weights of the node (if the node has none, by the default
-    /// weights), and a skin deforms it by the placements of the joints.
+    /// is unchanged. Morph targets deform the mesh by the weights of the node, or by the default weights if the node
+    /// has none. A skin deforms the mesh by the placements of the joints.
     pub fn placed(&self) -> Object {
         let geometry = match &self.object.geometry {
             Geometry::Mesh(mesh) if self.pose.deforms() => {
@@ -139,7 +139,7 @@ impl Scene {
 ///
 /// Normals are multiplied by the cofactor matrix of the map: the inverse transpose of the map times its determinant
 /// (Turkowski, "Properties of Surface-Normal Transformations", 1990). The determinant of a reflection is negative, so
-/// the product with the cofactor matrix negates the normals. Reversing the faces negates the normals again.
+/// the product with the cofactor matrix negates the normals. Reversing the faces negates the normals a second time.
 pub fn transformed(mesh: &Mesh, map: &DAffine3) -> Mesh {
     let is_mirror = map.matrix3.determinant() < 0.0;
     let map = LinearMap::of(map);

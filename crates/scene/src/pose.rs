@@ -93,7 +93,7 @@ impl Pose {
     ///
     /// The new normal is the normalized sum of the old normal and the weighted differences between the normals of the
     /// morph targets and the old normal, as in glTF 2.0, section 3.7.2.2. The differences themselves do not change. If
-    /// the sum is zero, the old normal stays. The same holds for tangents, whose signs stay.
+    /// the sum is zero, the old normal stays. Tangents are computed like normals, and their signs stay.
     pub fn morphed_directions(
         &self,
         attributes: &Attributes,

@@ -14,9 +14,10 @@
 //! ```
 //!
 //! [`read_sweep`] reads the text, and [`Sweep::grid`] checks its values against the parameters that the recipe
-//! declares. Both functions report all errors at once. The lists of `zip` have the same length, and the values at the
-//! same position in all of them form a row. The cells are all combinations of one value from each list of `over` and
-//! one row of `zip`. From cell to cell, the row of `zip` changes fastest, then the value from the last list of `over`.
+//! declares. Both [`read_sweep`] and [`Sweep::grid`] report all errors at once. The lists of `zip` have the same
+//! length, and the values at the same position in all of them form a row. The cells are all combinations of one value
+//! from each list of `over` and one row of `zip`. From cell to cell, the row of `zip` changes fastest, then the value
+//! from the last list of `over`.
 
 mod metric;
 mod values;
@@ -80,7 +81,7 @@ pub struct Grid {
 /// Parameters that change together.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Axis {
-    /// The range of their indices in [`Grid::parameters`].
+    /// The range of the indices that these parameters have in [`Grid::parameters`].
     pub parameters: Range<usize>,
     /// The number of values of each parameter.
     pub len: usize,
@@ -89,7 +90,8 @@ pub struct Axis {
 /// A value of a parameter.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Setting {
-    /// The value as plain text for [`read`](crate::read()). A path includes the folder of the sweep.
+    /// The value as plain text for [`read`](crate::read()). If the value is a path, the text includes the folder of the
+    /// sweep.
     pub text: String,
     /// The value as written in the sweep.
     pub value: Value,

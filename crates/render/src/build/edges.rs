@@ -18,7 +18,7 @@ const ISOLATED_BESIDE_EDGES: f64 = 1.8;
 /// The border of a highlighted vertex: the difference between the outer and the inner diameter, as a fraction of the
 /// inner diameter.
 const BORDER: f64 = 0.25;
-/// The maximum number of id labels of a mesh. More labels would cover each other.
+/// The maximum number of id labels of a mesh. With more labels than this, the labels would cover each other.
 const MAX_IDS: usize = 2000;
 /// Creases with at least this sharpness are drawn with twice the width of the style.
 const MAX_SHARPNESS: f64 = 10.0;

@@ -194,7 +194,7 @@ fn uvs<'s>(mesh: &'s Mesh, surfaces: &[Surface]) -> Vec<Cow<'s, [DVec2]>> {
     sets.unwrap_or_default()
 }
 
-/// The triangles of a mesh. The fields have the meaning of the fields of [`Part`].
+/// The triangles of a mesh. The fields have the same meaning as in [`Part`].
 #[derive(Default)]
 struct Triangulation {
     triangles: Vec<[u32; 3]>,

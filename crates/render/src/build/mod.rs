@@ -196,7 +196,7 @@ pub fn build_within<'s>(
     Ok((builder.drawing, builder.missing))
 }
 
-/// Returns the number of bytes that the drawing of the meshes of a scene takes at least.
+/// Returns a lower bound of the number of bytes that the drawing of the meshes of a scene takes.
 fn min_bytes(scene: &Scene, style: &Style) -> u64 {
     let meshes = scene.objects().iter().filter_map(|object| object.as_mesh());
     let bytes = meshes.map(|mesh| {

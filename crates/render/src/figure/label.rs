@@ -83,7 +83,7 @@ pub fn shortened(text: &str, font: Font, size: f64, width: f64) -> String {
 }
 
 /// Wraps the parts of a text into lines of at most `width` pixels. The parts of a line are joined by `separator`. A
-/// part that is too wide is [shortened]. Parts after the first 4096 are left out.
+/// part that is too wide for a line is [shortened]. Only the first 4096 parts are kept.
 pub fn wrapped(parts: &[&str], separator: &str, font: Font, size: f64, width: f64) -> Vec<String> {
     let fits = |text: &str| text_width(&Text::new(font, text, size, [0, 0, 0, 255])) <= width;
     let mut lines: Vec<String> = Vec::new();

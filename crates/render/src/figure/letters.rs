@@ -167,8 +167,8 @@ fn clusters(text: &Text) -> Vec<Cluster> {
     clusters
 }
 
-/// Whether a character that is missing in all fonts is invisible and has no width. Invisible characters join or
-/// separate other characters, or set the direction or variant of other characters.
+/// Whether a character that is missing in all fonts is invisible and has no width. An invisible character joins or
+/// separates other characters, or sets their direction or variant.
 fn is_invisible(c: char) -> bool {
     matches!(c, '\u{ad}' | '\u{200b}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2060}'..='\u{206f}'
         | '\u{fe00}'..='\u{fe0f}' | '\u{feff}')
@@ -241,8 +241,9 @@ impl Typeface {
             .sum()
     }
 
-    /// Returns the offset of an accent on a letter that can already have accents. If the font defines a position on the
-    /// last of these accents, the new accent is placed there. Otherwise, the accent is placed on the letter.
+    /// Returns the offset of an accent on a letter that can already have accents. If the font defines a position for
+    /// the new accent on the last existing accent, the new accent is placed there. Otherwise, the accent is placed on
+    /// the letter.
     fn mark_offset(&self, letter: &Cluster, mark: GlyphId) -> [i32; 2] {
         let (base, _) = letter.glyphs[0];
         let (last, [x, y]) = letter.glyphs[letter.glyphs.len() - 1];

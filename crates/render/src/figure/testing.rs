@@ -1,6 +1,6 @@
 //! Test data for this crate and for other crates.
 
-/// Texts that often cause errors in programs. Every one must be written correctly, and drawing it must not fail.
+/// Texts that often cause errors in programs. Each text must be written correctly, and drawing it must not fail.
 pub const ODD_TEXTS: &[&str] = &[
     "",
     " ",

@@ -20,7 +20,7 @@ use crate::{PictureError, View};
 /// The maximum number of chunks, not counting the incomplete last chunk of each part. The number of chunks is limited
 /// because each chunk stores a number for every tile.
 const MAX_CHUNKS: usize = 32;
-/// The minimum number of items in a chunk. The last chunk of a part can have fewer items.
+/// The minimum number of items in a chunk. The last chunk of a part can have fewer items than this minimum.
 const MIN_CHUNK: usize = 1 << 15;
 /// An item that touches more tiles than this is always in the list that all tiles read.
 const MAX_LISTED_TILES: usize = 64;
@@ -76,7 +76,7 @@ fn chunks(n: usize, all: usize) -> impl Iterator<Item = Range<usize>> {
 }
 
 /// Returns the maximum number of bytes that the lists take, including the temporary memory of sorting. `groups` has the
-/// number of items of each group. A chunk has items of one group only.
+/// number of items of each group. All items of a chunk belong to the same group.
 pub(super) fn bytes(groups: impl Iterator<Item = usize> + Clone, frame: &Frame) -> u64 {
     let all: usize = groups.clone().sum();
     let n_chunks: usize = groups.map(|n| chunks(n, all).count()).sum();
@@ -166,8 +166,8 @@ impl Bins {
         }
     }
 
-    /// Returns the items of a tile. Items that touch many tiles come first. Within both kinds, the items keep their
-    /// order.
+    /// Returns the items of a tile. Items that touch many tiles come first. The order is kept among the items that
+    /// touch many tiles, and among the other items.
     fn items_of(&self, tile: usize) -> impl Iterator<Item = u32> {
         let range = self.starts[tile] as usize..self.starts[tile + 1] as usize;
         self.large.iter().chain(&self.items[range]).copied()
@@ -189,7 +189,7 @@ struct Chunk {
     /// The index of the first triangle, counted through all parts.
     first_of_all: u32,
     bins: Bins,
-    /// The pieces of clipped triangles. Each piece has the index of its triangle in the chunk.
+    /// The pieces of clipped triangles. Each piece is stored with the index that its triangle has in the chunk.
     clipped: Vec<(u32, ProjectedTriangle)>,
 }
 

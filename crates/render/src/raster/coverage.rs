@@ -13,7 +13,7 @@ use crate::texture::Texture;
 
 /// The samples that a triangle can cover.
 pub(super) enum Coverage<'a> {
-    /// The samples of this bit mask, in every pixel.
+    /// The same samples in every pixel, given by this bit mask.
     Same(u16),
     /// The samples depend on the texture.
     Textured(Box<Textured<'a>>),

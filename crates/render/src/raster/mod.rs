@@ -75,7 +75,7 @@ pub struct Rendered {
 pub struct PlacedLabel {
     /// Pixels from the left and from the top.
     pub at: DVec2,
-    /// Whether a triangle hides the position. Transparent triangles hide it too.
+    /// Whether a triangle hides the position. Transparent triangles hide the position too.
     pub is_hidden: bool,
 }
 

@@ -2,8 +2,8 @@
 //! picture.
 //!
 //! After the projection, computations with the edges of triangles are exact. Two triangles with a common edge have the
-//! same two grid points as ends of the edge. Therefore each sample on the edge is in exactly one of the two triangles,
-//! if these are on different sides of the edge.
+//! same two grid points as ends of the edge. Therefore each sample on a common edge is in exactly one of the two
+//! triangles, if the triangles are on different sides of the edge.
 
 use glam::DVec3;
 

@@ -11,7 +11,7 @@ use super::Panel;
 pub(super) struct Frame {
     /// The center of the bounding box of all points.
     center: DVec2,
-    /// Half the longer side of the bounding box, in units of the curve.
+    /// Half the length of the longer side of the bounding box, in units of the curve.
     half: f64,
     /// The length of `half` in pixels.
     pixels: f64,

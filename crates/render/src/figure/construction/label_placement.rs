@@ -9,7 +9,7 @@ pub(crate) struct LabelPlacement {
     pub(crate) segments: Vec<[DVec2; 2]>,
     /// The points of the figure, and their radii.
     pub(crate) discs: Vec<(DVec2, f64)>,
-    /// The labels that are already placed. Each entry is the middle of a label, and half of its size.
+    /// The labels that are already placed. Each entry is the middle of a label, and half of its width and height.
     pub(crate) boxes: Vec<[DVec2; 2]>,
     /// Two opposite corners of the visible area.
     pub(crate) area: [DVec2; 2],
@@ -56,7 +56,7 @@ impl LabelPlacement {
     }
 
     /// Returns the cost of a label at a position. The cost is the length of the lines that the label hides, in pixels.
-    /// Hidden points, hidden labels, and a position that is partly outside of the visible area cost more.
+    /// The cost is higher if the label hides points or other labels, or is partly outside of the visible area.
     fn cost(&self, middle: DVec2, half: DVec2) -> f64 {
         let padded = half + DVec2::splat(2.0);
         let segments = self.segments.iter();

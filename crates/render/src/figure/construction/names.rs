@@ -18,8 +18,8 @@ pub(super) const FONT_SIZE: f64 = 19.0;
 /// control points, only the first and the last have names.
 const MAX_NAMED: usize = 12;
 
-/// The maximum degree of a curve for which the points of the levels have names. In small panels, these points never
-/// have names.
+/// The maximum degree of a curve for which the points of the levels have names. In small panels, the points of the
+/// levels never have names.
 const MAX_DEGREE: usize = 3;
 
 /// Writes names, and records which points have names.

@@ -234,7 +234,7 @@ pub(crate) fn mapped(
 }
 
 /// Whether a column holds normals, which the cofactor matrix of a map transforms. The tangents of vertices
-/// ([`TANGENT`]) have the rule of normals, but [`transform_tangents`] transforms them.
+/// ([`TANGENT`]) have [`Rule::Normal`] too, but they are not normals: [`transform_tangents`] transforms them.
 pub fn holds_normals(domain: Domain, column: &Column) -> bool {
     column.rule == Rule::Normal && (domain, &*column.name) != (Domain::Vertex, TANGENT.name)
 }

@@ -22,8 +22,8 @@ use op::prelude::*;
 /// which then gets a tunnel or a handle, or in two separate parts of the same mesh. (`Join` joins two objects into
 /// one.)
 ///
-/// New faces have the values of the adjacent faces at the hole with more edges. New corners have the values of the
-/// corners at the same vertices in the adjacent faces. Normals are dropped.
+/// Each new face copies the attribute values of the adjacent face at the hole with more edges. New corners have the
+/// values of the corners at the same vertices in the adjacent faces. Normals are dropped.
 ///
 /// The step is refused if a vertex is not on the boundary (`NotBoundary`), or if both vertices are on the same hole
 /// (`WrongPlace`). The step is also refused if the band would join two vertices that are already joined by an edge
@@ -54,7 +54,7 @@ impl MeshOperation for BridgeLoops {
                 "`first` and `second` must be on different holes, but they are the same vertex";
             problems.push(Problem::error(message).at(["second"]));
         }
-        // The band has as many faces as the longer hole has edges, at least two.
+        // The band has as many faces as the hole with more edges has edges, so it has at least two faces.
         let band = Range::between(2, plan.edges.max);
         plan.grow(Range::exactly(0), band, band);
         plan.degrees = plan.degrees.or(Range::between(3, 4));

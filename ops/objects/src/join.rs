@@ -280,9 +280,10 @@ impl Join {
     }
 }
 
-/// Returns all instances of the parts, under the names of the parts, or `None` if no node places a part. The points are
-/// in scene space or, if a skin is kept, in the space in which the skin binds points. If `keeps_morphs` is true, the
-/// morph targets are not applied to the points, because the result keeps the default weights of the targets.
+/// Returns all instances of the parts. An instance has the name of its part. Returns `None` if no node places any of
+/// the parts. The points are in scene space or, if a skin is kept, in the space in which the skin binds points. If
+/// `keeps_morphs` is true, the morph targets are not applied to the points, because the result keeps the default
+/// weights of the targets.
 fn placed(
     scene: &Scene,
     parts: &[&Object],

@@ -376,8 +376,8 @@ impl Panel {
     }
 
     /// Returns the name of the parameter that a command with this selection sets, and its new value as RON. Returns
-    /// `None` if the operation has no such parameter, or if the picked elements cannot be converted to the elements
-    /// that the parameter selects.
+    /// `None` if no parameter selects elements, if the first such parameter already has a value, or if the picked
+    /// elements cannot be converted to the elements that it selects.
     pub fn picked_value(&self, selection: &SelectionText) -> Option<(String, String)> {
         let (field, kind) = unset_selection(self)?;
         let selection = selection.without_tag(&self.operation);

@@ -165,7 +165,7 @@ pub(crate) fn set_enabled(
     if !enabled {
         return set_envelope_field(text, outline, step, "enabled", Some("false"));
     }
-    // A step that needs no other field around its operation loses the parentheses.
+    // If `run` is the only field left, the step is written as the operation alone.
     let run = outline.steps[step].run;
     if written.fields().len() == 2 && written.field("run").is_some() {
         let around = [

@@ -131,7 +131,7 @@ impl Distance {
         }
     }
 
-    /// Returns the largest distance found. The Hausdorff distance is between the largest distance found and
+    /// Returns the largest distance found. The Hausdorff distance is at least the largest distance found, and at most
     /// [`at_most`](Self::at_most).
     pub fn largest(&self) -> f64 {
         self.worst().largest

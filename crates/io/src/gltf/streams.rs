@@ -28,10 +28,12 @@ pub(super) struct Stream<'a> {
 #[derive(Clone, Copy)]
 enum Meaning<'a> {
     Normal,
-    /// The difference from the normals of the mesh, which are in this column of this domain.
+    /// The normals of a morph target minus the normals of the mesh. The normals of the mesh are in this column of this
+    /// domain.
     NormalDelta(Domain, &'a Column),
     Tangent,
-    /// The difference from the tangents of the mesh, which are in this column of the corners.
+    /// The tangents of a morph target minus the tangents of the mesh. The tangents of the mesh are in this column of
+    /// the corners.
     TangentDelta(&'a Column),
     Uv,
     Color,

@@ -223,7 +223,7 @@ fn drop_textures(material: &mut Material, keep: impl Fn(&Texture) -> bool) -> us
     textures.map(drop).iter().sum()
 }
 
-/// Whether two images are equal. If the images share their bytes, the bytes are not compared.
+/// Whether two images are equal. Bytes that both images share in memory are not compared.
 fn same(a: &Image, b: &Image) -> bool {
     match (a, b) {
         (Image::Embedded { mime: s, bytes: a }, Image::Embedded { mime: t, bytes: b }) => {

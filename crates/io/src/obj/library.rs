@@ -67,7 +67,7 @@ fn note_losses(material: &Material, losses: &mut Losses) {
     let is_implied = material.alpha == alpha_mode(material.base_color[3]);
     let cuts = matches!(material.alpha, AlphaMode::Mask(_));
     lose(cuts, "the alpha cutoff");
-    let what = "an alpha mode that differs from the default for the alpha value";
+    let what = "an alpha mode other than the one that readers assume for the alpha value";
     lose(!cuts && !is_implied, what);
     lose(material.double_sided, "that the material is double-sided");
     lose(material.unlit, "that the material is unlit");

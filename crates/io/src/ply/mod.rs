@@ -18,9 +18,9 @@
 //! | `comment TextureFile ..` | left out, with a note |
 //! | other comments, `obj_info` | not kept |
 //!
-//! An attribute with the name of a scalar gets an edit rule, which applies when the mesh is edited: if the scalar is a
-//! floating-point property of `vertex`, values are interpolated; otherwise, they are copied. Non-finite positions are
-//! an error. Other non-finite values become 0, with a note.
+//! A scalar property becomes an attribute of the same name. When the mesh is edited, the values of a floating-point
+//! property of `vertex` are interpolated, and all other values are copied. Non-finite positions are an error. Other
+//! non-finite values become 0, with a note.
 //!
 //! The writer uses the same table, read from right to left, and writes little-endian binary. All finite values are
 //! restored exactly when the file is read. Positions and custom floating-point attributes are written with 64 bits.

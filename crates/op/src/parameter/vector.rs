@@ -45,7 +45,7 @@ macro_rules! vectors {
             pub const fn literal(x: f64, y: f64, z: f64) -> Self {
                 match Self::new(x, y, z) {
                     Ok(vector) => vector,
-                    Err(_) => panic!("the numbers are not a valid value of their type"),
+                    Err(_) => panic!("the numbers are not a valid vector"),
                 }
             }
 

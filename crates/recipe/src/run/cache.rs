@@ -149,7 +149,7 @@ pub enum RerunReason {
     #[error("the file {} {}", .0.display(), .1)]
     File(PathBuf, FileChange),
     /// The recipe or its parameters changed. The output files of the step record both.
-    #[error("the recipe changed, and the output files record which recipe wrote them")]
+    #[error("the recipe changed, so the record of the recipe in the output files must be updated")]
     Provenance,
     /// The names of the step's output files changed.
     #[error("the names of the step's output files changed")]

@@ -96,7 +96,7 @@ fn of_corner(mesh: &Mesh, h: HalfEdgeId, areas: &[[f32; 3]], is_sharp: &[bool]) 
             None => break,
         }
     }
-    // Walks clockwise around the vertex, across the edge of each face that starts at the vertex.
+    // Walks clockwise around the vertex. The edge of a face that starts at the vertex leads to the next face.
     g = h;
     while !is_sharp[g.edge().index()] {
         let Some(f) = mesh.face(g.twin()) else {

@@ -267,7 +267,7 @@ fn with_legend(sheet: &Image, legend: &Legend, background: Color) -> Result<Imag
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
-        reason = "the width and the height of a legend are positive, and the length of its text limits them"
+        reason = "the width and the height of a legend are positive, and far below the maximum of the type"
     )]
     let [width, height] = [figure.width, figure.height].map(|side| (side + MARGIN).ceil() as u32);
     let mut wide = Image::filled(

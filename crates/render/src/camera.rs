@@ -43,7 +43,7 @@ pub enum Camera {
         /// The axis that points upwards.
         #[serde(default)]
         up: Up,
-        /// The projection. With `Orthographic`, the picture shows the same height, in scene units, that a perspective
+        /// The projection. With `Orthographic`, the picture shows the same height, in scene units, as a perspective
         /// picture with a field of view of 30 degrees shows at the distance of `to`.
         #[serde(default)]
         projection: Projection,
@@ -238,7 +238,8 @@ impl Up {
 
     /// Returns the directions to the right, upwards and to the front.
     ///
-    /// `Auto` must have been replaced by [`resolved`](Self::resolved). If not, `Auto` is treated like `Y`.
+    /// `Auto` must have been replaced by [`resolved`](Self::resolved). An `Auto` that was not replaced is treated like
+    /// `Y`.
     fn axes(self) -> [DVec3; 3] {
         match self {
             Self::Y | Self::Auto => [DVec3::X, DVec3::Y, DVec3::Z],
@@ -297,7 +298,7 @@ pub struct View {
 /// A point of the scene, projected to the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScreenPoint {
-    /// Pixels from the left and from the top of the picture.
+    /// The distances from the left and the top of the picture, in pixels.
     pub at: DVec2,
     /// The depth, which grows with the distance from the camera. For points of a plane, the depth is a linear function
     /// of the position in the picture.

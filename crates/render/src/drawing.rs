@@ -30,13 +30,15 @@ pub struct Part<'a> {
     pub triangles: Vec<[u32; 3]>,
     /// The indices of the corners of each triangle. The list is empty if no values are given per corner.
     pub corners: Vec<[u32; 3]>,
-    /// The face that each triangle belongs to, in ascending order. The list is empty if each triangle is a face.
+    /// The face that each triangle belongs to. The faces are in ascending order. The list is empty if each triangle is
+    /// a face.
     pub faces: Vec<u32>,
     /// The number of faces.
     pub n_faces: u32,
-    /// Normals, of any length. A zero normal means the normal of the triangle.
+    /// Normals, of any length. If a normal is zero, the normal of the triangle is used instead.
     pub normals: Channel<'a>,
-    /// Linear red, green and blue of the front, from 0 to 1. These values are multiplied by the color of the material.
+    /// Linear red, green and blue of the front, from 0 to 1. The color of the front is multiplied by the color of the
+    /// material.
     pub colors: Channel<'a>,
     /// The highlight color of each face; empty if there are no highlights. Highlight colors are blended by their alpha
     /// over all other colors, on both sides of the face.

@@ -86,7 +86,7 @@ pub struct Style {
     pub wireframe: Option<Lines>,
     /// Draws the boundary edges of meshes.
     pub boundary: Option<Lines>,
-    /// Draws crease edges. The width grows with the sharpness, up to twice `width`.
+    /// Draws crease edges. The width of a crease grows with its sharpness, up to twice `width`.
     pub creases: Option<Lines>,
     /// Draws vertex normals as short lines. The value is the length of the lines as a fraction of the size of the
     /// scene.

@@ -97,7 +97,7 @@ impl Value {
         self.locate(seed.deserialize(self))
     }
 
-    /// Returns the part in parentheses of `name(..)`. Returns any other value unchanged.
+    /// Returns the parentheses of `name(..)` with their content, without the name. Returns any other value unchanged.
     fn without_name(&self, name: &str) -> &Self {
         match &self.kind {
             ValueKind::Call(call) if &*call.name.text == name => &call.body,

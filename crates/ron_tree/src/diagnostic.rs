@@ -18,8 +18,8 @@ pub struct Diagnostic {
     pub labels: Vec<(Span, String)>,
     /// How to correct the text.
     pub help: Option<String>,
-    /// The calls that led to the text, innermost first. Each call has the index of the calling text and the span of the
-    /// call in that text.
+    /// The calls that led to the text, innermost first. Each entry has the index of the text that contains the call,
+    /// and the span of the call in that text.
     pub calls: Vec<(usize, Span)>,
 }
 
@@ -143,7 +143,8 @@ impl Span {
         self.start <= other.start && other.end <= self.end
     }
 
-    /// Returns the part of `source` that the span covers. Empty if the span is out of range or splits a character.
+    /// Returns the part of `source` that the span covers. The result is empty if the span is out of range or splits a
+    /// character.
     pub fn of(self, source: &str) -> &str {
         source.get(self.range()).unwrap_or("")
     }
@@ -194,7 +195,7 @@ impl<'s> LineIndex<'s> {
         (line, self.source[start..offset].chars().count() + 1)
     }
 
-    /// Returns the text of a line (counted from 1) with its line feed. Empty if the line does not exist.
+    /// Returns the text of a line (counted from 1) with its line feed. The result is empty if the line does not exist.
     pub fn line(&self, line: usize) -> &'s str {
         let Some(&start) = self.starts.get(line - 1) else {
             return "";

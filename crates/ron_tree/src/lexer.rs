@@ -323,8 +323,8 @@ fn block_comment(text: &str) -> (TokenKind, usize) {
     (TokenKind::BlockComment, at)
 }
 
-/// Returns the length of the number at the start of `text`. Includes invalid characters that can only be intended as
-/// part of the number, such as a unit.
+/// Returns the length of the number at the start of `text`. The length includes invalid characters that can only be
+/// intended as part of the number, such as a unit.
 fn number_length(text: &str) -> usize {
     let digits = text.trim_start_matches(['+', '-']);
     let hexadecimal = digits.starts_with("0x");

@@ -113,8 +113,8 @@ pub(crate) const GRAPH: &str = "graph";
 
 /// The first string of the canonical form. The string contains the version of the canonical form.
 pub(crate) const FORM: &str = "meshwright scene 1";
-/// The marker before the other properties of a material. The marker is at a position where a decoder could expect
-/// the length of a string. No string has this length, so the marker cannot be mistaken for a string.
+/// The marker before the other properties of a material. The marker is at a position where a decoder could expect the
+/// length of a string. The marker cannot be mistaken for the length of a string, because no string has this length.
 pub(crate) const MORE: u64 = u64::MAX;
 
 /// The name of a texture in the canonical form, and a function that returns the field of a material for this texture.

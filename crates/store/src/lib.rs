@@ -138,7 +138,7 @@ pub trait Store: Debug + Send + Sync {
     ///
     /// # Errors
     ///
-    /// [`StoreError`] if the file cannot be written. An existing file is then unchanged.
+    /// [`StoreError`] if the file cannot be written. After an error, an existing file is unchanged.
     fn write(&self, path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
         self.make_folder(folder_of(path))?;
         let mut file = self.create(path)?;
@@ -187,7 +187,7 @@ pub fn stem(path: &Path) -> &OsStr {
 /// A new file whose content is first written to a temporary location. If the value is dropped without
 /// [`commit`](Self::commit), the temporary file is removed.
 pub trait NewFile: Write + Send {
-    /// Waits until the bytes are on the disk. Some systems only report a full disk at this point.
+    /// Waits until the bytes are on the disk. Some systems report only during this call that the disk is full.
     ///
     /// # Errors
     ///
@@ -200,7 +200,7 @@ pub trait NewFile: Write + Send {
     ///
     /// # Errors
     ///
-    /// [`StoreError`] if the file cannot be moved. An existing file is then unchanged.
+    /// [`StoreError`] if the file cannot be moved. After an error, an existing file is unchanged.
     fn commit(self: Box<Self>) -> Result<(), StoreError>;
 }
 

@@ -25,13 +25,13 @@ pub(crate) struct AttributeSources<'a> {
     pub(crate) rules: Rules,
 }
 
-/// Whether subdivision keeps this column.
+/// Whether subdivision keeps this attribute column.
 pub(crate) fn is_carried(column: &Column) -> bool {
     matches!(column.rule, Rule::Interpolate | Rule::Copy)
 }
 
 impl AttributeSources<'_> {
-    /// Computes the columns of the next level:
+    /// Computes the attribute columns of the next level:
     ///
     /// - Vertices: [`Rule::Interpolate`] uses the masks of the positions. [`Rule::Copy`] keeps the values of
     ///   old vertices, and new vertices have the value zero.

@@ -217,7 +217,7 @@ struct Builder<'s, 'a> {
     texture_bytes: u64,
     missing: Vec<String>,
     drawing: Drawing<'s>,
-    /// The number of faces of the parts that have been added.
+    /// The number of faces in all parts that have been added so far.
     n_faces: u32,
     /// The radius of the sphere around the scene.
     radius: f64,

@@ -1,8 +1,8 @@
 //! Writes SVG documents: shapes, text and groups, in pixels from the top left corner.
 //!
-//! Apart from text, whose fonts are not in the document, documents use only features that look the same in all programs
-//! and give the same pixels on every processor. Documents have no gradients, arcs, filters or style sheets. Coordinates
-//! have three decimals.
+//! Apart from text, documents use only features that look the same in all programs and give the same pixels on every
+//! processor. The fonts of text are not in the document. Documents have no gradients, arcs, filters or style sheets.
+//! Coordinates have three decimals.
 
 use glam::DVec2;
 

@@ -184,12 +184,13 @@ pub(super) struct Triangles {
 /// Some triangles of one part.
 struct Chunk {
     part: usize,
-    /// The index of the first triangle in its part.
+    /// The index that the first triangle of the chunk has in its part.
     first: usize,
-    /// The index of the first triangle, counted through all parts.
+    /// The index that the first triangle of the chunk has among the triangles of all parts.
     first_of_all: u32,
     bins: Bins,
-    /// The pieces of clipped triangles. Each piece is stored with the index that its triangle has in the chunk.
+    /// The pieces into which clipped triangles are divided. Each piece is stored with the index that its triangle has
+    /// in the chunk.
     clipped: Vec<(u32, ProjectedTriangle)>,
 }
 

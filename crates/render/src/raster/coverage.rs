@@ -24,7 +24,7 @@ pub(super) struct Textured<'a> {
     view: &'a View,
     texture: &'a Texture,
     data: TriangleData,
-    /// Texture coordinates of the corners.
+    /// The texture coordinates of the corners.
     uvs: [DVec2; 3],
     /// The alpha of the material.
     alpha: f32,

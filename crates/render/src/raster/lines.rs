@@ -158,8 +158,9 @@ pub(super) fn draw(tile: &mut Tile, number: u32, projected: &ProjectedLine, shad
 pub(super) type Planes = Vec<Option<(u32, (u32, DVec3, DVec3))>>;
 
 impl ProjectedLine {
-    /// Whether the point of the line at parameter `t` is in front of the triangle that is visible at a sample. One
-    /// argument is the depth of the triangle at the sample. The faces beside the line never hide the line.
+    /// Whether the point of the line at parameter `t` is in front of the triangle that is visible at a sample. The
+    /// argument `triangle_depth` is the depth of the triangle at the sample. The faces beside the line never hide the
+    /// line.
     fn is_visible(
         &self,
         line: &Line,

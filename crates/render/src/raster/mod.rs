@@ -73,7 +73,7 @@ pub struct Rendered {
 /// The position of a label in a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlacedLabel {
-    /// Pixels from the left and from the top.
+    /// The distances from the left and the top of the picture, in pixels.
     pub at: DVec2,
     /// Whether a triangle hides the position. Transparent triangles hide the position too.
     pub is_hidden: bool,
@@ -350,7 +350,8 @@ fn place(
     })
 }
 
-/// Returns the sample that is nearest to a point of the picture, in the pixel of this point.
+/// Returns the sample that is nearest to a point of the picture, among the samples of the pixel that contains the
+/// point.
 fn nearest_sample(at: DVec2) -> usize {
     let offset = (at - at.floor() - 0.5) * f64::from(GRID);
     let distance = |k: &usize| {

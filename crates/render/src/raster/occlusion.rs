@@ -201,13 +201,13 @@ fn draw_point(depths: &mut [[f32; 2]], side: usize, p: MapPoint) {
     *back = back.max(-p.depth);
 }
 
-/// Grid steps per texel of a depth map.
+/// The number of grid steps per texel of a depth map.
 const STEPS: i32 = 256;
 
 /// A point in a depth map.
 #[derive(Clone, Copy)]
 struct MapPoint {
-    /// Grid steps from the corner of the map.
+    /// The distances from the corner of the map, in grid steps.
     at: [i32; 2],
     depth: f32,
 }

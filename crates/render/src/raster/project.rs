@@ -21,7 +21,7 @@ const FAR: f64 = 32_768.0;
 /// A point of the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct GridPoint {
-    /// Grid steps from the left and from the top.
+    /// The distances from the left and the top of the picture, in grid steps.
     pub(super) at: [i32; 2],
     /// See [`ScreenPoint::depth`].
     pub(super) depth: f32,

@@ -224,7 +224,8 @@ impl<'a> Shader<'a> {
         }
     }
 
-    /// Returns the openness of a point. The strength of occlusion in the style determines the weight of occlusion.
+    /// Returns the openness of a point. The strength of ambient occlusion in the style determines how much the openness
+    /// is reduced.
     fn openness(&self, point: &SurfacePoint, last: &mut Option<OpennessSample>) -> f32 {
         let Some(occlusion) = &self.occlusion else {
             return 1.0;

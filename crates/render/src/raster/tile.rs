@@ -42,10 +42,10 @@ pub(super) struct Tile {
     pub(super) top: u32,
     pub(super) right: u32,
     pub(super) bottom: u32,
-    /// For each pixel, the depths of the visible triangles of its samples. The depth is infinite if a sample has no
-    /// triangle.
+    /// For each pixel, the depth of the visible triangle at each of its samples. The depth is infinite if a sample has
+    /// no triangle.
     pub(super) depth: Vec<[f32; SAMPLES]>,
-    /// For each pixel, the visible triangles of its samples.
+    /// For each pixel, the visible triangle at each of its samples.
     pub(super) triangles: Vec<[u32; SAMPLES]>,
     /// For each pixel, the lines that cover its samples. The entry is 2 i + 2 if line i is visible, 2 i + 3 if line i
     /// is hidden, and 0 if there is no line.

@@ -146,9 +146,9 @@ impl Graph {
         left_out
     }
 
-    /// Returns a graph for the objects that `is_wanted` accepts. The graph has the nodes that reference these
-    /// objects, the joints of their skins, the roots of these joints, the ancestors of all these nodes, and the
-    /// animations of these nodes. The parts of the document are kept; cameras and lights are not.
+    /// Returns a graph for the objects that `is_wanted` accepts. The graph has the nodes that reference these objects,
+    /// the joints of their skins, the roots of these joints, and the ancestors of all these nodes. It also has the
+    /// animations of the nodes that it contains. The parts of the document are kept; cameras and lights are not.
     pub(crate) fn only(&self, is_wanted: impl Fn(&str) -> bool) -> Self {
         let mut graph = Self {
             nodes: self.nodes.clone(),

@@ -1,10 +1,10 @@
 // The text of the recipe: CodeMirror with colors, completion, and problems at their places.
 import { autocompletion, closeBrackets, closeBracketsKeymap, completionKeymap } from "@codemirror/autocomplete";
-import { defaultKeymap, history, historyKeymap, indentWithTab, isolateHistory } from "@codemirror/commands";
+import { defaultKeymap, history, historyKeymap, indentWithTab, isolateHistory, redo, undo } from "@codemirror/commands";
 import { HighlightStyle, bracketMatching, indentUnit, syntaxHighlighting } from "@codemirror/language";
 import { lintGutter, lintKeymap, setDiagnostics } from "@codemirror/lint";
 import { highlightSelectionMatches, searchKeymap } from "@codemirror/search";
-import { EditorState, StateEffect, StateField } from "@codemirror/state";
+import { EditorState, StateEffect, StateField, Transaction } from "@codemirror/state";
 import {
     Decoration, EditorView, WidgetType, drawSelection, highlightActiveLine, highlightActiveLineGutter, hoverTooltip, keymap,
     lineNumbers,
@@ -88,12 +88,24 @@ export class Editor {
         return this.#view.state.doc.toString();
     }
 
-    /// Replaces the whole text, as one change that can be undone, and puts the cursor after the last step.
+    /// Replaces the whole text, as one change, and puts the cursor after the last step. The change can be undone, except for
+    /// the first text.
     set text(text) {
         const end = endOfSteps(text)?.end ?? text.length;
-        this.#view.dispatch({ changes: { from: 0, to: this.#view.state.doc.length, insert: text }, selection: { anchor: end },
-            annotations: isolateHistory.of("full") });
+        const { length } = this.#view.state.doc;
+        this.#view.dispatch({ changes: { from: 0, to: length, insert: text }, selection: { anchor: end },
+            annotations: length ? isolateHistory.of("full") : Transaction.addToHistory.of(false) });
         this.#view.scrollDOM.scrollTop = 0;
+    }
+
+    /// Undoes the last change of the text. Returns false if there is none.
+    undo() {
+        return undo(this.#view);
+    }
+
+    /// Redoes the change that was undone last. Returns false if there is none.
+    redo() {
+        return redo(this.#view);
     }
 
     /// Puts a text in place of the selection.

@@ -9,7 +9,7 @@ import { Parameters } from "./parameters.js";
 import { Steps, showProblems } from "./results.js";
 import { LinkError, link, shared } from "./share.js";
 import { Stage } from "./stage.js";
-import { STARTER } from "./starter.js";
+import { CUBE, STARTER } from "./starter.js";
 
 const engine = new Engine();
 const loaded = engine.load(globalThis.download);
@@ -111,13 +111,18 @@ async function checkText(keepSteps) {
     }
 }
 
-/// Runs the recipe. If a recipe is already running, the new run starts after that run has ended.
+/// Runs the recipe. If a recipe is already running, the new run starts after that run has ended. Returns whether the run
+/// succeeded.
 async function run() {
     if (running) {
         runAgain = true;
-        return;
+        return false;
     }
     setRunning(true);
+    if (!trusted) {
+        // Closes the message that the recipe comes from a link.
+        byId("notice").hidden = true;
+    }
     trusted = true;
     await arriving;
     await checkText();
@@ -148,6 +153,7 @@ async function run() {
         checkAgain = false;
         check();
     }
+    return Boolean(result?.succeeded);
 }
 
 /// Sets the parameters to the values of a preset.
@@ -220,8 +226,10 @@ async function openShared() {
         const found = await shared(location.hash);
         if (found) {
             arriving = writeNamed(found.recipe);
+            const earlier = editor.text;
             await openRecipe(found.recipe, { title: "Shared recipe", trust: false, set: found.set });
-            notify("This recipe comes from a link. Press Run to run it. Ctrl+Z brings back the previous text.");
+            notify("This recipe comes from a link. Press Run to see its meshes.",
+                { "Back to your recipe": () => openRecipe(earlier, { title: "Your recipe", trust: false }) });
         }
         return Boolean(found);
     } catch (error) {
@@ -267,6 +275,9 @@ function edited() {
     if (foreign) {
         return;
     }
+    if (lastRun && lastRun !== current()) {
+        byId("status").textContent = "Changed since the last run";
+    }
     if (location.hash) {
         history.replaceState(null, "", location.pathname + location.search);
     }
@@ -293,10 +304,16 @@ function showTab(tab) {
 }
 
 function listen() {
-    byId("run").addEventListener("click", run);
+    // On a narrow screen, the tabs hide the view.
+    byId("run").addEventListener("click", async () => await run() && showTab("view"));
     byId("cancel").addEventListener("click", cancel);
     byId("share").addEventListener("click", share);
     byId("open-gallery").addEventListener("click", () => byId("gallery").showModal());
+    byId("start-cube").addEventListener("click", () => {
+        byId("gallery").close();
+        openRecipe(CUBE, { title: "Cube", trust: true });
+        run();
+    });
     byId("open-help").addEventListener("click", () => byId("help").showModal());
     for (const dialog of document.querySelectorAll("dialog")) {
         dialog.querySelector(".heading button").addEventListener("click", () => dialog.close());
@@ -313,7 +330,22 @@ function listen() {
             event.preventDefault();
             run();
         }
+        undoOutside(event);
     });
+}
+
+/// Undoes or redoes a change of the recipe, and runs it if it is trusted, for a key that no text field gets.
+function undoOutside(event) {
+    const key = (event.ctrlKey || event.metaKey) && !event.altKey ? event.key.toLowerCase() : "";
+    if (!["y", "z"].includes(key) || event.defaultPrevented ||
+        event.target.closest?.("input, textarea, select, dialog, .cm-editor")) {
+        return;
+    }
+    event.preventDefault();
+    const changed = key === "y" || event.shiftKey ? editor.redo() : editor.undo();
+    if (changed && trusted) {
+        run();
+    }
 }
 
 /// Shows the first text while the engine is loading, then runs or checks it.

@@ -1,3 +1,12 @@
+/// A recipe to begin with.
+export const CUBE = `(
+    recipe: 1,
+    steps: [
+        Cube(name: "cube"),
+    ],
+)
+`;
+
 /// The recipe of a first visit.
 export const STARTER = `// Move a slider, or change the text and press Run (Ctrl+Enter).
 // Click a face in the view to add a step for it.

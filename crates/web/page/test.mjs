@@ -130,6 +130,31 @@ const tests = {
         assert.match(await page.evaluate(() => meshwright.editor.text), /jack/);
     },
 
+    async "keys undo a step that was added outside of the text"(page) {
+        await ready(page);
+        await page.locator("#open-gallery").click();
+        await page.getByRole("button", { name: "Start from a cube" }).click();
+        const faces = (n) => page.waitForFunction((n) => {
+            const shown = [...document.querySelectorAll("#steps tr.done td:nth-child(4)")].at(-1)?.textContent;
+            return document.querySelector("#status").textContent === "Done" && shown === String(n);
+        }, n);
+        await faces(6);
+        await page.evaluate(() => {
+            meshwright.editor.addStep("CatmullClark(levels: 1)");
+            document.activeElement.blur();
+        });
+        assert.equal(await text(page, "#status"), "Changed since the last run");
+        await page.keyboard.press("Control+Enter");
+        await faces(24);
+        await page.keyboard.press("Control+z");
+        await faces(6);
+        // The first text of the page stays.
+        for (let i = 0; i < 5; i += 1) {
+            await page.keyboard.press("Control+z");
+        }
+        assert.match(await page.evaluate(() => meshwright.editor.text), /jack/);
+    },
+
     async "a mistyped operation is shown at its line while typing, and below its line after a run"(page) {
         await ready(page);
         await write(page, "(recipe: 1, steps: [\n    Cube(name: \"a\"),\n    Flipedges(edges: Between(0, 1)),\n])");
@@ -750,6 +775,8 @@ await styled.context().close();
 // The page on a phone, in the dark.
 const phone = await open({ size: [390, 844], scheme: "dark" });
 await ready(phone);
+await run(phone);
+await phone.waitForFunction(() => document.body.dataset.tab === "view");
 for (const tab of ["recipe", "view", "results"]) {
     await phone.locator(`nav [data-tab=${tab}]`).click();
     await phone.waitForTimeout(300);

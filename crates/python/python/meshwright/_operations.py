@@ -1635,8 +1635,8 @@ class SceneOperations:
         the mesh, which then gets a tunnel or a handle, or in two separate parts of the same mesh. (``join()`` joins two
         objects into one.)
 
-        New faces have the values of the adjacent faces at the hole with more edges. New corners have the values of the
-        corners at the same vertices in the adjacent faces. Normals are dropped.
+        Each new face copies the attribute values of the adjacent face at the hole with more edges. New corners have the
+        values of the corners at the same vertices in the adjacent faces. Normals are dropped.
 
         The step is refused if a vertex is not on the boundary (``NotBoundary``), or if both vertices are on the same
         hole (``WrongPlace``). The step is also refused if the band would join two vertices that are already joined by
@@ -2969,7 +2969,7 @@ class SceneOperations:
             ``"wireframe"``: Draws the edges of meshes, and grids on Bezier patches. Lines that are only a few pixels
                 apart are thinner, so that they do not cover the surface.
             ``"boundary"``: Draws the boundary edges of meshes.
-            ``"creases"``: Draws crease edges. The width grows with the sharpness, up to twice ``width``.
+            ``"creases"``: Draws crease edges. The width of a crease grows with its sharpness, up to twice ``width``.
             ``"normals"``: Draws vertex normals as short lines. The value is the length of the lines as a fraction of
                 the size of the scene.
             ``"points"``: Draws dots at all vertices of meshes and all points of polylines. The value is the diameter of
@@ -4195,8 +4195,8 @@ class MeshOperations:
         the mesh, which then gets a tunnel or a handle, or in two separate parts of the same mesh. (``join()`` joins two
         objects into one.)
 
-        New faces have the values of the adjacent faces at the hole with more edges. New corners have the values of the
-        corners at the same vertices in the adjacent faces. Normals are dropped.
+        Each new face copies the attribute values of the adjacent face at the hole with more edges. New corners have the
+        values of the corners at the same vertices in the adjacent faces. Normals are dropped.
 
         The step is refused if a vertex is not on the boundary (``NotBoundary``), or if both vertices are on the same
         hole (``WrongPlace``). The step is also refused if the band would join two vertices that are already joined by
@@ -5455,7 +5455,7 @@ class MeshOperations:
             ``"wireframe"``: Draws the edges of meshes, and grids on Bezier patches. Lines that are only a few pixels
                 apart are thinner, so that they do not cover the surface.
             ``"boundary"``: Draws the boundary edges of meshes.
-            ``"creases"``: Draws crease edges. The width grows with the sharpness, up to twice ``width``.
+            ``"creases"``: Draws crease edges. The width of a crease grows with its sharpness, up to twice ``width``.
             ``"normals"``: Draws vertex normals as short lines. The value is the length of the lines as a fraction of
                 the size of the scene.
             ``"points"``: Draws dots at all vertices of meshes and all points of polylines. The value is the diameter of

@@ -211,7 +211,7 @@ def LookAt(
         ``"Y"``: The y axis, as in glTF.
         ``"Z"``: The z axis, as in most CAD programs.
         ``"Auto"``: The z axis if the scene stands on the plane z = 0 but not on the plane y = 0; else the y axis.
-    :param projection: The projection. With ``Orthographic``, the picture shows the same height, in scene units, that a
+    :param projection: The projection. With ``Orthographic``, the picture shows the same height, in scene units, as a
         perspective picture with a field of view of 30 degrees shows at the distance of ``to``.
         ``"Orthographic"``: Parallel projection: the size of an object does not depend on its distance.
         ``choice.Perspective(..)``: Perspective projection, as in a photograph.

@@ -54,8 +54,10 @@ fn selections_are_described_separately() {
         "EdgeSelection: ",
         "EdgeLoop(..)",
         // A description of several lines is printed completely.
-        "straight across each interior vertex with four edges. A loop\n",
-        "that starts at a boundary edge follows the boundary.",
+        "continues\n",
+        "straight across each interior vertex that has four\n",
+        "edges. An edge loop that starts at a boundary edge follows the\n",
+        "boundary.\n",
         "VertexSelection: ",
     ]);
     let operation = folder.run("ops SplitEdges").stdout;

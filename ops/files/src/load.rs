@@ -347,7 +347,7 @@ mod tests {
         let problems = step.plan(&mut plan, &cx);
         assert_eq!(problems.len(), 1);
         assert!(
-            format!("{problems:?}").contains("the name is in the file"),
+            format!("{problems:?}").contains("the name comes from the file"),
             "{problems:?}"
         );
     }

@@ -292,9 +292,9 @@ fn distance_below(
         };
         let (from, to) = (worst.from, worst.to);
         let endpoints = if found.is_worst_forth() {
-            format!("from the point {from} to the point {to} of the other mesh")
+            format!("from {from} to {to} of the other mesh")
         } else {
-            format!("from the point {from} of the other mesh to the point {to}")
+            format!("from {from} of the other mesh to {to}")
         };
         format!("expected a distance below {below}, found {range}: {endpoints}")
     })

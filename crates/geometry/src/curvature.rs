@@ -55,11 +55,11 @@ pub fn mean_curvatures(mesh: &Mesh) -> Vec<f64> {
 /// r, the principal curvatures are 0 and 1 / r. The values are NaN where the [mean curvature](mean_curvatures) is NaN.
 ///
 /// The principal curvatures are the eigenvalues of the curvature tensor of the vertex in the plane perpendicular to its
-/// normal. The normal is the sum of the area vectors of the faces around the vertex. Each edge at the vertex adds ½ θ l
-/// u uᵀ to the tensor, where θ is the signed dihedral angle of the edge, l is its length, and u is the unit vector
-/// along it. The sum over all edges at the vertex is divided by the [vertex area](vertex_area). Source: Cohen-Steiner,
-/// Morvan, "Restricted Delaunay Triangulations and Normal Cycle", 2003. Where the surface is nearly flat around the
-/// vertex, the mean of the principal curvatures is close to the mean curvature.
+/// normal. The normal is the sum of the area vectors of the faces around the vertex. Each edge at the vertex adds
+/// ½ θ l u uᵀ to the tensor, where θ is the signed dihedral angle of the edge, l is its length, and u is the unit
+/// vector along it. The sum over all edges at the vertex is divided by the [vertex area](vertex_area). Source:
+/// Cohen-Steiner, Morvan, "Restricted Delaunay Triangulations and Normal Cycle", 2003. Where the surface is nearly
+/// flat around the vertex, the mean of the principal curvatures is close to the mean curvature.
 pub fn principal_curvatures(mesh: &Mesh) -> Vec<[f64; 2]> {
     let none = [f64::NAN; 2];
     let scaled = Scaled::new(mesh);

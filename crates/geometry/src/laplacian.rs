@@ -20,8 +20,8 @@ use progress::{Cancelled, Meter, Progress};
 use crate::sparse::SymmetricMatrix;
 use crate::triangulate::Cutter;
 
-/// The largest number of corners of a polygon that gets a virtual vertex. Polygons with more than 16 corners are cut
-/// into triangles.
+/// The largest number of corners of a polygon that gets a virtual vertex. Polygons with more corners are cut into
+/// triangles.
 const MAX_CORNERS: usize = 16;
 /// In every triangle, the sum of two sides must exceed the third side by at least this fraction of the mean edge
 /// length. If necessary, all edges are lengthened by the same length.

@@ -1,4 +1,4 @@
-//! Algorithms that process more of a [`Mesh`](mesh::Mesh) than one element and its neighbors.
+//! Algorithms over a [`Mesh`](mesh::Mesh) that go beyond one element and its neighbors.
 //!
 //! | items | contents |
 //! | --- | --- |

@@ -7,8 +7,8 @@ pub fn area(mesh: &Mesh) -> f64 {
     sum_over_faces(mesh, |f| mesh.face_area(f))
 }
 
-/// Returns the volume inside the mesh. The volume is negative if the faces are oriented inward. The volume is
-/// meaningful only for a closed mesh.
+/// Returns the volume inside the mesh. The volume is negative if the faces are oriented inward. It is meaningful only
+/// for a closed mesh.
 ///
 /// Each face is triangulated as a fan. By the divergence theorem, the volume is the sum of the signed volumes of
 /// tetrahedra. Each tetrahedron joins a fixed point to a triangle of the surface. The fixed point is the center of the

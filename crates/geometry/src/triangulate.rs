@@ -116,8 +116,8 @@ impl Cut {
 ///
 /// A face becomes a fan around its vertex with the lowest id if it has more than ten million corners or cannot be cut.
 /// A face cannot be cut if its area is zero or its sides cross. A face with more than 4096 corners also becomes a fan
-/// if some of its sides overlap. If such a face needs more than 1024 flips for each corner, some of its triangles are
-/// not Delaunay triangles.
+/// if some of its sides overlap. If a face with more than 4096 corners needs more than 1024 flips for each corner, some
+/// of its triangles are not Delaunay triangles.
 ///
 /// # Examples
 ///
@@ -336,8 +336,8 @@ fn insert_skipped_corners(n: usize, triangles: &mut Vec<Triangle>) {
         let place = used.partition_point(|&u| u <= i);
         used.get(place).copied().unwrap_or(first)
     };
-    // The corners that are used by a triangle form a polygon. For each side of the polygon of used corners, `owner` has
-    // the triangle at this side. The index in `owner` is the first corner of the side.
+    // The corners that are used by a triangle form a polygon. For each side of this polygon, `owner` has the triangle
+    // at this side. The index in `owner` is the first corner of the side.
     let mut owner = vec![None; n];
     for (t, triangle) in triangles.iter().enumerate() {
         for k in 0..3 {

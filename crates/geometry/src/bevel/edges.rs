@@ -14,8 +14,8 @@ use mesh::{DVec3, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 
 use super::values::{Blend, blended};
 
-/// The lower limit of the sine of the angle between a beveled edge and an edge that is cut. A smaller sine is replaced
-/// by this limit. Otherwise, an edge that is almost parallel to a beveled edge would be cut far from its end.
+/// The lower limit of the sines by which the width is divided to find a cut. A smaller sine is replaced by this limit.
+/// Otherwise, an edge that is almost parallel to a beveled edge would be cut far from its end.
 const LEAST_SINE: f64 = 0.25;
 
 /// Why an edge cannot be beveled.
@@ -34,7 +34,7 @@ pub enum BevelRefusal {
 /// The result of [`bevel_edges`].
 #[derive(Clone, Debug)]
 pub struct Beveled {
-    /// The mesh with bevels. This mesh is [dense](mesh::Mesh::is_dense).
+    /// The mesh with bevels, which is [dense](mesh::Mesh::is_dense).
     pub mesh: Mesh,
     /// The given edges that were not beveled, in ascending order.
     pub refused: Vec<(EdgeId, BevelRefusal)>,

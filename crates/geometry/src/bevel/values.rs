@@ -5,9 +5,9 @@ use mesh::{Attributes, Domain, EdgeId, FaceId, HalfEdgeId, Id, Rule, VertexId};
 /// A weighted mean of values at vertices or corners: the sources and their weights, which add up to 1.
 pub(super) type Blend<I> = [(I, f64); 3];
 
-/// Returns the attributes of the beveled mesh. For each element of the beveled mesh, the lists tell from which elements
-/// of the old mesh its values come. The entry of a half-edge without a face is `None`. The entry of an edge that does
-/// not come from an old edge is [`EdgeId::NONE`]. Values that cannot be averaged are copied from the first source.
+/// Returns the attributes of the beveled mesh. For each element of the beveled mesh, the lists contain the elements of
+/// the old mesh that its values come from. The entry of a half-edge without a face is `None`. The entry of an edge that
+/// does not come from an old edge is [`EdgeId::NONE`]. Values that cannot be averaged are copied from the first source.
 pub(super) fn blended(
     old: &Attributes,
     vertices: &[Blend<VertexId>],

@@ -55,11 +55,11 @@ pub struct Bisection {
 /// Values are interpolated at crossing points. Corner values are interpolated within their face, so that seams are
 /// preserved. The parts of a split edge or of a cut face copy its values. New edges on the plane have zero values.
 ///
-/// The plane meets a flat face in a line. The line in which the plane meets a face crosses the sides of the face an
-/// even number of times. The intervals between these crossings are alternately inside and outside of the face. If a
-/// face is twisted or intersects itself, the intervals can be inconsistent. Each part of such a face in front of the
-/// plane is then cut off separately. If two faces share both edges that the plane crosses, each face gets a separate
-/// edge between the same two crossing points.
+/// The plane meets a flat face in a line. This line crosses the sides of the face an even number of times, and the
+/// intervals between the crossings are alternately inside and outside of the face. If a face is twisted or intersects
+/// itself, the intervals can be inconsistent. Each part of such a face in front of the plane is then cut off
+/// separately. If two faces share both edges that the plane crosses, each face gets a separate edge between the same
+/// two crossing points.
 ///
 /// A face that lies in the plane counts as in front of the plane if its normal points to the back. In this case, the
 /// solid that the face bounds lies in front of the plane. Any other face in the plane counts as behind the plane.

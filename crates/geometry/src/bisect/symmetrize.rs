@@ -172,7 +172,7 @@ mod tests {
             (12, 10, 4)
         );
         assert!((crate::volume(&mesh) - 8.0).abs() < 1e-12);
-        // The plane contains a face. The face in the plane is removed, because it would become a wall inside the solid.
+        // The plane contains a face. This face is removed, because it would become a wall inside the solid.
         let mut mesh = shapes::cube();
         symmetrize(&mut mesh, DVec3::NEG_X, DVec3::X).unwrap();
         assert_eq!((mesh.n_vertices(), mesh.n_faces()), (12, 10));

@@ -3,9 +3,9 @@
 use mesh::DVec3;
 
 /// A box whose control points are moved. Let (s, t, u) be the coordinates of a point in the box, from 0 to 1. The point
-/// moves by the weighted sum of the offsets of all control points. The weight of the control point (i, j, k) is B(i, s)
-/// B(j, t) B(k, u), where B are the Bernstein polynomials. Source: Sederberg, Parry, "Free-Form Deformation of Solid
-/// Geometric Models", 1986. Points outside the box do not move.
+/// moves by the weighted sum of the offsets of all control points. The weight of the control point (i, j, k) is
+/// B(i, s) B(j, t) B(k, u), where B are the Bernstein polynomials. Source: Sederberg, Parry, "Free-Form Deformation of
+/// Solid Geometric Models", 1986. Points outside the box do not move.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lattice {
     /// The lowest corner.

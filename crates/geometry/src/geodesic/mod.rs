@@ -22,7 +22,7 @@ use crate::laplacian::exponent;
 use crate::sparse::{Factor, SolveError, SymmetricMatrix};
 use intrinsic::{Intrinsic, area, cotangent, scaled_points};
 
-/// The smallest heat at which directions are accurate. This heat is well above the smallest positive `f64`.
+/// The smallest heat at which directions are accurate. It is well above the smallest positive `f64`.
 const LEAST_HEAT: f64 = 1e-280;
 
 /// Returns the distance along the surface from each vertex to the nearest source, by vertex index, in scene units.

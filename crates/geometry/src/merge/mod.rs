@@ -98,10 +98,10 @@ pub fn merge_vertices(
 /// Merges each cluster of vertices into one vertex. `lowest[v]` is the lowest vertex index in the cluster of vertex
 /// `v`, as returned by [`clusters`]. The mesh must be [dense](mesh::Mesh::is_dense).
 ///
-/// The merged vertex has the position and the values of the vertex with the lowest index in the cluster. All vertices
-/// of a cluster except the lowest are removed. Ids are renumbered without gaps. Edges between the same two vertices
-/// become one edge, which has the values of the edge with the lowest id. Faces keep their order and values, and corners
-/// keep their values, so that seams are preserved. Columns with [`Rule::Drop`](mesh::Rule::Drop) are removed.
+/// The merged vertex has the position and the values of the vertex with the lowest index in the cluster. The other
+/// vertices of the cluster are removed. Ids are renumbered without gaps. Edges between the same two vertices become one
+/// edge, which has the values of the edge with the lowest id. Faces keep their order and values, and corners keep their
+/// values, so that seams are preserved. Columns with [`Rule::Drop`](mesh::Rule::Drop) are removed.
 ///
 /// A face loses each corner that merges with the next corner of the face. A face is dropped if fewer than three of its
 /// corners are left, or if it would contain a vertex twice. After the merge, connected faces can have opposite

@@ -20,8 +20,7 @@ use crate::surface_index::triangle::nearest_on_triangle;
 const SHARE: f64 = 0.7;
 
 /// The largest distance of samples of a new triangle from the original surface, as a fraction of the target length.
-/// This bound also applies if there is no error limit. This bound keeps edges from crossing ridges that are not
-/// features.
+/// This bound also applies if there is no error limit. It keeps edges from crossing ridges that are not features.
 const SOFT: f64 = 0.1;
 
 /// The tolerance of the measured distance, as a fraction of the limit.

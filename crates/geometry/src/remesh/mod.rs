@@ -88,7 +88,7 @@ pub struct Options<'a> {
 /// The result of [`remesh`].
 #[derive(Clone, Debug)]
 pub struct Remeshed {
-    /// The new mesh. This mesh is [dense](mesh::Mesh::is_dense).
+    /// The new mesh, which is [dense](mesh::Mesh::is_dense).
     pub mesh: Mesh,
     /// The numbers of steps.
     pub counts: Counts,
@@ -212,13 +212,12 @@ pub enum RemeshError {
 ///   both of its neighbors on the line have the tag too.
 ///
 /// Attributes are taken from the same location on the original surface, and never from the other side of a line. Vertex
-/// and corner attributes are interpolated at their location on the original surface. A new vertex has a tag if all
-/// original vertices around its location have the tag. The integers of a new vertex are copied from the nearest of
-/// these original vertices. A new face gets the values of the original face at its center. A new edge on a line gets
-/// the values of the original edge that contains the midpoint of the new edge. Any other new edge gets its values from
-/// the original triangle at the midpoint of the new edge. The values are those of the edge of this triangle that is
-/// nearest to the midpoint and not on a line. If all edges of the original triangle are on lines, the values of the new
-/// edge are zero.
+/// and corner attributes are interpolated at this location. A new vertex has a tag if all original vertices around its
+/// location have the tag. The integers of a new vertex are copied from the nearest of these original vertices. A new
+/// face gets the values of the original face at its center. A new edge on a line gets the values of the original edge
+/// of the line that contains the midpoint of the new edge. Any other new edge gets its values from the original
+/// triangle at the midpoint of the new edge. The values are those of the edge of this triangle that is nearest to the
+/// midpoint and not on a line. If all edges of the original triangle are on lines, the values of the new edge are zero.
 ///
 /// All elements get new ids.
 ///

@@ -24,7 +24,7 @@ const STRAIGHT: f64 = 0.766_044_443_118_978;
 
 /// The original surface.
 pub(super) struct Original<'a> {
-    /// The original mesh. This mesh is [dense](mesh::Mesh::is_dense).
+    /// The original mesh, which is [dense](mesh::Mesh::is_dense).
     pub(super) source: &'a Mesh,
     /// The same mesh without attributes, in coordinates relative to `center`, scaled by a power of two. In these
     /// coordinates, very small and very large meshes give the same result.

@@ -185,8 +185,8 @@ impl Work<'_> {
                 weights: vertices[v.index()].1.weights,
             });
         }
-        // The corner lies in a sector between two lines. The loop turns clockwise around the vertex until it finds the
-        // line that bounds this sector.
+        // The corner lies in a sector between two lines. The loop turns clockwise around the vertex to the first of
+        // these lines.
         let mut first = h;
         let track: Option<Track> = loop {
             if let Some(track) = self.track_of(first) {

@@ -7,8 +7,8 @@
 //! 1. The cost of an edge is computed again if one of its ends has changed.
 //! 2. An edge is chosen if its cost is low enough and no edge near it was chosen before in this pass.
 //! 3. For each chosen edge, the new position and values are computed, and the collapse is checked.
-//! 4. The chosen edges are collapsed. The chosen edges are so far from each other that no collapse changes the results
-//!    of the third stage for another chosen edge.
+//! 4. The chosen edges are collapsed. They are so far from each other that no collapse changes the results of the third
+//!    stage for another chosen edge.
 
 use mesh::{DVec3, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId, parallel};
 use progress::{Cancelled, Meter, Progress};

@@ -3,7 +3,7 @@
 //! Edges are collapsed, the cheapest first. Each vertex represents a part of the original surface. Before the first
 //! collapse, this part is a third of the area of each triangle around the vertex. After a collapse, the new vertex
 //! represents the parts of both ends of the edge. The main part of the cost of a collapse is the squared distance from
-//! the new vertex to the planes of the original triangles that it represents. The squared distance to the planes is
+//! the new vertex to the planes of the original triangles that it represents. This squared distance is
 //! integrated over the represented area, and divided by the square root of this area. Source of the squared distance:
 //! Garland, Heckbert, "Surface Simplification Using Quadric Error Metrics", 1997.
 //!
@@ -53,8 +53,8 @@ pub struct Options<'a> {
     /// The largest allowed Hausdorff distance between the original and the simplified surface, in scene units; `None`
     /// sets no limit. The limit is guaranteed. Each triangle has a bound on its distance to the original. A collapse
     /// moves the surface. A bound on this movement is added to the bounds of the triangles around the collapsed edge.
-    /// The added bounds overestimate the distance: the true distance is usually between a third of the limit and the
-    /// limit.
+    /// The sums of these bounds overestimate the distance: the true distance is usually between a third of the limit
+    /// and the limit.
     pub error: Option<f64>,
     /// Edges that are preserved as lines. These edges are always preserved: boundaries, seams, edges between faces with
     /// different tags, materials or other whole numbers, tagged edges, and creases.

@@ -71,7 +71,7 @@ impl Method {
     /// Whether the method is stable, which means that no frequency above the pass band grows from pass to pass.
     ///
     /// A Taubin pass multiplies the amplitude of the frequency k by (1 - factor k)(1 - μ k). At the highest frequency,
-    /// k = 2, the absolute value of (1 - factor k)(1 - μ k) must be at most 1.
+    /// k = 2, the absolute value of this product must be at most 1.
     pub fn is_stable(&self) -> bool {
         match *self {
             Self::Taubin {

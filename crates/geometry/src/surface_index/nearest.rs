@@ -14,8 +14,8 @@ use super::{Node, SurfaceIndex};
 pub struct Nearest {
     /// The distance, in scene units.
     pub distance: f64,
-    /// A lower bound of the distance. The lower bound equals `distance`, unless the search was stopped early because
-    /// too many triangles are almost equally near.
+    /// A lower bound of the distance. It equals `distance`, unless the search was stopped early because too many
+    /// triangles are almost equally near.
     pub lower: f64,
     /// The nearest point.
     pub point: DVec3,

@@ -94,8 +94,9 @@ struct Pairs<'a, K> {
 }
 
 impl<K: Fn(u32, u32) -> bool> Pairs<'_, K> {
-    /// Divides a task, which is a pair of nodes, into pairs of their children. Returns `None` if both nodes are leaves.
-    /// Pairs of nodes whose boxes do not overlap are left out.
+    /// Divides a task, which is a pair of nodes: replaces one of the nodes by its two children. A pair of a node with
+    /// itself becomes the three pairs of its children. Returns `None` if both nodes are leaves. Pairs of nodes whose
+    /// boxes do not overlap are left out.
     fn parts(&self, (i, j): Task) -> Option<[Option<Task>; 3]> {
         let (a, b) = (&self.one.nodes[i], &self.two.nodes[j]);
         if self.is_self && i == j {

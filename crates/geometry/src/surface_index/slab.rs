@@ -22,7 +22,7 @@ const STEPS: usize = 3;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Slab {
     /// The direction of the sum of the area vectors of the triangles. An area vector is the unit normal times the area.
-    /// The length of this vector is 1 up to rounding.
+    /// The length of `normal` is 1 up to rounding.
     normal: [f32; 3],
     low: f64,
     high: f64,

@@ -20,7 +20,7 @@ const FLAT: f64 = 1.0 + 1e-6;
 const MIN_SHARED: f64 = 0.1;
 /// Two charts are not joined if the mean of `1 - cosine` of the angles at which they meet is above this number.
 const MAX_CREASE: f64 = 0.5;
-/// A chart whose area is less than this fraction of the area of its neighbor is joined to it even if the angles are
+/// A chart whose area is less than this fraction of the area of its neighbor can be joined to it even if the angles are
 /// larger than [`MAX_CREASE`] allows.
 const SMALL: f64 = 0.1;
 

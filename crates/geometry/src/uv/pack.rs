@@ -209,7 +209,7 @@ impl Shape {
         let total: f64 = all.clone().map(|t| area(t).abs()).sum();
         for points in all {
             // Rounding to 32-bit numbers can turn a thin triangle over. Such a triangle is left out of the shape of the
-            // chart. The corners of a triangle that is left out are also corners of triangles that stay.
+            // chart. Its corners are also corners of triangles that stay.
             let before = (points[1] - points[0]).perp_dot(points[2] - points[0]);
             if area(points) * before.signum() <= MIN_AREA * total {
                 continue;

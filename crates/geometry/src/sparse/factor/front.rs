@@ -49,8 +49,8 @@ impl Front {
     }
 
     /// Eliminates the pivots of a supernode. The updates of the children are taken from the end of `updates`. If the
-    /// supernode has a parent, the update for the parent is appended. If a pivot is zero, negative, infinite or NaN,
-    /// returns its column and the pivot as the error.
+    /// supernode has a parent, the update for the parent is appended to `updates`. If a pivot is zero, negative,
+    /// infinite or NaN, returns its column and the pivot as the error.
     pub(super) fn eliminate<I: Iterator<Item = (u32, f64)>>(
         &mut self,
         supernode: &Supernode,

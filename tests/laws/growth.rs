@@ -309,7 +309,7 @@ fn on_one_thread(measure: impl FnOnce() -> Vec<String> + Send) -> Vec<String> {
 }
 
 #[test]
-#[ignore = "takes about ten minutes, because it measures times"]
+#[ignore = "measures times for about ten minutes"]
 fn operations_take_at_most_two_point_three_times_as_long_on_twice_the_mesh() {
     let failures = on_one_thread(|| {
         let registry = ops_all::registry();
@@ -354,7 +354,7 @@ fn operations_take_at_most_two_point_three_times_as_long_on_twice_the_mesh() {
 }
 
 #[test]
-#[ignore = "takes about ten minutes, because it measures times"]
+#[ignore = "measures times for about ten minutes"]
 fn expectations_take_at_most_two_point_three_times_as_long_on_twice_the_mesh() {
     let failures = on_one_thread(|| {
         let registry = ops_all::registry();

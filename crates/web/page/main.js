@@ -226,10 +226,9 @@ async function openShared() {
         const found = await shared(location.hash);
         if (found) {
             arriving = writeNamed(found.recipe);
-            const earlier = editor.text;
             await openRecipe(found.recipe, { title: "Shared recipe", trust: false, set: found.set });
             notify("This recipe comes from a link. Press Run to see its meshes.",
-                { "Back to your recipe": () => openRecipe(earlier, { title: "Your recipe", trust: false }) });
+                { "Back to your recipe": () => openRecipe(remembered() ?? STARTER, { title: "Your recipe", trust: true }) });
         }
         return Boolean(found);
     } catch (error) {

@@ -73,7 +73,6 @@ pub(crate) struct Prompt {
 }
 
 /// A folder or a file in the list below the line.
-#[derive(Clone, Debug)]
 struct Listed {
     is_file: bool,
     name: String,
@@ -131,29 +130,33 @@ impl Prompt {
             self.purpose != Purpose::Open || all.iter().any(|entry| entry.name == typed);
         let typed = typed.to_lowercase();
         let matches = |entry: &&Listed| shows_all || entry.name.to_lowercase().contains(&typed);
-        let shown: Vec<Listed> = all.iter().filter(matches).cloned().collect();
+        let shown: Vec<&Listed> = all.iter().filter(matches).collect();
         let height = ui.spacing().interact_size.y;
-        let area = ScrollArea::vertical().auto_shrink([false, true]);
-        let mut is_chosen = false;
-        area.max_height(12.0 * height)
-            .show_rows(ui, height, shown.len(), |ui, rows| {
-                for entry in &shown[rows] {
-                    let response = row(ui, entry);
-                    if !response.clicked() {
-                        continue;
-                    }
-                    let path = match folder.parent() {
-                        Some(parent) if entry.name == PARENT => parent.to_owned(),
-                        _ => folder.join(&entry.name),
-                    };
-                    self.path = path.display().to_string();
-                    if !entry.is_file {
-                        self.path.push(std::path::MAIN_SEPARATOR);
-                    }
-                    self.takes_keys = true;
-                    is_chosen = entry.is_file && response.double_clicked();
+        let area = ScrollArea::vertical()
+            .auto_shrink([false, true])
+            .max_height(12.0 * height);
+        let clicked = area.show_rows(ui, height, shown.len(), |ui, rows| {
+            let mut clicked = None;
+            for entry in &shown[rows] {
+                let response = row(ui, entry);
+                if response.clicked() {
+                    clicked = Some((entry.is_file && response.double_clicked(), *entry));
                 }
-            });
+            }
+            clicked
+        });
+        let Some((is_chosen, entry)) = clicked.inner else {
+            return false;
+        };
+        let path = match folder.parent() {
+            Some(parent) if entry.name == PARENT => parent.to_owned(),
+            _ => folder.join(&entry.name),
+        };
+        self.path = path.display().to_string();
+        if !entry.is_file {
+            self.path.push(std::path::MAIN_SEPARATOR);
+        }
+        self.takes_keys = true;
         is_chosen
     }
 }

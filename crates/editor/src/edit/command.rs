@@ -77,25 +77,20 @@ impl SelectionText {
     /// Returns the selection for the operation `name`. If the step `before` is of the same operation, one step is
     /// enough: returns the selection of `before`. Otherwise returns `self`.
     fn without_tag(&self, name: &str) -> Self {
-        let mut selection = self.clone();
-        if let Some(before) = &self.before {
-            let parsed = parse(before);
-            let step = parsed.value.name().filter(|step| step.0 == name);
-            let elements = parsed
-                .value
-                .fields()
-                .iter()
-                .find(|f| &*f.name.text != "name");
-            if let (Some(_), Some(elements)) = (step, elements) {
-                elements
-                    .value
-                    .span
-                    .of(before)
-                    .clone_into(&mut selection.text);
-                selection.before = None;
-            }
-        }
-        selection
+        let elements = self.before.as_deref().and_then(|before| {
+            let step = parse(before).value;
+            step.name().filter(|(operation, _)| *operation == name)?;
+            let elements = step.fields().iter().find(|f| &*f.name.text != "name")?;
+            Some(elements.value.span.of(before).to_owned())
+        });
+        elements.map_or_else(
+            || self.clone(),
+            |text| Self {
+                text,
+                before: None,
+                ..self.clone()
+            },
+        )
     }
 }
 

@@ -54,8 +54,8 @@ fn selections_are_described_separately() {
         "EdgeSelection: ",
         "EdgeLoop(..)",
         // A description of several lines is printed completely.
-        "continues\n",
-        "straight across each interior vertex that has four\n",
+        "An edge loop\n",
+        "continues straight across each interior vertex that has four\n",
         "edges. An edge loop that starts at a boundary edge follows the\n",
         "boundary.\n",
         "VertexSelection: ",

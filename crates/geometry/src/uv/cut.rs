@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use mesh::{DVec2, DVec3, FaceId, parallel};
 use progress::{Cancelled, Meter, Progress};
 
+use super::dissolve::dissolve;
 use super::flatten::{flatten, project};
 use super::grow::{Totals, grow, meetings, smooth_normals};
 use super::measure::{Flat, aspect, first_overlap, jacobian_at, percentile};
@@ -19,7 +20,7 @@ const FLAT: f64 = 1.0 + 1e-6;
 /// shorter of their two borders.
 const MIN_SHARED: f64 = 0.1;
 /// Two charts are not joined if the mean of `1 - cosine` of the angles at which they meet is above this number.
-const MAX_CREASE: f64 = 0.5;
+pub(super) const MAX_CREASE: f64 = 0.5;
 /// A chart whose area is less than this fraction of the area of its neighbor can be joined to it even if the angles are
 /// larger than [`MAX_CREASE`] allows.
 const SMALL: f64 = 0.1;
@@ -69,7 +70,7 @@ pub(super) struct Chart {
 }
 
 /// Why a set of faces is not a valid chart.
-enum Failure {
+pub(super) enum Failure {
     /// These faces overlap.
     Overlap([FaceId; 2]),
     /// A triangle is mirrored, or the stretch is too large.
@@ -126,11 +127,12 @@ pub(super) fn charts(
             }
         }
     }
-    join(surface, &smooth, charts, limits, &Quiet(&meter))
+    let charts = join(surface, &smooth, charts, limits, &Quiet(&meter))?;
+    dissolve(surface, &smooth, charts, limits, &Quiet(&meter))
 }
 
 /// Flattens a set of faces.
-fn chart(
+pub(super) fn chart(
     surface: &Surface,
     faces: Vec<u32>,
     limits: Limits,
@@ -244,7 +246,7 @@ fn split(
         _ => [None, None],
     };
     let farthest = |from: usize| {
-        let (distance, _) = nearest(surface, faces, &[from], progress)?;
+        let (distance, _) = nearest(surface, faces, &[(from, 0)], progress)?;
         let order = |&a: &usize, &b: &usize| distance[a].total_cmp(&distance[b]).then(b.cmp(&a));
         Ok((0..faces.len()).max_by(order).unwrap_or(0))
     };
@@ -254,6 +256,7 @@ fn split(
         let a = farthest(0)?;
         [a, farthest(a)?]
     };
+    let seeds = [(seeds[0], 0), (seeds[1], 1)];
     let (_, side) = nearest(surface, faces, &seeds, progress)?;
     let of_side = |s: u32| {
         let pairs = faces.iter().zip(&side);
@@ -265,12 +268,13 @@ fn split(
     Ok([of_side(0), of_side(1)])
 }
 
-/// Returns, for each face of a connected set, the distance to the nearest seed and the index of this seed in `seeds`
-/// (Dijkstra, 1959). The seeds are faces of the set. Distances are sums of distances between the centers of neighbors.
-fn nearest(
+/// Returns, for each face of a connected set, the distance to the nearest seed and the label of this seed (Dijkstra,
+/// 1959). A seed is the index of a face in the set, and its label. Distances are sums of distances between the centers
+/// of neighbors.
+pub(super) fn nearest(
     surface: &Surface,
     faces: &[u32],
-    seeds: &[usize],
+    seeds: &[(usize, u32)],
     progress: &dyn Progress,
 ) -> Result<(Vec<f64>, Vec<u32>), Cancelled> {
     let center = |f: u32| {
@@ -284,7 +288,7 @@ fn nearest(
     let mut side = vec![0; faces.len()];
     // Distances are not negative, so their bits have the order of the numbers.
     let mut queue = BTreeSet::new();
-    for (s, &seed) in (0..).zip(seeds) {
+    for &(seed, s) in seeds {
         distance[seed] = 0.0;
         side[seed] = s;
         queue.insert((0_u64, seed));

@@ -12,6 +12,7 @@
 //! each half-edge, in the order of the half-edge ids. `v` points upwards.
 
 mod cut;
+mod dissolve;
 mod flatten;
 mod grow;
 mod measure;

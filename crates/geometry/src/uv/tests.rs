@@ -139,6 +139,12 @@ fn a_developable_surface_becomes_one_chart_without_stretch() {
 }
 
 #[test]
+fn the_faces_of_a_chart_are_divided_among_its_neighbors() {
+    // Growing and joining charts alone gives six charts.
+    assert_eq!(unwrapped(&shapes::icosahedron()).charts.n, 4);
+}
+
+#[test]
 fn charts_of_a_page_keep_their_distance() {
     let mesh = shapes::cube();
     let Unwrapped { uvs, charts, .. } = unwrap(

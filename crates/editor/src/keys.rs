@@ -310,7 +310,7 @@ const GROUPS: &[(&str, &[Row])] = &[
             (
                 Action::Cancel,
                 &["Escape"],
-                "cancel the run, or close what is open",
+                "close what is open, or cancel the run",
             ),
             (Action::Help, &["H", "F1"], "show or hide this help"),
         ],

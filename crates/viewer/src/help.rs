@@ -58,20 +58,21 @@ pub(crate) fn ui(ctx: &Context, parts: &mut Parts) {
             ui.spacing_mut().interact_size.y = 0.0;
             ui.columns(3, |columns| {
                 let mut lengths = [0; 3];
+                // The keys of each task are added to the column that is shortest so far.
+                let mut add = |task, rows: &[(String, &str)]| {
+                    let shortest = (0..3).min_by_key(|&i| lengths[i]).unwrap_or_default();
+                    lengths[shortest] += rows.len() + 2;
+                    group(&mut columns[shortest], task, rows);
+                };
+                add("Mouse", &MOUSE.map(|(keys, doc)| (keys.to_owned(), doc)));
                 for (task, actions) in Action::groups() {
                     let rows = actions.map(|action| (parts.keys.of(action).join(", "), action.doc()));
                     let mut rows: Vec<(String, &str)> = rows.collect();
                     if task == LOOK {
                         rows.extend(SIDES.map(|(keys, doc)| (keys.to_owned(), doc)));
                     }
-                    // The keys of each task are added to the column that is shortest so far.
-                    let shortest = (0..3).min_by_key(|&i| lengths[i]).unwrap_or_default();
-                    lengths[shortest] += rows.len() + 2;
-                    group(&mut columns[shortest], task, &rows);
+                    add(task, &rows);
                 }
-                let shortest = (0..3).min_by_key(|&i| lengths[i]).unwrap_or_default();
-                let mouse: Vec<_> = MOUSE.iter().map(|&(keys, doc)| (keys.to_owned(), doc)).collect();
-                group(&mut columns[shortest], "Mouse", &mouse);
             });
         });
     });

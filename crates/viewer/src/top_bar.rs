@@ -1,7 +1,9 @@
 //! The bar at the top, and the status at the bottom.
 
 use editor::{Action, Status};
-use eframe::egui::{self, Align, Button, Frame, Layout, Margin, Panel, RichText, Stroke, Ui, Vec2};
+use eframe::egui::{
+    self, Align, Button, Frame, Layout, Margin, Panel, RichText, Sense, Stroke, Ui, Vec2,
+};
 
 use crate::app::{Parts, Pending};
 use crate::theme::Colors;
@@ -174,13 +176,19 @@ pub(crate) fn status(ui: &mut Ui, parts: &mut Parts) {
             if let Some(digest) = run.digest {
                 let text = digest.to_string();
                 let short: String = text.chars().take(12).collect();
-                ui.label(
-                    RichText::new(format!("digest {short}"))
+                let label = ui.label(
+                    RichText::new(format!("digest {short}…"))
                         .monospace()
                         .size(11.0)
                         .color(colors.weak),
-                )
-                .on_hover_text(text);
+                );
+                let label = label.interact(Sense::click());
+                if label
+                    .on_hover_text(format!("{text}\nClick to copy"))
+                    .clicked()
+                {
+                    ui.ctx().copy_text(text);
+                }
             }
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 let at = parts.editor.view();

@@ -16,7 +16,6 @@ import sys
 import textwrap
 import types
 from collections.abc import Sequence
-from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -44,18 +43,20 @@ def use_built_library() -> None:
 if __name__ == "__main__":
     use_built_library()
 
-from meshwright._ron import definition, name_of, operations, options, resolve, root  # noqa: E402
-
-SELECTIONS = ["VertexSelection", "EdgeSelection", "FaceSelection", "Region", "Elements"]
-EXPECTATIONS = ["Expectation", "OtherMesh", "Group"]
-
-
-def snake(name: str) -> str:
-    return re.sub(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", "_", name).lower()
-
-
-def python_name(name: str) -> str:
-    return name + "_" if keyword.iskeyword(name) else name
+from meshwright._names import (  # noqa: E402
+    EXPECTATIONS,
+    SELECTIONS,
+    TOKEN,  # noqa: F401
+    callable_name,
+    code_in_python,
+    in_python,
+    others,
+    python_name,
+    selections,
+    snake,
+    variants,
+)
+from meshwright._ron import definition, name_of, operations, options, resolve  # noqa: E402
 
 
 def kind(schema: Any, depth: int = 0) -> str:
@@ -113,82 +114,7 @@ def default(schema: Any) -> str | None:
 
 def sentence(text: str) -> str:
     """A paragraph on one line, with its values written as in Python."""
-    return re.sub(r"`([^`]+)`", lambda code: f"``{in_python(code[1]) or code[1]}``", " ".join(text.split()))
-
-
-TOKEN = re.compile(r'\s*("[^"]*"|[A-Za-z_]\w*|[-+]?[\d._]+(?:e[-+]?\d+)?|[()\[\]:,])')
-
-
-def in_python(code: str) -> str | None:
-    """The Python expression for a value or a parameter of a recipe: ``sel.Sharp(above=30)`` for `Sharp(above: 30)`.
-    `None` if the text is not such a value."""
-    tokens = TOKEN.findall(code)
-    if "".join(tokens) != re.sub(r'\s+(?=(?:[^"]*"[^"]*")*[^"]*$)', "", code):
-        return None
-    try:
-        if len(tokens) > 2 and tokens[1] == ":":
-            value, rest = expression(tokens[2:])
-            text = f"{python_name(tokens[0])}={value}"
-        elif tokens in (["true"], ["false"]):
-            text, rest = tokens[0].capitalize(), []
-        elif len(tokens) == 1:
-            text, rest = word(tokens[0]), []
-        elif tokens[1] == "(":
-            text, rest = expression(tokens)
-        else:
-            return None
-    except (IndexError, KeyError):
-        return None
-    return None if rest else text
-
-
-def word(name: str) -> str:
-    """The Python name of a single word. Most words are also reasons, formats or attributes, and are not changed."""
-    if name in operations():
-        return f"{snake(name)}()"
-    modules = [("sel", selections()), ("choice", others()), ("expect", variants(EXPECTATIONS))]
-    known = [module for module, found in modules if all("const" not in option for option in found.get(name, [{"const": 0}]))]
-    return f"{known[0]}.{name}" if len(known) == 1 else python_name(name)
-
-
-def expression(tokens: list[str]) -> tuple[str, list[str]]:
-    """The Python expression for the value at the beginning of the tokens, and the tokens after this value."""
-    first, rest = tokens[0], tokens[1:]
-    if first in "([":
-        parts, rest = arguments(rest)
-        if first == "(" and all("=" in part for part in parts):
-            fields = [part.split("=", 1) for part in parts]
-            return "{" + ", ".join(f'"{name}": {value}' for name, value in fields) + "}", rest
-        return (f"[{', '.join(parts)}]" if first == "[" else f"({', '.join(parts)})"), rest
-    if not first[0].isalpha():
-        return first, rest
-    if first in ("true", "false"):
-        return first.capitalize(), rest
-    if rest[:1] != ["("]:
-        return f'"{first}"', rest
-    parts, rest = arguments(rest[1:])
-    return f"{callable_name(first)}({', '.join(parts)})", rest
-
-
-def arguments(tokens: list[str]) -> tuple[list[str], list[str]]:
-    """The values before the closing bracket, and the tokens after it."""
-    parts = []
-    while tokens[0] not in ")]":
-        name = ""
-        if len(tokens) > 1 and tokens[1] == ":":
-            name, tokens = f"{python_name(tokens[0])}=", tokens[2:]
-        value, tokens = expression(tokens)
-        parts.append(name + value)
-        tokens = tokens[1:] if tokens[0] == "," else tokens
-    return parts, tokens[1:]
-
-
-def callable_name(name: str) -> str:
-    """The Python name of an operation or of a variant with parameters."""
-    if name in operations():
-        return snake(name)
-    modules = [("sel", selections()), ("expect", variants(EXPECTATIONS)), ("choice", others())]
-    return next(f"{module}.{name}" for module, known in [*modules, ("mw", {name: []})] if name in known)
+    return code_in_python(" ".join(text.split()), "``")
 
 
 def wrapped(text: str, indent: str, more: str = "") -> list[str]:
@@ -395,31 +321,6 @@ def operations_file() -> str:
             if entry["takes_on"] or not of_mesh:
                 lines += method(name, entry, of_mesh)
     return "\n".join(lines).rstrip() + "\n"
-
-
-def variants(names: list[str]) -> dict[str, list[Any]]:
-    """The variants with parameters of these types, by name."""
-    found: dict[str, list[Any]] = {}
-    for name in names:
-        for option in options(definition(name)):
-            variant = name_of(option)
-            if variant:
-                found.setdefault(variant, []).append(option)
-    return found
-
-
-@cache
-def selections() -> dict[str, list[Any]]:
-    """The variants of selections and regions."""
-    return variants(SELECTIONS)
-
-
-@cache
-def others() -> dict[str, list[Any]]:
-    """The variants with parameters that are neither selections nor expectations."""
-    skipped = {*SELECTIONS, *EXPECTATIONS, "Step", "Param", "OnLoss", "Refusal", *operations()}
-    found = variants([name for name in root()["$defs"] if name not in skipped])
-    return {n: a for n, a in found.items() if not all("const" in option for option in a)}
 
 
 def function(name: str, alternatives: list[Any]) -> list[str]:

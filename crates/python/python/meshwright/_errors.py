@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import re
+from dataclasses import dataclass, replace
 from typing import Any
 
 __all__ = ["EditError", "Error", "Problem", "RecipeError"]
@@ -39,7 +40,8 @@ class Error(Exception):
 
 
 class RecipeError(Error):
-    """A recipe or a step cannot run, or has failed. The text shows the lines that the problems are about."""
+    """A recipe or an operation cannot run, or has failed. For a recipe, the text shows the lines that the problems are
+    about."""
 
     #: All errors and warnings, in the order of the text.
     problems: tuple[Problem, ...]
@@ -68,6 +70,21 @@ class EditError(Error):
 
     def __reduce__(self) -> tuple[Any, ...]:
         return (type(self), (str(self), self.reason, self.elements))
+
+
+def of_method(error: Error, operation: str) -> Error:
+    """The error of a method that runs `operation`: values are written as in Python, and no lines of a recipe are shown."""
+    from ._names import code_in_python, snake, without_steps
+
+    def text(recipe: str) -> str:
+        recipe = re.sub(rf"^{operation}(?= )", f"{snake(operation)}()", recipe)
+        return without_steps(code_in_python(recipe))
+
+    if not isinstance(error, RecipeError):
+        return type(error)(text(str(error)))
+    problems = [replace(p, message=text(p.message), help=p.help and text(p.help)) for p in error.problems]
+    lines = [p.message + (f"; {p.help}" if p.help else "") for p in problems]
+    return RecipeError("\n".join(lines) or str(error), tuple(problems))
 
 
 for _class in (Problem, Error, RecipeError, EditError):

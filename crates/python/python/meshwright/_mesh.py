@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _core, _ron
 from ._arrays import indices, numeric, points, view
 from ._convert import MeshConversions
+from ._errors import Error, of_method
 from ._operations import MeshOperations
 from ._progress import Progress
 from ._ron import Choice, Ron
@@ -253,7 +254,10 @@ class Mesh(MeshConversions, MeshOperations):
         kinds = [d for d in ("Vertex", "Edge", "Face") if domain in (None, d.lower())]
         schema = {"anyOf": [{"$ref": f"#/$defs/{kind}Selection"} for kind in kinds]}
         text = _ron.write(selection, schema)
-        return view(self._scene.select(self._name, text, domain))
+        try:
+            return view(self._scene.select(self._name, text, domain))
+        except Error as error:
+            raise of_method(error, "select") from None
 
     def with_attribute(
         self, name: str, values: ArrayLike, domain: Domain | None = None, *, rule: Rule | None = None

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, Self
 
 from . import _core, _ron
+from ._errors import Error, of_method
 from ._mesh import Mesh
 from ._operations import SceneOperations
 from ._progress import Progress, callback
@@ -158,8 +159,11 @@ class Scene(SceneOperations, Mapping[str, Mesh]):
         if operation not in _ron.operations():
             raise AttributeError(f"no operation is named {operation}")
         text = f"(recipe: 1, steps: [\n{whole_step(operation, fields, on, id)}\n])"
-        with callback(progress) as show:
-            core, about = self._core.run(text, "", output, files, budget, show)
+        try:
+            with callback(progress) as show:
+                core, about = self._core.run(text, "", output, files, budget, show)
+        except Error as error:
+            raise of_method(error, operation) from None
         notes = [line for report in about["reports"] for line in lines_of(json.loads(report))]
         notes += [warning["message"] for warning in about["warnings"]]
         return type(self)(core, tuple(notes)), about["written"]

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import meshwright as mw
-from meshwright import sel
+from meshwright import choice, sel
 
 SCENES = Path(__file__).resolve().parents[3] / "scenes"
 
@@ -273,3 +273,14 @@ def test_selections(ball: mw.Mesh) -> None:
         m.select(mw.Choice("Shrap", above=30))
     with pytest.raises(ValueError, match="corner"):
         m.select("All", "corner")  # type: ignore[arg-type]
+
+
+def test_a_mesh_is_the_name_of_another_object(ball: mw.Mesh) -> None:
+    far = ball.transform(move=(3, 0, 0))
+    m = ball.measure(of=choice.Distance(to=far), name="distance")
+    assert m.attributes["distance"].shape == (12,) and m.name == "ball"
+    assert ball.measure(of=choice.Winding(of=far)).n_faces == 20
+    big = ball.transform(scale=(2, 2, 2))
+    assert len(ball.select(sel.InsideOf(big), "vertex")) == 12
+    assert len(ball.select(sel.And([sel.InsideOf(big), sel.Not(sel.InsideOf(far))]), "vertex")) == 12
+    assert ball.delete_faces(faces=sel.Or([sel.InsideOf(big)])).n_faces == 0

@@ -59,3 +59,14 @@ def test_errors_of_methods_are_written_in_python(ball: mw.Mesh) -> None:
         assert message in str(info.value) and "step" not in str(info.value)
     with pytest.raises(mw.RecipeError, match="Remesh()"):
         mw.recipe().icosahedron().remesh().check()
+
+
+def test_a_value_of_several_types_says_what_it_means_where() -> None:
+    distance = choice.Distance.__doc__ or ""
+    for place, form in (("extrude_faces(by=..)", "value"), ("move_vertices(by=..)", "value"), ("measure(of=..)", "to=.., signed=..")):
+        assert f"- In ``{place}``, as ``choice.Distance({form})``:" in " ".join(distance.split())
+    for module in (sel, choice):
+        for name, value in vars(module).items():
+            if callable(value) and name[:1].isupper() and getattr(value, "__module__", "") == module.__name__:
+                first = (value.__doc__ or "").split("\n\n")[0]
+                assert first.count(". ") == 0 and value.__doc__.count("The meaning depends") <= 1, name

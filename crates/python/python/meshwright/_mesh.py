@@ -109,6 +109,16 @@ class Mesh(MeshConversions, MeshOperations):
     Mesh("mesh": 3 vertices, 3 edges, 1 face)
     >>> m.loop_subdivide(levels=2).n_faces
     16
+
+    Every operation on one mesh is a method, such as :meth:`smooth` or :meth:`simplify`. In a method that has them,
+
+    - a parameter such as `faces` is a word such as ``"Boundary"``, or a value of :mod:`meshwright.sel`;
+    - `id` is any text. A different text gives different random choices, for example of ``sel.Random``. Defaults to the
+      name of the operation;
+    - `progress` is `True` for a bar of tqdm, or a callable. It is called with the operation, the task, the number of
+      finished parts and the total number of parts. If it raises an exception, the operation is cancelled.
+
+    The report of an operation is in the :attr:`notes` of its result.
     """
 
     def __init__(self, scene: _core.Scene, name: str, notes: tuple[str, ...] = ()) -> None:
@@ -253,9 +263,10 @@ class Mesh(MeshConversions, MeshOperations):
         """
         kinds = [d for d in ("Vertex", "Edge", "Face") if domain in (None, d.lower())]
         schema = {"anyOf": [{"$ref": f"#/$defs/{kind}Selection"} for kind in kinds]}
-        text = _ron.write(selection, schema)
+        others: dict[int, tuple[str, Mesh]] = {}
+        text = _ron.write(self._named(selection, others), schema)
         try:
-            return view(self._scene.select(self._name, text, domain))
+            return view(self._with(others).select(self._name, text, domain))
         except Error as error:
             raise of_method(error, "select") from None
 
@@ -420,7 +431,7 @@ class Mesh(MeshConversions, MeshOperations):
         return Scene(self._scene)
 
     def render(self, **options: Any) -> bytes:
-        """Draws the mesh and returns a PNG file. The options are those of the step `Picture`."""
+        """Draws the mesh and returns the bytes of a PNG file. The options are the parameters of :meth:`picture`."""
         return self.scene().render(**options)
 
     def _repr_png_(self) -> bytes:
@@ -438,7 +449,8 @@ class Mesh(MeshConversions, MeshOperations):
         return View(self, color_by, wireframe, height)
 
     def apply(self, operation: str, /, *, progress: bool | Progress | None = None, **parameters: Any) -> Self:
-        """Runs an operation by its name in recipes: ``m.apply("LoopSubdivide", levels=2)``."""
+        """Runs an operation by its name in recipes: ``m.apply("LoopSubdivide", levels=2)`` is
+        ``m.loop_subdivide(levels=2)``."""
         return self._apply(operation, parameters, None, None, progress)
 
     def _apply(
@@ -453,11 +465,8 @@ class Mesh(MeshConversions, MeshOperations):
 
         others: dict[int, tuple[str, Mesh]] = {}
         replaced = {name: self._named(value, others) for name, value in fields.items()}
-        scene = Scene(self._scene)
-        for name, other in others.values():
-            scene = scene.with_object(other, name=name)
         only_this = [self._name] if others else None
-        done = scene._apply(operation, replaced, only_this, id, progress)
+        done = Scene(self._with(others))._apply(operation, replaced, only_this, id, progress)
         result = done._core.only([n for n in done if n not in [name for name, _ in others.values()]])
         names = result.names()
         if len(names) != 1 or result.kind(names[0]) != "mesh":
@@ -479,7 +488,16 @@ class Mesh(MeshConversions, MeshOperations):
             made.args = tuple(self._named(v, others) for v in value.args)
             made.fields = {k: self._named(v, others) for k, v in value.fields.items()}
             return made
+        if isinstance(value, list | tuple):
+            return type(value)(self._named(v, others) for v in value)
         return value
+
+    def _with(self, others: dict[int, tuple[str, Mesh]]) -> _core.Scene:
+        """The scene of this mesh and of the other meshes, with their names."""
+        scene = self._scene
+        for name, other in others.values():
+            scene = scene.joined(other._scene, {other.name: name})
+        return scene
 
     def _with_core(self, core: _core.Mesh) -> Self:
         return type(self)(self._scene.with_mesh(self._name, core), self._name, self._notes)

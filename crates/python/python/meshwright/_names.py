@@ -55,8 +55,10 @@ def code_in_python(text: str, quotes: str = "`") -> str:
 
 def without_steps(text: str) -> str:
     """A text about the steps of a recipe, as a text about operations."""
-    before = "[Tt]he|[Tt]his|[Ii]n the same|[Aa]|later|earlier|refused|[Oo]ne|two|any"
-    return re.sub(rf"\b({before}) step(s?)\b", r"\1 operation\2", text)
+    text = re.sub(r"\b([Aa]) step\b", r"\1n operation", text)
+    before = "[Tt]he|[Tt]his|[Ii]n the same|[Ll]ater|earlier|refused|[Oo]ne|two|any"
+    text = re.sub(rf"\b({before}) step(s?)\b", r"\1 operation\2", text)
+    return re.sub(r"\bSteps\b", "Operations", text)
 
 
 def call(option: Schema) -> str:
@@ -139,3 +141,53 @@ def others() -> dict[str, list[Any]]:
     skipped = {*SELECTIONS, *EXPECTATIONS, "Step", "Param", "OnLoss", "Refusal", *operations()}
     found = variants([name for name in root()["$defs"] if name not in skipped])
     return {n: a for n, a in found.items() if not all("const" in option for option in a)}
+
+
+def owner(option: Schema) -> str:
+    """The name of the type that has this variant."""
+    return owners()[id(option)]
+
+
+@cache
+def owners() -> dict[int, str]:
+    """The type of each variant, by its identity."""
+    found = {}
+    for name in root()["$defs"]:
+        schema = definition(name)
+        own = [part for part in [*schema.get("oneOf", []), *schema.get("anyOf", [])] if "$ref" not in part]
+        found.update({id(option): name for part in own for option in options(part)})
+    return found
+
+
+@cache
+def uses() -> dict[str, list[str]]:
+    """Where values of each type are written in Python: ``smooth(by=..)`` for `SmoothBy`."""
+    found: dict[str, list[str]] = {}
+
+    def visit(schema: Any, place: str) -> None:
+        name = schema.get("$ref", "").rsplit("/", 1)[-1]
+        if name == "Quantity":
+            # The other keys can be omitted.
+            place = place.replace('{"of": ..}', "..")
+        if name in SELECTIONS[:4]:
+            return
+        is_known = name in found
+        if name and place not in found.setdefault(name, []):
+            found[name].append(place)
+        for option in [] if is_known else options(schema):
+            variant = name_of(option) if "properties" in option else None
+            inner = option["properties"][variant] if variant else option
+            if "$ref" in inner:
+                visit(inner, f"choice.{variant}(..)")
+            for item in filter(None, [option.get("items"), *option.get("prefixItems", [])]):
+                visit(item, place.replace("..", "[..]"))
+            for field, value in resolve(inner).get("properties", {}).items():
+                for part in value.get("anyOf", [value]):
+                    named = f"choice.{variant}({python_name(field)}=..)"
+                    visit(part, named if variant else place.replace("..", f'{{"{field}": ..}}'))
+
+    for operation in operations():
+        for field, schema in definition(operation).get("properties", {}).items():
+            for part in schema.get("anyOf", [schema]):
+                visit(part, f"{snake(operation)}({python_name(field)}=..)")
+    return found

@@ -110,12 +110,14 @@ class Scene(SceneOperations, Mapping[str, Mesh]):
         budget: int | None = None,
         **parameters: Any,
     ) -> Self:
-        """Runs an operation by its name in recipes: ``scene.apply("Weld", distance=1e-6)``.
+        """Runs an operation by its name in recipes: ``scene.apply("Weld", distance=1e-6)`` is
+        ``scene.weld(distance=1e-6)``.
 
         :param operation: The name of the operation.
-        :param on: The objects that the operation acts on. If omitted, all objects that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id: A text that seeds the random choices of the operation. Defaults to the name of the operation. In a
+            recipe, the name of the step.
+        :param progress: Called with the operation, the task, the number of finished parts and the total number of parts; or
             `True` for a bar of tqdm. An exception cancels the operation.
         :param budget: The memory budget for meshes, in bytes. Defaults to 8 GiB.
         """
@@ -177,7 +179,7 @@ class Scene(SceneOperations, Mapping[str, Mesh]):
         return written[name]
 
     def render(self, **options: Any) -> bytes:
-        """Draws the scene and returns a PNG file. The options are those of the step `Picture`.
+        """Draws the scene and returns the bytes of a PNG file. The options are the parameters of :meth:`picture`.
 
         >>> import meshwright as mw
         >>> mw.Scene().cube(name="box").render(size=(64, 48))[:4]
@@ -271,7 +273,7 @@ def read(path: str | os.PathLike[str], **options: Any) -> Scene:
 
     :param path: The file: .obj, .gltf, .glb, .ply, .stl, .off, .dae, .mws, .bez or .bzc. `s3://` and other addresses
         need fsspec, and the file must not refer to other files.
-    :param options: The other parameters of the step `Load`, such as `non_manifold`.
+    :param options: The other parameters of :meth:`Scene.load`, such as `non_manifold`.
     """
     text = os.fspath(path)
     if is_address(text):
@@ -290,7 +292,7 @@ def read_bytes(data: bytes, name: str, **options: Any) -> Scene:
 
     :param data: The content.
     :param name: The name of the file, whose extension gives the format.
-    :param options: The other parameters of the step `Load`.
+    :param options: The other parameters of :meth:`Scene.load`.
     """
     return Scene()._run("Load", {"path": name, **options}, None, None, files={name: bytes(data)})[0]
 

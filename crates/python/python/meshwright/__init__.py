@@ -16,7 +16,7 @@ from . import choice, expect, matrices, sel
 from ._batch import Report, Row, batch
 from ._core import __version__
 from ._editor import Editor
-from ._errors import EditError, Error, Problem, RecipeError
+from ._errors import EditError, Error, LossWarning, Problem, RecipeError
 from ._mesh import Attributes, HalfEdges, Mesh
 from ._recipe import Outcome, Parameter, Recipe, Step, arg, recipe, run
 from ._ron import Arg, Choice, Ron
@@ -30,6 +30,7 @@ __all__ = [
     "Editor",
     "Error",
     "HalfEdges",
+    "LossWarning",
     "Mesh",
     "Outcome",
     "Parameter",

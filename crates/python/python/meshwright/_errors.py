@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import re
+import sys
+import warnings
 from dataclasses import dataclass, replace
 from typing import Any
 
-__all__ = ["EditError", "Error", "Problem", "RecipeError"]
+__all__ = ["EditError", "Error", "LossWarning", "Problem", "RecipeError"]
 
 
 @dataclass(frozen=True)
@@ -72,6 +74,21 @@ class EditError(Error):
         return (type(self), (str(self), self.reason, self.elements))
 
 
+class LossWarning(UserWarning):
+    """A saved file lacks some of the data, because its format cannot store them. The text lists what is lost.
+
+    ``warnings.simplefilter("error", mw.LossWarning)`` makes an exception of the warning. The file is still written.
+    """
+
+
+def warn(message: str) -> None:
+    """Issues a `LossWarning` at the line of the user that called the package."""
+    frame, level = sys._getframe().f_back, 2
+    while frame and str(frame.f_globals.get("__name__", "")).startswith("meshwright."):
+        frame, level = frame.f_back, level + 1
+    warnings.warn(message, LossWarning, stacklevel=level)
+
+
 def of_method(error: Error, operation: str) -> Error:
     """The error of a method that runs `operation`: values are written as in Python, and no lines of a recipe are shown."""
     from ._names import code_in_python, snake, without_steps
@@ -87,5 +104,5 @@ def of_method(error: Error, operation: str) -> Error:
     return RecipeError("\n".join(lines) or str(error), tuple(problems))
 
 
-for _class in (Problem, Error, RecipeError, EditError):
+for _class in (Problem, Error, RecipeError, EditError, LossWarning):
     _class.__module__ = "meshwright"

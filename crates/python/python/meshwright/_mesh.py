@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core, _ron
-from ._arrays import indices, numeric, points, view
+from ._arrays import frozen, indices, numeric, points, view
 from ._convert import MeshConversions
 from ._errors import Error, of_method
 from ._operations import MeshOperations
@@ -213,6 +213,30 @@ class Mesh(MeshConversions, MeshOperations):
         """The vertices of each face. Slow for large meshes: see :attr:`triangles`, :attr:`corners`."""
         corners, starts = self._polygons
         return np.split(corners, starts[1:-1].astype(np.int64)) if len(starts) > 1 else []
+
+    @cached_property
+    def face_normals(self) -> NDArray[np.float64]:
+        """The unit normals of the faces, of shape (n_faces, 3). The normal of a face without an area is zero.
+
+        The normals of vertices are an attribute, which :meth:`vertex_normals` computes.
+
+        >>> import meshwright as mw
+        >>> mw.Scene().cube(name="box").mesh().face_normals[:2].tolist()
+        [[0.0, 0.0, -1.0], [0.0, 0.0, 1.0]]
+        """
+        corners, starts = self._polygons
+        if not len(corners):
+            return frozen(np.zeros((0, 3)))
+        first = starts[:-1].astype(np.int64)
+        points = self.vertices[corners]
+        # Points far from the origin lose digits in cross products, so each face is moved to its first corner.
+        points -= np.repeat(points[first], np.diff(starts).astype(np.int64), axis=0)
+        following = np.arange(1, len(corners) + 1)
+        following[starts[1:].astype(np.int64) - 1] = first
+        # The sum of the cross products of consecutive corners is twice the area vector, also if the face is not flat.
+        areas = np.add.reduceat(np.cross(points, points[following]), first, axis=0)
+        lengths = np.linalg.norm(areas, axis=1, keepdims=True)
+        return frozen(np.divide(areas, lengths, out=np.zeros_like(areas), where=lengths > 0))
 
     @cached_property
     def half_edges(self) -> HalfEdges:

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, Self
 
 from . import _core, _ron
-from ._errors import Error, of_method
+from ._errors import Error, of_method, warn
 from ._mesh import Mesh
 from ._operations import SceneOperations
 from ._progress import Progress, callback
@@ -166,14 +166,22 @@ class Scene(SceneOperations, Mapping[str, Mesh]):
                 core, about = self._core.run(text, "", output, files, budget, show)
         except Error as error:
             raise of_method(error, operation) from None
-        notes = [line for report in about["reports"] for line in lines_of(json.loads(report))]
+        reports = [json.loads(report) for report in about["reports"]]
+        if operation == "Save":
+            warn_of_losses(os.fspath(fields["path"]), reports)
+        notes = [line for report in reports for line in lines_of(report)]
         notes += [warning["message"] for warning in about["warnings"]]
         return type(self)(core, tuple(notes)), about["written"]
 
     # ---- Files
 
     def to_bytes(self, extension: str, **options: Any) -> bytes:
-        """Returns the content of a file of this format, such as ``"glb"``."""
+        """Returns the content of a file of this format, such as ``"glb"``. What the format cannot store is listed in a
+        :class:`meshwright.LossWarning`.
+
+        :param extension: The extension of the format.
+        :param options: The other parameters of :meth:`save`.
+        """
         name = f"scene.{extension.lstrip('.')}"
         written = self._run("Save", {"path": name, **options}, None, None, files={})[1]
         return written[name]
@@ -229,12 +237,23 @@ def lines_of(report: Mapping[str, Any]) -> Iterator[str]:
     """The lines of the report of a step."""
     for refused in report["refused"]:
         yield f"{refused['count']} refused: {refused['first']}"
-    for loss in report["losses"]:
-        object = f'"{loss["object"]}"' if loss["object"] else "the scene"
-        yield f"{object} lost {loss['what']}: {loss['reason']}" if loss["reason"] else loss["what"]
+    yield from map(line_of_loss, report["losses"])
     for change in report["changes"]:
         yield change["message"]
     yield from report["notes"]
+
+
+def line_of_loss(loss: Mapping[str, str]) -> str:
+    """A loss in words."""
+    object = f'"{loss["object"]}"' if loss["object"] else "the scene"
+    return f"{object} lost {loss['what']}: {loss['reason']}" if loss["reason"] else loss["what"]
+
+
+def warn_of_losses(path: str, reports: Sequence[Mapping[str, Any]]) -> None:
+    """Issues one warning that lists what a file lacks. Rounded positions are not lost."""
+    losses = [loss for report in reports for loss in report["losses"] if loss["name"] != "position"]
+    if losses:
+        warn(f"{path}: {'; '.join(map(line_of_loss, losses))}")
 
 
 def is_address(path: str) -> bool:

@@ -259,6 +259,8 @@ def method(name: str, entry: Any, of_mesh: bool) -> list[str]:
             kinds.insert(0, "Mesh")
         if n == "path":
             kinds.insert(1, "os.PathLike[str]")
+        if n == "color_by":
+            kinds[:0] = ["str", "Choice"]
         if n in required:
             head.append(f"{python_name(n)}: {' | '.join(kinds)}")
         else:
@@ -272,11 +274,14 @@ def method(name: str, entry: Any, of_mesh: bool) -> list[str]:
     text = schema.get("description") or entry["summary"] + "."
     fields = [(n, properties[n]) for n in [*required, *optional]]
     fields = [(n, in_working_directory(s, of_mesh)) if n == "path" else (n, s) for n, s in fields]
+    fields = [(n, {**s, "description": COLOR_BY}) if n == "color_by" else (n, s) for n, s in fields]
     if of_mesh:
         text = for_mesh(text)
         fields = [(n, {**s, "description": for_mesh(described(s)).replace(OBJECT, "The mesh ")}) for n, s in fields]
     more = [":param on: The names of the objects on which the operation acts. If omitted, all that it supports."] if takes_on else []
     more.append(":param id, progress: See :class:`Mesh`." if of_mesh else ":param id, progress: See :meth:`Scene.apply`.")
+    if name == "Save":
+        more.append(":warns meshwright.LossWarning: If the format cannot store some of the data. The text lists what is lost.")
     if of_mesh:
         result = "The same mesh." if "path" in properties else "The new mesh. This mesh does not change."
         more.append(f":returns: {result} {RESULTS.get(name, '')}".rstrip())
@@ -314,6 +319,12 @@ def split_union(text: str) -> list[str]:
     return [*parts, text[start:]]
 
 
+#: The parameter `color_by`, which has short forms in Python.
+QUANTITIES = ", ".join(f'`"{option["const"]}"`' for option in options(definition("Quantity")) if "const" in option)
+COLOR_BY = (
+    f"What the colors of the surface show: a quantity ({QUANTITIES}, or a value of `meshwright.choice`), the name of an "
+    "attribute, or a mapping with more details."
+)
 #: What recipes say about a relative path.
 RELATIVE = re.compile(r"(?:The|A relative) path is relative to (the output folder|the folder of the recipe)\.")
 

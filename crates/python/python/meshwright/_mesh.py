@@ -461,10 +461,17 @@ class Mesh(MeshConversions, MeshOperations):
     def _repr_png_(self) -> bytes:
         return self.render(size=(640, 480))
 
-    def view(self, *, color_by: str | None = None, wireframe: bool | None = None, height: int = 480) -> View:
+    def view(
+        self,
+        *,
+        color_by: str | Choice | Mapping[str, Any] | None = None,
+        wireframe: bool | None = None,
+        height: int = 480,
+    ) -> View:
         """Returns an interactive view for notebooks: drag to turn, scroll to zoom. It needs no network.
 
-        :param color_by: An attribute of vertices or faces that gives the colors.
+        :param color_by: What the colors show, as in :meth:`picture`: a quantity such as ``"MeanCurvature"``, the name of
+            an attribute of vertices or faces, or a mapping with the keys ``"of"`` and ``"range"``.
         :param wireframe: Whether edges are drawn at first. If omitted, only for meshes of at most 20,000 faces.
         :param height: The height in pixels.
         """

@@ -152,6 +152,7 @@ class SceneOperations:
             ``"Corners"``: The corners of the faces, face by face.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
         :param id, progress: See :meth:`Scene.apply`.
+        :warns meshwright.LossWarning: If the format cannot store some of the data. The text lists what is lost.
         """
         return self._apply('Save', {'path': path, 'images': images, 'compress': compress, 'quantize': quantize, 'weight_sets': weight_sets, 'rows': rows}, on, id, progress)
 
@@ -2789,7 +2790,7 @@ class SceneOperations:
         highlight: Literal['All', 'Boundary', 'Isolated', 'SelfIntersecting'] | Choice | Arg | Ron | None = None,
         highlight_width: float | Arg | Ron | None = None,
         marks: Sequence[Mapping[str, Any]] | NDArray[Any] | Arg | Ron | None = None,
-        color_by: Mapping[str, Any] | Arg | Ron | None = None,
+        color_by: str | Choice | Mapping[str, Any] | Arg | Ron | None = None,
         turntable: Mapping[str, Any] | Arg | Ron | None = None,
         images: str | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
@@ -2847,7 +2848,9 @@ class SceneOperations:
             ``"color"``: The color.
             ``"width"``: The width of edges and the diameter of vertices, in pixels. If omitted, the defaults of
                 ``highlight_width``.
-        :param color_by: The quantity to show as colors of the surface.
+        :param color_by: What the colors of the surface show: a quantity (``"Valence"``, ``"MinAngle"``, ``"Area"``,
+            ``"DihedralAngle"``, ``"MeanCurvature"``, ``"GaussianCurvature"``, or a value of ``meshwright.choice``), the
+            name of an attribute, or a mapping with more details.
             ``"of"``: The quantity that the colors show.
             ``"map"``: The color map. If omitted, ``Classes`` for valences, ``Diverging`` for curvatures, else
                 ``Viridis``.
@@ -3059,6 +3062,7 @@ class MeshOperations:
             ``"Faces"``: Faces.
             ``"Corners"``: The corners of the faces, face by face.
         :param id, progress: See :class:`Mesh`.
+        :warns meshwright.LossWarning: If the format cannot store some of the data. The text lists what is lost.
         :returns: The same mesh.
         """
         return self._apply('Save', {'path': path, 'images': images, 'compress': compress, 'quantize': quantize, 'weight_sets': weight_sets, 'rows': rows}, None, id, progress)
@@ -5160,7 +5164,7 @@ class MeshOperations:
         highlight: Literal['All', 'Boundary', 'Isolated', 'SelfIntersecting'] | Choice | Ron | None = None,
         highlight_width: float | Ron | None = None,
         marks: Sequence[Mapping[str, Any]] | NDArray[Any] | Ron | None = None,
-        color_by: Mapping[str, Any] | Ron | None = None,
+        color_by: str | Choice | Mapping[str, Any] | Ron | None = None,
         turntable: Mapping[str, Any] | Ron | None = None,
         images: str | Ron | None = None,
         id: str | None = None,
@@ -5213,7 +5217,9 @@ class MeshOperations:
             ``"color"``: The color.
             ``"width"``: The width of edges and the diameter of vertices, in pixels. If omitted, the defaults of
                 ``highlight_width``.
-        :param color_by: The quantity to show as colors of the surface.
+        :param color_by: What the colors of the surface show: a quantity (``"Valence"``, ``"MinAngle"``, ``"Area"``,
+            ``"DihedralAngle"``, ``"MeanCurvature"``, ``"GaussianCurvature"``, or a value of ``meshwright.choice``), the
+            name of an attribute, or a mapping with more details.
             ``"of"``: The quantity that the colors show.
             ``"map"``: The color map. If omitted, ``Classes`` for valences, ``Diverging`` for curvatures, else
                 ``Viridis``.

@@ -267,9 +267,22 @@ def write(value: Any, schema: Schema) -> str:
     raise TypeError(f"cannot write {type(value).__name__} in a recipe")
 
 
+def color_by(value: Any) -> Any:
+    """The value of the parameter `color_by` as a mapping. A text that is not a quantity is the name of an attribute."""
+    if value is None or isinstance(value, Ron | Arg):
+        return value
+    given = dict(value) if isinstance(value, Mapping) else {"of": value}
+    of = given.get("of")
+    if isinstance(of, str) and not isinstance(of, Ron) and of not in words(definition("Quantity")):
+        given["of"] = Choice("Attribute", name=of)
+    return given
+
+
 def step(operation: str, fields: Mapping[str, Any]) -> str:
     """A step: ``LoopSubdivide(levels: 2)``. Parameters that are ``None`` are omitted."""
     given = {name: value for name, value in fields.items() if value is not None}
+    if "color_by" in given:
+        given["color_by"] = color_by(given["color_by"])
     return operation + struct(given, definition(operation))
 
 

@@ -128,14 +128,15 @@ def Fit(
     For ``picture(camera=..)`` and ``picture(views=[..])``.
 
     :param from_: The side from which the camera looks. Defaults to ``"ThreeQuarter"``.
-        ``"Front"``: From the front.
-        ``"Back"``: From the back.
+        ``"Front"``: From the front: the side where z is large if y points upwards, and where y is small if z points
+            upwards.
+        ``"Back"``: From the back, which is opposite to the front.
         ``"Left"``: From the side where x is small.
         ``"Right"``: From the side where x is large.
         ``"Top"``: From above.
         ``"Bottom"``: From below.
         ``"Isometric"``: From the front, right and above, so that the three axes are equally long in the picture.
-        ``"ThreeQuarter"``: From the front, 30 degrees to the right and 22 degrees above.
+        ``"ThreeQuarter"``: From the front, 30 degrees towards the side where x is large, and 22 degrees above.
         ``choice.Angles(..)``: From any direction.
     :param up: The axis that points upwards. Defaults to ``"Y"``.
         ``"Y"``: The y axis, as in glTF.

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import importlib.machinery
 import importlib.util
-import keyword
 import re
 import sys
 import textwrap
@@ -46,8 +45,6 @@ if __name__ == "__main__":
 from meshwright._names import (  # noqa: E402
     EXPECTATIONS,
     SELECTIONS,
-    TOKEN,  # noqa: F401
-    callable_name,
     code_in_python,
     in_python,
     others,

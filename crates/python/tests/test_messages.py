@@ -40,6 +40,10 @@ def test_the_name_of_a_value_with_parameters(ball: mw.Mesh) -> None:
     ):
         with pytest.raises(TypeError, match=written):
             ball.smooth(by=by)  # type: ignore[arg-type]
+    # Several modules have values of these names.
+    for by, written in (("Random", r"choice\.Random\(\)"), ("Attribute", r"choice\.Attribute\(name=\.\.\)")):
+        with pytest.raises(TypeError, match=written):
+            ball.displace(by=by, distance=1)  # type: ignore[arg-type]
     with pytest.raises(TypeError, match=r"sel\.Degree\(\.\.\)"):
         ball.delete_faces(faces="Degree")  # type: ignore[arg-type]
 

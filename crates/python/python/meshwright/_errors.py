@@ -90,7 +90,8 @@ def warn(message: str) -> None:
 
 
 def of_method(error: Error, operation: str) -> Error:
-    """The error of a method that runs `operation`: values are written as in Python, and no lines of a recipe are shown."""
+    """The error of a method that runs `operation`. Values are written as in Python, and no lines of a recipe are
+    shown."""
     from ._names import code_in_python, snake, without_steps
 
     def text(recipe: str) -> str:

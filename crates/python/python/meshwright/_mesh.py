@@ -470,8 +470,8 @@ class Mesh(MeshConversions, MeshOperations):
     ) -> View:
         """Returns an interactive view for notebooks: drag to turn, scroll to zoom. It needs no network.
 
-        :param color_by: What the colors show, as in :meth:`picture`: a quantity such as ``"MeanCurvature"``, the name of
-            an attribute of vertices or faces, or a mapping with the keys ``"of"`` and ``"range"``.
+        :param color_by: What the colors show, as in :meth:`picture`: a quantity such as ``"MeanCurvature"``, the name
+            of an attribute of vertices or faces, or a mapping with the keys ``"of"`` and ``"range"``.
         :param wireframe: Whether edges are drawn at first. If omitted, only for meshes of at most 20,000 faces.
         :param height: The height in pixels.
         """

@@ -66,7 +66,8 @@ def call(option: Schema) -> str:
     name = str(name_of(option))
     inner = resolve(option["properties"][name])
     fields = [f"{python_name(field)}=.." for field in inner.get("required", [])]
-    return f"{callable_name(name)}({', '.join(fields) if 'properties' in inner else '..'})"
+    module = "sel" if owner(option) in SELECTIONS else "expect" if owner(option) in EXPECTATIONS else "choice"
+    return f"{module}.{name}({', '.join(fields) if 'properties' in inner else '..'})"
 
 
 def word(name: str) -> str:

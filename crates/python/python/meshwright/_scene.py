@@ -117,8 +117,9 @@ class Scene(SceneOperations, Mapping[str, Mesh]):
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
         :param id: A text that seeds the random choices of the operation. Defaults to the name of the operation. In a
             recipe, the name of the step.
-        :param progress: Called with the operation, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. An exception cancels the operation.
+        :param progress: Called with the operation, the task, the number of finished parts and the total number of
+            parts; or `True` for a bar of tqdm. An exception cancels the operation. For a recipe, see
+            :meth:`Recipe.run`.
         :param budget: The memory budget for meshes, in bytes. Defaults to 8 GiB.
         """
         return self._run(operation, parameters, on, id, progress=progress, budget=budget)[0]

@@ -38,12 +38,14 @@ def encoded(array: NDArray[Any], dtype: str) -> str:
     return base64.b64encode(np.ascontiguousarray(array, dtype)).decode("ascii")
 
 
+#: The name of the attribute that holds the shown values for a moment.
+SHOWN = "values of the view"
 Values = tuple[Literal["vertex", "face"], NDArray[Any]]
 
 
 def quantity(mesh: Mesh, of: str | Choice) -> Values:
-    """The values of a quantity at the vertices or faces, and which of the two. If an attribute has vectors, their lengths
-    are used."""
+    """The values of a quantity, and whether they belong to the vertices or the faces. If an attribute has vectors, their
+    lengths are used."""
     if isinstance(of, Choice) and of.name == "Attribute":
         name, component = of.fields["name"], of.fields.get("component")
         domain = mesh.attributes.domain(name)
@@ -56,9 +58,10 @@ def quantity(mesh: Mesh, of: str | Choice) -> Values:
     if of == "Valence":
         return "vertex", np.bincount(mesh.edges.reshape(-1), minlength=mesh.n_vertices).astype(float)
     if isinstance(of, Choice) or of == "DihedralAngle":
-        raise ValueError(f"a view cannot show {of}: expected an attribute or quantity of vertices or faces; use picture()")
+        expected = "expected an attribute or a quantity of vertices or faces"
+        raise ValueError(f"a view cannot show {of}: {expected}; picture() shows more")
     at: Literal["vertex", "face"] = "face" if of in ("Area", "MinAngle") else "vertex"
-    return at, mesh.measure(of=Choice(of), name="quantity").attributes[at, "quantity"]
+    return at, mesh.measure(of=Choice(of), name=SHOWN).attributes[at, SHOWN]
 
 
 def colors_of(numbers: NDArray[Any], span: tuple[float, float] | None = None) -> tuple[NDArray[np.uint8], str]:
@@ -87,14 +90,14 @@ class View:
                 raise ValueError(f'color_by has the key "{unknown[0]}", expected "of" or "range"; picture() takes more keys')
             domain, values = quantity(mesh, given["of"])
             if domain == "face":
-                pieces = mesh.with_attribute("quantity", values, "face")
+                pieces = mesh.with_attribute(SHOWN, values, "face")
         if (np.diff(mesh.face_starts) != 3).any():
             pieces = pieces.triangulate()
         # The mesh is moved to the origin, because 32-bit floats are precise only there.
         center = mesh.vertices.mean(axis=0) if mesh.n_vertices else np.zeros(3)
         points, triangles, colors = mesh.vertices - center, pieces.triangles, None
         if values is not None:
-            values = pieces.attributes["face", "quantity"] if domain == "face" else values
+            values = pieces.attributes["face", SHOWN] if domain == "face" else values
             colors, span = colors_of(values, given.get("range"))
             of = given["of"]
             caption += f", {of.fields['name'] if isinstance(of, Choice) else of}: {span}"

@@ -10,13 +10,11 @@ from __future__ import annotations
 
 import importlib.machinery
 import importlib.util
-import keyword
 import re
 import sys
 import textwrap
 import types
-from collections.abc import Sequence
-from functools import cache
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -44,18 +42,21 @@ def use_built_library() -> None:
 if __name__ == "__main__":
     use_built_library()
 
-from meshwright._ron import definition, name_of, operations, options, resolve, root  # noqa: E402
-
-SELECTIONS = ["VertexSelection", "EdgeSelection", "FaceSelection", "Region", "Elements"]
-EXPECTATIONS = ["Expectation", "OtherMesh", "Group"]
-
-
-def snake(name: str) -> str:
-    return re.sub(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", "_", name).lower()
-
-
-def python_name(name: str) -> str:
-    return name + "_" if keyword.iskeyword(name) else name
+from meshwright._names import (  # noqa: E402
+    EXPECTATIONS,
+    SELECTIONS,
+    code_in_python,
+    in_python,
+    others,
+    owner,
+    python_name,
+    selections,
+    snake,
+    uses,
+    variants,
+    without_steps,
+)
+from meshwright._ron import definition, name_of, operations, options, resolve  # noqa: E402
 
 
 def kind(schema: Any, depth: int = 0) -> str:
@@ -113,82 +114,44 @@ def default(schema: Any) -> str | None:
 
 def sentence(text: str) -> str:
     """A paragraph on one line, with its values written as in Python."""
-    return re.sub(r"`([^`]+)`", lambda code: f"``{in_python(code[1]) or code[1]}``", " ".join(text.split()))
+    text = " ".join(text.split()).replace("Without `on`, the step", "Without `on`, a method of a scene")
+    return code_in_python(without_steps(text), "``")
 
 
-TOKEN = re.compile(r'\s*("[^"]*"|[A-Za-z_]\w*|[-+]?[\d._]+(?:e[-+]?\d+)?|[()\[\]:,])')
+def described(schema: Any) -> str:
+    """The description of a parameter, or that of its type."""
+    return str(schema.get("description") or resolve(schema).get("description") or "")
 
 
-def in_python(code: str) -> str | None:
-    """The Python expression for a value or a parameter of a recipe: ``sel.Sharp(above=30)`` for `Sharp(above: 30)`.
-    `None` if the text is not such a value."""
-    tokens = TOKEN.findall(code)
-    if "".join(tokens) != re.sub(r'\s+(?=(?:[^"]*"[^"]*")*[^"]*$)', "", code):
-        return None
-    try:
-        if len(tokens) > 2 and tokens[1] == ":":
-            value, rest = expression(tokens[2:])
-            text = f"{python_name(tokens[0])}={value}"
-        elif tokens in (["true"], ["false"]):
-            text, rest = tokens[0].capitalize(), []
-        elif len(tokens) == 1:
-            text, rest = word(tokens[0]), []
-        elif tokens[1] == "(":
-            text, rest = expression(tokens)
-        else:
-            return None
-    except (IndexError, KeyError):
-        return None
-    return None if rest else text
+def sentences(text: str) -> list[str]:
+    return re.split(r"(?<=[.:]) (?=[A-Z`])", " ".join(text.split()))
 
 
-def word(name: str) -> str:
-    """The Python name of a single word. Most words are also reasons, formats or attributes, and are not changed."""
-    if name in operations():
-        return f"{snake(name)}()"
-    modules = [("sel", selections()), ("choice", others()), ("expect", variants(EXPECTATIONS))]
-    known = [module for module, found in modules if all("const" not in option for option in found.get(name, [{"const": 0}]))]
-    return f"{known[0]}.{name}" if len(known) == 1 else python_name(name)
+def for_mesh(text: str) -> str:
+    """A text for a method of a mesh, without the sentences about the other objects of a scene and about recipes."""
+    for other, own in (
+        ("the folder of the recipe", "the working directory"),
+        ("another object", "another mesh"),
+        ("the object `", "the mesh `"),
+    ):
+        text = text.replace(other, own)
+    paragraphs = []
+    for paragraph in text.split("\n\n"):
+        kept = [part for part in sentences(paragraph) if not re.search(r"Without `on`|\brecipe\b", part)]
+        if len(kept) == len(sentences(paragraph)):
+            paragraphs.append(paragraph)
+        elif kept:
+            paragraphs.append(" ".join(kept))
+    return "\n\n".join(paragraphs)
 
 
-def expression(tokens: list[str]) -> tuple[str, list[str]]:
-    """The Python expression for the value at the beginning of the tokens, and the tokens after this value."""
-    first, rest = tokens[0], tokens[1:]
-    if first in "([":
-        parts, rest = arguments(rest)
-        if first == "(" and all("=" in part for part in parts):
-            fields = [part.split("=", 1) for part in parts]
-            return "{" + ", ".join(f'"{name}": {value}' for name, value in fields) + "}", rest
-        return (f"[{', '.join(parts)}]" if first == "[" else f"({', '.join(parts)})"), rest
-    if not first[0].isalpha():
-        return first, rest
-    if first in ("true", "false"):
-        return first.capitalize(), rest
-    if rest[:1] != ["("]:
-        return f'"{first}"', rest
-    parts, rest = arguments(rest[1:])
-    return f"{callable_name(first)}({', '.join(parts)})", rest
+#: What starts the description of a parameter that names another object.
+OBJECT = "The name of the object "
 
 
-def arguments(tokens: list[str]) -> tuple[list[str], list[str]]:
-    """The values before the closing bracket, and the tokens after it."""
-    parts = []
-    while tokens[0] not in ")]":
-        name = ""
-        if len(tokens) > 1 and tokens[1] == ":":
-            name, tokens = f"{python_name(tokens[0])}=", tokens[2:]
-        value, tokens = expression(tokens)
-        parts.append(name + value)
-        tokens = tokens[1:] if tokens[0] == "," else tokens
-    return parts, tokens[1:]
-
-
-def callable_name(name: str) -> str:
-    """The Python name of an operation or of a variant with parameters."""
-    if name in operations():
-        return snake(name)
-    modules = [("sel", selections()), ("expect", variants(EXPECTATIONS)), ("choice", others())]
-    return next(f"{module}.{name}" for module, known in [*modules, ("mw", {name: []})] if name in known)
+def names_object(schema: Any) -> bool:
+    """Whether a parameter names another object. A method of a mesh takes a mesh instead of the name."""
+    return str(schema.get("description", "")).startswith(OBJECT)
 
 
 def wrapped(text: str, indent: str, more: str = "") -> list[str]:
@@ -235,7 +198,7 @@ def field_lines(schema: Any, indent: str) -> list[str]:
     lines = []
     for option in each:
         for name, inner in option.get("properties", {}).items() if name_of(option) is None else ():
-            text = sentence(inner.get("description") or resolve(inner).get("description") or "")
+            text = sentence(described(inner))
             lines += wrapped(f'``"{name}"``: {text}', indent, "    ")
     return lines
 
@@ -257,7 +220,7 @@ def docstring(
     lines += ["", *wrapped(example, indent)] if example else []
     lines += [""] if fields or more else []
     for name, schema in fields:
-        text = sentence(schema.get("description") or resolve(schema).get("description") or "")
+        text = sentence(described(schema))
         value = default(schema)
         is_known = value is None or "Defaults to" in text or "If omitted" in text
         note = "" if is_known else f" Defaults to {value}."
@@ -289,10 +252,12 @@ def method(name: str, entry: Any, of_mesh: bool) -> list[str]:
     head, tail = ["self"], []
     for n in [*required, *optional]:
         kinds = list(dict.fromkeys([*split_union(kind(properties[n])), *extra]))
-        if of_mesh and (name, n) in OTHERS:
-            kinds.insert(0, '"Mesh"')
+        if of_mesh and names_object(properties[n]):
+            kinds.insert(0, "Mesh")
         if n == "path":
             kinds.insert(1, "os.PathLike[str]")
+        if n == "color_by":
+            kinds[:0] = ["str", "Choice"]
         if n in required:
             head.append(f"{python_name(n)}: {' | '.join(kinds)}")
         else:
@@ -306,16 +271,19 @@ def method(name: str, entry: Any, of_mesh: bool) -> list[str]:
     text = schema.get("description") or entry["summary"] + "."
     fields = [(n, properties[n]) for n in [*required, *optional]]
     fields = [(n, in_working_directory(s, of_mesh)) if n == "path" else (n, s) for n, s in fields]
+    fields = [(n, {**s, "description": COLOR_BY}) if n == "color_by" else (n, s) for n, s in fields]
     if of_mesh:
-        fields = [(n, {**s, "description": OTHERS[name, n]} if (name, n) in OTHERS else s) for n, s in fields]
-    more = [":param on: The objects that the step acts on. If omitted, all that it supports."] if takes_on else []
-    more.append(":param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.")
-    shown = ":param progress: Called with the step, the task, the number of finished parts and the total number of parts; or `True` for a bar of tqdm."
-    more.append(shown if of_mesh else f"{shown} For a recipe, see :meth:`Recipe.run`.")
+        text = for_mesh(text)
+        fields = [(n, {**s, "description": for_mesh(described(s)).replace(OBJECT, "The mesh ")}) for n, s in fields]
+    more = [":param on: The names of the objects on which the operation acts. If omitted, all that it supports."] if takes_on else []
+    more.append(":param id, progress: See :class:`Mesh`." if of_mesh else ":param id, progress: See :meth:`Scene.apply`.")
+    if name == "Save":
+        more.append(":warns meshwright.LossWarning: If the format cannot store some of the data. The text lists what is lost.")
     if of_mesh:
-        more.append(f":returns: The new mesh. This mesh does not change. {RESULTS.get(name, '')}".rstrip())
+        result = "The same mesh." if "path" in properties else "The new mesh. This mesh does not change."
+        more.append(f":returns: {result} {RESULTS.get(name, '')}".rstrip())
     called = in_python(entry["example"]) or ""
-    for other in (f'{python_name(n)}="scan"' for operation, n in OTHERS if of_mesh and operation == name):
+    for other in (f'{python_name(n)}="scan"' for n in properties if of_mesh and names_object(properties[n])):
         called = called.replace(other, f"{other.split('=')[0]}=scan")
     example = f"Example: ``mesh.{called}``" if of_mesh else f"Example: ``scene.{called}``, in a recipe ``{entry['example']}``"
     lines += [literal(line) for line in docstring(text, fields, " " * 8, example, more)]
@@ -348,12 +316,12 @@ def split_union(text: str) -> list[str]:
     return [*parts, text[start:]]
 
 
-#: Parameters that name another object. A method of a mesh takes a mesh instead of the name, with this description.
-OTHERS = {
-    ("Transfer", "from"): "The mesh with the attributes.",
-    ("Project", "onto"): "The mesh with the surface.",
-}
-
+#: The parameter `color_by`, which has short forms in Python.
+QUANTITIES = ", ".join(f'`"{option["const"]}"`' for option in options(definition("Quantity")) if "const" in option)
+COLOR_BY = (
+    f"What the colors of the surface show: a quantity ({QUANTITIES}, or a value of `meshwright.choice`), the name of an "
+    "attribute, or a mapping with more details."
+)
 #: What recipes say about a relative path.
 RELATIVE = re.compile(r"(?:The|A relative) path is relative to (the output folder|the folder of the recipe)\.")
 
@@ -397,36 +365,11 @@ def operations_file() -> str:
     return "\n".join(lines).rstrip() + "\n"
 
 
-def variants(names: list[str]) -> dict[str, list[Any]]:
-    """The variants with parameters of these types, by name."""
-    found: dict[str, list[Any]] = {}
-    for name in names:
-        for option in options(definition(name)):
-            variant = name_of(option)
-            if variant:
-                found.setdefault(variant, []).append(option)
-    return found
-
-
-@cache
-def selections() -> dict[str, list[Any]]:
-    """The variants of selections and regions."""
-    return variants(SELECTIONS)
-
-
-@cache
-def others() -> dict[str, list[Any]]:
-    """The variants with parameters that are neither selections nor expectations."""
-    skipped = {*SELECTIONS, *EXPECTATIONS, "Step", "Param", "OnLoss", "Refusal", *operations()}
-    found = variants([name for name in root()["$defs"] if name not in skipped])
-    return {n: a for n, a in found.items() if not all("const" in option for option in a)}
-
-
 def function(name: str, alternatives: list[Any]) -> list[str]:
     """A function that makes a variant, or a constant for a variant without parameters."""
-    doc = " ".join(dict.fromkeys(a.get("description", "") for a in alternatives)).strip()
     if all("const" in a for a in alternatives):
-        return [f"{name} = Choice({name!r})", *wrapped(f'"""{literal(sentence(doc))}"""', ""), ""]
+        made = docstring(meaning(alternatives), [], "")
+        return [f"{name} = Choice({name!r})", *(literal(line) for line in made), ""]
     inner = [resolve(a["properties"][name]) for a in alternatives if "properties" in a]
     structs = [i for i in inner if i.get("type") == "object" and "properties" in i]
     head: list[str]
@@ -442,13 +385,12 @@ def function(name: str, alternatives: list[Any]) -> list[str]:
         order = [n for n in merged if n in needed] + [n for n in merged if n not in needed]
         head = ["*"]
         if plain:
-            kinds = list(dict.fromkeys(k for i in plain for k in split_union(kind(i))))
-            head = [f"value: {' | '.join(dict.fromkeys([*kinds, 'Arg', 'Ron']))} | None = None", "/", "*"]
+            head = [f"value: {union([*map(kind, plain), 'Arg', 'Ron', 'None'])} = None", "/", "*"]
         for n in order:
-            kinds = list(dict.fromkeys(k for s in merged[n] for k in split_union(kind(s))))
-            ending = "" if n in needed else " | None = None"
-            head.append(f"{python_name(n)}: {' | '.join(dict.fromkeys([*kinds, 'Arg', 'Ron']))}{ending}")
-            fields.append((n, merged[n][0]))
+            kinds = ["Mesh"] if names_object(merged[n][0]) else []
+            kinds += [*map(kind, merged[n]), "Arg", "Ron", *([] if n in needed else ["None"])]
+            head.append(f"{python_name(n)}: {union(kinds)}{'' if n in needed else ' = None'}")
+            fields.append((n, combined(merged[n])))
         first = ["*(() if value is None else (value,))"] if plain else []
         call = ", ".join([repr(name), *first, *(f"{python_name(n)}={python_name(n)}" for n in order)])
     elif inner and all("prefixItems" in i for i in inner) and not is_vector(inner[0]):
@@ -456,16 +398,98 @@ def function(name: str, alternatives: list[Any]) -> list[str]:
         head = [f"{'abcd'[i]}: {kind(part)} | Arg" for i, part in enumerate(parts)] + ["/"]
         call = ", ".join([repr(name), *"abcd"[: len(parts)]])
     else:
-        kinds = list(dict.fromkeys(k for i in inner for k in split_union(kind(i))))
-        head = [f"value: {' | '.join(dict.fromkeys([*kinds, 'Arg', 'Ron']))}", "/"]
+        is_object = any(BY_NAME in a.get("description", "") for a in alternatives)
+        kinds = ["Mesh"] if is_object else []
+        head = [f"value: {union([*kinds, *map(kind, inner), 'Arg', 'Ron'])}", "/"]
+        fields = [("value", {"description": "The mesh. " + OR_NAME})] if is_object else []
         call = f"{name!r}, value"
     lines = [f"def {name}({', '.join(head)}) -> Choice:"]
     if len(lines[0]) > 118:
         lines = [f"def {name}(", *(f"    {part}," for part in head), ") -> Choice:"]
-    first, _, rest = doc.partition(". ")
-    text = f"{first.rstrip('.') or name}.\n\n{rest}"
-    lines += [literal(line) for line in docstring(text, fields, "    ")]
+    lines += [literal(line) for line in docstring(meaning(alternatives), fields, "    ")]
     return [*lines, f"    return Choice({call})", ""]
+
+
+#: How the description of a selection says that its value is the name of an object.
+BY_NAME = ", given by its name"
+OR_NAME = "For a scene or a recipe, the name of its object."
+#: What the selections of each type select.
+ELEMENTS = {"VertexSelection": "vertices", "EdgeSelection": "edges", "FaceSelection": "faces"}
+
+
+def meaning(alternatives: list[Any]) -> str:
+    """The meaning of a variant. If several types have a variant of this name, and their meanings differ, a list says
+    what it means where."""
+    texts: dict[str, list[Any]] = {}
+    for option in alternatives:
+        text = outside_recipes(option.get("description", "")).replace(BY_NAME, "")
+        text = text.replace("another mesh of the scene", "another mesh").replace("the mesh of another object", "another mesh")
+        texts.setdefault(text, []).append(option)
+    places = {text: places_of(found) for text, found in texts.items()}
+    if len(texts) > 1 and len({of_elements(text) for text in texts}) == 1:
+        texts = {of_elements(text): alternatives for text in texts}
+    if len(texts) == 1:
+        first, *rest = sentences(next(iter(texts)))
+        where = places_of(alternatives)
+        return "\n\n".join(filter(None, [first, " ".join(rest), where and f"For {where}."]))
+    if not all(places.values()) and not any(owner(option) in ELEMENTS for option in alternatives):
+        return " ".join(texts)
+    has_forms = len({form(option) for option in alternatives if "properties" in option}) > 1
+    # What is true everywhere is said once, after the list.
+    parts = {text: sentences(text) for text in texts}
+    common = [part for part in next(iter(parts.values())) if all(part in other for other in parts.values())]
+    rows = []
+    for text, found in texts.items():
+        own = " ".join(part for part in parts[text] if part not in common)
+        selected = [ELEMENTS[owner(option)] for option in found if owner(option) in ELEMENTS]
+        where = f"In {places[text]}{form(found[0]) if has_forms else ''}"
+        rows.append(f"- {f'As a selection of {selected[0]}' if selected else where}: {own}")
+    head = "The meaning depends on what is selected." if any("As a" in row for row in rows) else "The meaning depends on the parameter."
+    return "\n\n".join(filter(None, [head, "\n".join(rows), " ".join(common)]))
+
+
+def form(option: Any) -> str:
+    """How the value of a variant is given: by itself, or as parameters with names."""
+    name = name_of(option)
+    fields = resolve(option["properties"][name]).get("properties") if "properties" in option else None
+    given = ", ".join(f"{python_name(field)}=.." for field in fields) if fields else "value"
+    return f", as `choice.{name}({given})`" if "properties" in option else ""
+
+
+def of_elements(text: str) -> str:
+    """A text about vertices, edges or faces, as a text about elements."""
+    return re.sub(r"\b(vertices|edges|faces)\b", "elements", text)
+
+
+def places_of(alternatives: list[Any]) -> str:
+    """The parameters that take these variants, except selections, which many parameters take."""
+    places = [f"`{place}`" for option in alternatives for place in uses().get(owner(option), [])]
+    return " and ".join([", ".join(places[:-1]), places[-1]]) if len(places) > 1 else "".join(places)
+
+
+def combined(schemas: list[Any]) -> Any:
+    """The schema of a parameter that several variants of the same name have."""
+    text = described(schemas[0])
+    if names_object(schemas[0]):
+        text = f"{text.replace(OBJECT, 'The mesh ')} {OR_NAME}"
+    if len({described(schema) for schema in schemas}) > 1:
+        text = of_elements(text)
+    return {**schemas[0], "description": outside_recipes(text)}
+
+
+def outside_recipes(text: str) -> str:
+    """A text that says what a relative path is relative to, in a recipe and in Python."""
+    python = "A relative path is relative to the working directory; in a recipe, to "
+    return RELATIVE.sub(lambda found: f"{python}{found[1]}.", " ".join(text.split()))
+
+
+def union(kinds: Iterable[str]) -> str:
+    """The union of Python types, with one `Literal`."""
+    parts = list(dict.fromkeys(part for kind in kinds for part in split_union(kind)))
+    words = [part.removeprefix("Literal[").removesuffix("]") for part in parts if part.startswith("Literal[")]
+    named = list(dict.fromkeys(word for part in words for word in part.split(", ")))
+    others = [part for part in parts if not part.startswith("Literal[")]
+    return " | ".join([*([f"Literal[{', '.join(named)}]"] if named else []), *others])
 
 
 def is_vector(schema: Any) -> bool:
@@ -473,7 +497,12 @@ def is_vector(schema: Any) -> bool:
 
 
 def variants_file(doc: str, found: dict[str, list[Any]]) -> str:
-    lines = [HEADER.format(doc=doc, typing="Any, Literal", imports="", own=""), ""]
+    made = [line for name, alternatives in sorted(found.items()) for line in function(name, alternatives)]
+    takes_mesh = any(": Mesh | " in line for line in made)
+    typing = "TYPE_CHECKING, Any, Literal" if takes_mesh else "Any, Literal"
+    lines = [HEADER.format(doc=doc, typing=typing, imports="", own="")]
+    lines += ["if TYPE_CHECKING:", "    from ._mesh import Mesh", ""] if takes_mesh else []
+    lines += [""]
     for name, alternatives in sorted(found.items()):
         made = function(name, alternatives)
         lines += [*([""] if made[0].startswith("def") else []), *made, *([""] if made[0].startswith("def") else [])]
@@ -484,7 +513,7 @@ def files() -> dict[str, str]:
     """The contents of the generated files."""
     return {
         "_operations.py": operations_file(),
-        "sel.py": variants_file("Selections of vertices, edges and faces, and regions of space.", selections()),
+        "sel.py": variants_file("Selections of the elements of a mesh, which are its vertices, edges and faces, and regions of space.", selections()),
         "choice.py": variants_file("Values of parameters that have parameters themselves.", others()),
         "expect.py": variants_file("Expectations of recipes.", variants(EXPECTATIONS)),
     }

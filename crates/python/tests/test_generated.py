@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 
 import meshwright as mw
+from meshwright._names import TOKEN
 from meshwright._ron import operations
 
 FOLDER = Path(__file__).resolve().parents[1]
@@ -61,7 +62,7 @@ def test_the_examples_of_the_methods_are_those_of_the_operations() -> None:
         recipe = eval(f"recipe.{call}", {"recipe": mw.recipe(), "sel": mw.sel, "choice": mw.choice})
         step = recipe.to_ron().split("steps: [\n", 1)[1].rsplit(",\n    ],", 1)[0].strip()
         # The order of the parameters is that of the method.
-        assert sorted(generate.TOKEN.findall(generate.in_python(step))) == sorted(generate.TOKEN.findall(call)), step
+        assert sorted(TOKEN.findall(generate.in_python(step))) == sorted(TOKEN.findall(call)), step
 
 
 def test_no_operation_hides_a_member() -> None:

@@ -5,13 +5,14 @@ import gc
 import pickle
 import threading
 import time
+import warnings
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import meshwright as mw
-from meshwright import sel
+from meshwright import choice, sel
 
 SCENES = Path(__file__).resolve().parents[3] / "scenes"
 
@@ -273,3 +274,49 @@ def test_selections(ball: mw.Mesh) -> None:
         m.select(mw.Choice("Shrap", above=30))
     with pytest.raises(ValueError, match="corner"):
         m.select("All", "corner")  # type: ignore[arg-type]
+
+
+def test_a_mesh_is_the_name_of_another_object(ball: mw.Mesh) -> None:
+    far = ball.transform(move=(3, 0, 0))
+    m = ball.measure(of=choice.Distance(to=far), name="distance")
+    assert m.attributes["distance"].shape == (12,) and m.name == "ball"
+    assert ball.measure(of=choice.Winding(of=far)).n_faces == 20
+    big = ball.transform(scale=(2, 2, 2))
+    assert len(ball.select(sel.InsideOf(big), "vertex")) == 12
+    assert len(ball.select(sel.And([sel.InsideOf(big), sel.Not(sel.InsideOf(far))]), "vertex")) == 12
+    assert ball.delete_faces(faces=sel.Or([sel.InsideOf(big)])).n_faces == 0
+
+
+def test_a_save_that_loses_something_warns_once(tmp_path: Path, ball: mw.Mesh) -> None:
+    m = ball.with_attribute("top", ball.vertices[:, 1] > 0, "vertex").with_attribute("low", np.arange(20) > 3, "face")
+    for save in (m.save, m.scene().save):
+        with pytest.warns(mw.LossWarning, match='a.glb.*"top".*"low"') as found:
+            save(tmp_path / "a.glb")
+        assert len(found) == 1 and found[0].filename == __file__
+    with pytest.warns(mw.LossWarning) as found:
+        m.scene().to_bytes("stl")
+    assert len(found) == 1 and "position" not in str(found[0].message)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        m.save(tmp_path / "a.mws")
+        m.save(tmp_path / "a.ply")
+        ball.save(tmp_path / "a.stl")
+        pickle.dumps(m)
+        with pytest.raises(mw.LossWarning):
+            m.save(tmp_path / "b.glb")
+
+
+def test_face_normals(ball: mw.Mesh, box: mw.Mesh) -> None:
+    a, b, c = (ball.vertices[ball.triangles[:, i]] for i in range(3))
+    expected = np.cross(b - a, c - a)
+    expected /= np.linalg.norm(expected, axis=1, keepdims=True)
+    assert np.allclose(ball.face_normals, expected, atol=1e-15)
+    assert not ball.face_normals.flags.writeable
+    with pytest.raises(ValueError):
+        ball.face_normals.flags.writeable = True
+    assert box.dissolve_vertices(vertices=sel.Vertices([0])).face_normals.shape == (4, 3)
+    mixed = mw.Mesh.from_arrays([[1e6, 0, 0], [1e6 + 1, 0, 0], [1e6 + 1, 1, 0], [1e6, 1, 0], [1e6 + 2, 0, 0]], [[0, 1, 2, 3], [1, 4, 2]])
+    assert (mixed.face_normals == [[0, 0, 1], [0, 0, 1]]).all()
+    assert mw.Mesh.from_arrays([], []).face_normals.shape == (0, 3)
+    flat = mw.Mesh.from_arrays([[0, 0, 0], [1, 0, 0], [2, 0, 0]], [[0, 1, 2]])
+    assert (flat.face_normals == 0).all()

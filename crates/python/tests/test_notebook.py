@@ -4,11 +4,13 @@ import base64
 import json
 import re
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 import meshwright as mw
+from meshwright import choice
 
 NOTEBOOK = Path(__file__).resolve().parents[1] / "examples" / "curvature.ipynb"
 
@@ -29,6 +31,29 @@ def test_a_view_has_the_mesh(box: mw.Mesh) -> None:
     assert len(base64.b64decode(found["edges"])) == 12 * 2 * 4
     by_vertex = data(box.with_attribute("x", box.vertices[:, 0], "vertex").view(color_by="x"))
     assert len(base64.b64decode(by_vertex["colors"])) == 8 * 3
+
+
+def test_a_picture_and_a_view_show_the_same_quantities(box: mw.Mesh, tmp_path: Path) -> None:
+    m = box.with_attribute("heat", box.vertices, "vertex").with_attribute("part", np.arange(6), "face")
+    shown: list[tuple[Any, int]] = [
+        ("heat", 8),
+        ("part", 44),
+        (choice.Attribute(name="heat", component=1), 8),
+        ({"of": "part", "range": (0, 3)}, 44),
+        ("MeanCurvature", 8),
+        ("Valence", 8),
+        ("Area", 44),
+    ]
+    for color_by, n in shown:
+        m.picture(tmp_path / "a.png", size=(64, 48), color_by=color_by)
+        assert m.render(size=(64, 48), color_by=color_by)[:4] == b"\x89PNG"
+        assert len(base64.b64decode(data(m.view(color_by=color_by))["colors"])) == 3 * n, color_by
+    assert 'color_by: (of: Attribute(name: "heat"))' in mw.recipe().picture("a.png", color_by="heat").to_ron()
+    assert "color_by: (of: Area)" in mw.recipe().picture("a.png", color_by="Area").to_ron()
+    m.picture(tmp_path / "a.png", size=(64, 48), color_by={"of": "DihedralAngle", "legend": False})
+    for wrong in ("DihedralAngle", {"of": "Area", "legend": False}, choice.DistanceTo("a.obj")):
+        with pytest.raises(ValueError, match="picture"):
+            m.view(color_by=wrong)  # type: ignore[arg-type]
 
 
 def test_names_cannot_end_the_script(box: mw.Mesh) -> None:

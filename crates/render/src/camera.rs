@@ -149,9 +149,9 @@ fn margin() -> f64 {
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Side {
-    /// From the front.
+    /// From the front: the side where z is large if y points upwards, and where y is small if z points upwards.
     Front,
-    /// From the back.
+    /// From the back, which is opposite to the front.
     Back,
     /// From the side where x is small.
     Left,
@@ -163,7 +163,7 @@ pub enum Side {
     Bottom,
     /// From the front, right and above, so that the three axes are equally long in the picture.
     Isometric,
-    /// From the front, 30 degrees to the right and 22 degrees above.
+    /// From the front, 30 degrees towards the side where x is large, and 22 degrees above.
     #[default]
     ThreeQuarter,
     /// From any direction.

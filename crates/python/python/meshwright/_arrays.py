@@ -25,6 +25,11 @@ def view(array: _core.Array) -> NDArray[Any]:
     return np.frombuffer(buffer, dtype).reshape(shape)
 
 
+def frozen(array: NDArray[np.float64]) -> NDArray[np.float64]:
+    """A read-only view of an array, which cannot become writeable again."""
+    return np.frombuffer(array.tobytes()).reshape(array.shape)
+
+
 def numeric(values: ArrayLike, what: str) -> NDArray[Any]:
     """An array of numbers, or an error that says what is wrong."""
     array = np.asarray(values)

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import re
+import sys
+import warnings
+from dataclasses import dataclass, replace
 from typing import Any
 
-__all__ = ["EditError", "Error", "Problem", "RecipeError"]
+__all__ = ["EditError", "Error", "LossWarning", "Problem", "RecipeError"]
 
 
 @dataclass(frozen=True)
@@ -39,7 +42,8 @@ class Error(Exception):
 
 
 class RecipeError(Error):
-    """A recipe or a step cannot run, or has failed. The text shows the lines that the problems are about."""
+    """A recipe or an operation cannot run, or has failed. For a recipe, the text shows the lines that the problems are
+    about."""
 
     #: All errors and warnings, in the order of the text.
     problems: tuple[Problem, ...]
@@ -70,5 +74,36 @@ class EditError(Error):
         return (type(self), (str(self), self.reason, self.elements))
 
 
-for _class in (Problem, Error, RecipeError, EditError):
+class LossWarning(UserWarning):
+    """A saved file lacks some of the data, because its format cannot store them. The text lists what is lost.
+
+    ``warnings.simplefilter("error", mw.LossWarning)`` makes an exception of the warning. The file is still written.
+    """
+
+
+def warn(message: str) -> None:
+    """Issues a `LossWarning` at the line of the user that called the package."""
+    frame, level = sys._getframe().f_back, 2
+    while frame and str(frame.f_globals.get("__name__", "")).startswith("meshwright."):
+        frame, level = frame.f_back, level + 1
+    warnings.warn(message, LossWarning, stacklevel=level)
+
+
+def of_method(error: Error, operation: str) -> Error:
+    """The error of a method that runs `operation`. Values are written as in Python, and no lines of a recipe are
+    shown."""
+    from ._names import code_in_python, snake, without_steps
+
+    def text(recipe: str) -> str:
+        recipe = re.sub(rf"^{operation}(?= )", f"{snake(operation)}()", recipe)
+        return without_steps(code_in_python(recipe))
+
+    if not isinstance(error, RecipeError):
+        return type(error)(text(str(error)))
+    problems = [replace(p, message=text(p.message), help=p.help and text(p.help)) for p in error.problems]
+    lines = [p.message + (f"; {p.help}" if p.help else "") for p in problems]
+    return RecipeError("\n".join(lines) or str(error), tuple(problems))
+
+
+for _class in (Problem, Error, RecipeError, EditError, LossWarning):
     _class.__module__ = "meshwright"

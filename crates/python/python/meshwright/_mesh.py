@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core, _ron
-from ._arrays import indices, numeric, points, view
+from ._arrays import frozen, indices, numeric, points, view
 from ._convert import MeshConversions
+from ._errors import Error, of_method
 from ._operations import MeshOperations
 from ._progress import Progress
 from ._ron import Choice, Ron
@@ -108,6 +109,16 @@ class Mesh(MeshConversions, MeshOperations):
     Mesh("mesh": 3 vertices, 3 edges, 1 face)
     >>> m.loop_subdivide(levels=2).n_faces
     16
+
+    Every operation on one mesh is a method, such as :meth:`smooth` or :meth:`simplify`. In a method that has them,
+
+    - a parameter such as `faces` is a word such as ``"Boundary"``, or a value of :mod:`meshwright.sel`;
+    - `id` is any text. A different text gives different random choices, for example of ``sel.Random``. Defaults to the
+      name of the operation;
+    - `progress` is `True` for a bar of tqdm, or a callable. It is called with the operation, the task, the number of
+      finished parts and the total number of parts. If it raises an exception, the operation is cancelled.
+
+    The report of an operation is in the :attr:`notes` of its result.
     """
 
     def __init__(self, scene: _core.Scene, name: str, notes: tuple[str, ...] = ()) -> None:
@@ -204,6 +215,30 @@ class Mesh(MeshConversions, MeshOperations):
         return np.split(corners, starts[1:-1].astype(np.int64)) if len(starts) > 1 else []
 
     @cached_property
+    def face_normals(self) -> NDArray[np.float64]:
+        """The unit normals of the faces, of shape (n_faces, 3). The normal of a face without an area is zero.
+
+        The normals of vertices are an attribute, which :meth:`vertex_normals` computes.
+
+        >>> import meshwright as mw
+        >>> mw.Scene().cube(name="box").mesh().face_normals[:2].tolist()
+        [[0.0, 0.0, -1.0], [0.0, 0.0, 1.0]]
+        """
+        corners, starts = self._polygons
+        if not len(corners):
+            return frozen(np.zeros((0, 3)))
+        first = starts[:-1].astype(np.int64)
+        points = self.vertices[corners]
+        # Points far from the origin lose digits in cross products, so each face is moved to its first corner.
+        points -= np.repeat(points[first], np.diff(starts).astype(np.int64), axis=0)
+        following = np.arange(1, len(corners) + 1)
+        following[starts[1:].astype(np.int64) - 1] = first
+        # The sum of the cross products of consecutive corners is twice the area vector, also if the face is not flat.
+        areas = np.add.reduceat(np.cross(points, points[following]), first, axis=0)
+        lengths = np.linalg.norm(areas, axis=1, keepdims=True)
+        return frozen(np.divide(areas, lengths, out=np.zeros_like(areas), where=lengths > 0))
+
+    @cached_property
     def half_edges(self) -> HalfEdges:
         """The connectivity."""
         parts = ("next", "origin", "face", "vertex_half_edge", "face_half_edge")
@@ -252,8 +287,12 @@ class Mesh(MeshConversions, MeshOperations):
         """
         kinds = [d for d in ("Vertex", "Edge", "Face") if domain in (None, d.lower())]
         schema = {"anyOf": [{"$ref": f"#/$defs/{kind}Selection"} for kind in kinds]}
-        text = _ron.write(selection, schema)
-        return view(self._scene.select(self._name, text, domain))
+        others: dict[int, tuple[str, Mesh]] = {}
+        text = _ron.write(self._named(selection, others), schema)
+        try:
+            return view(self._with(others).select(self._name, text, domain))
+        except Error as error:
+            raise of_method(error, "select") from None
 
     def with_attribute(
         self, name: str, values: ArrayLike, domain: Domain | None = None, *, rule: Rule | None = None
@@ -416,16 +455,23 @@ class Mesh(MeshConversions, MeshOperations):
         return Scene(self._scene)
 
     def render(self, **options: Any) -> bytes:
-        """Draws the mesh and returns a PNG file. The options are those of the step `Picture`."""
+        """Draws the mesh and returns the bytes of a PNG file. The options are the parameters of :meth:`picture`."""
         return self.scene().render(**options)
 
     def _repr_png_(self) -> bytes:
         return self.render(size=(640, 480))
 
-    def view(self, *, color_by: str | None = None, wireframe: bool | None = None, height: int = 480) -> View:
+    def view(
+        self,
+        *,
+        color_by: str | Choice | Mapping[str, Any] | None = None,
+        wireframe: bool | None = None,
+        height: int = 480,
+    ) -> View:
         """Returns an interactive view for notebooks: drag to turn, scroll to zoom. It needs no network.
 
-        :param color_by: An attribute of vertices or faces that gives the colors.
+        :param color_by: What the colors show, as in :meth:`picture`: a quantity such as ``"MeanCurvature"``, the name
+            of an attribute of vertices or faces, or a mapping with the keys ``"of"`` and ``"range"``.
         :param wireframe: Whether edges are drawn at first. If omitted, only for meshes of at most 20,000 faces.
         :param height: The height in pixels.
         """
@@ -434,7 +480,8 @@ class Mesh(MeshConversions, MeshOperations):
         return View(self, color_by, wireframe, height)
 
     def apply(self, operation: str, /, *, progress: bool | Progress | None = None, **parameters: Any) -> Self:
-        """Runs an operation by its name in recipes: ``m.apply("LoopSubdivide", levels=2)``."""
+        """Runs an operation by its name in recipes: ``m.apply("LoopSubdivide", levels=2)`` is
+        ``m.loop_subdivide(levels=2)``."""
         return self._apply(operation, parameters, None, None, progress)
 
     def _apply(
@@ -449,11 +496,8 @@ class Mesh(MeshConversions, MeshOperations):
 
         others: dict[int, tuple[str, Mesh]] = {}
         replaced = {name: self._named(value, others) for name, value in fields.items()}
-        scene = Scene(self._scene)
-        for name, other in others.values():
-            scene = scene.with_object(other, name=name)
         only_this = [self._name] if others else None
-        done = scene._apply(operation, replaced, only_this, id, progress)
+        done = Scene(self._with(others))._apply(operation, replaced, only_this, id, progress)
         result = done._core.only([n for n in done if n not in [name for name, _ in others.values()]])
         names = result.names()
         if len(names) != 1 or result.kind(names[0]) != "mesh":
@@ -475,7 +519,16 @@ class Mesh(MeshConversions, MeshOperations):
             made.args = tuple(self._named(v, others) for v in value.args)
             made.fields = {k: self._named(v, others) for k, v in value.fields.items()}
             return made
+        if isinstance(value, list | tuple):
+            return type(value)(self._named(v, others) for v in value)
         return value
+
+    def _with(self, others: dict[int, tuple[str, Mesh]]) -> _core.Scene:
+        """The scene of this mesh and of the other meshes, with their names."""
+        scene = self._scene
+        for name, other in others.values():
+            scene = scene.joined(other._scene, {other.name: name})
+        return scene
 
     def _with_core(self, core: _core.Mesh) -> Self:
         return type(self)(self._scene.with_mesh(self._name, core), self._name, self._notes)

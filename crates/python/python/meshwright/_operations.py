@@ -88,10 +88,8 @@ class SceneOperations:
             mesh in its own space, and each change applies to all nodes that reference the mesh. Defaults to ``"Keep"``.
             ``"Keep"``: Keep the nodes.
             ``"Bake"``: Apply the transforms of nodes to the points.
-        :param strict: If true, the step fails if anything in the file would be left out. Defaults to ``False``.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param strict: If true, the operation fails if anything in the file would be left out. Defaults to ``False``.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Load', {'path': path, 'name': name, 'non_manifold': non_manifold, 'orientation': orientation, 'duplicates': duplicates, 'degenerate': degenerate, 'isolated': isolated, 'placements': placements, 'strict': strict}, None, id, progress)
 
@@ -152,10 +150,9 @@ class SceneOperations:
             ``"Vertices"``: Vertices.
             ``"Faces"``: Faces.
             ``"Corners"``: The corners of the faces, face by face.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
+        :warns meshwright.LossWarning: If the format cannot store some of the data. The text lists what is lost.
         """
         return self._apply('Save', {'path': path, 'images': images, 'compress': compress, 'quantize': quantize, 'weight_sets': weight_sets, 'rows': rows}, on, id, progress)
 
@@ -185,9 +182,7 @@ class SceneOperations:
             order seen from outside. A face has at least three points, without duplicates.
         :param name: The name of the new object. Defaults to the name of the operation in lower case, followed by a
             number if this name is taken.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Polygons', {'name': name, 'points': points, 'faces': faces}, None, id, progress)
 
@@ -218,9 +213,7 @@ class SceneOperations:
         :param triangles: Whether to cut each square (a, b, c, d) along its diagonal from a to c into the triangles (a,
             b, c) and (a, c, d). Square f becomes the faces 2 f and 2 f + 1. The diagonals of the squares are 0-3, 4-7,
             0-5, 1-7, 3-6 and 2-4. Defaults to ``False``.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Cube', {'name': name, 'size': size, 'center': center, 'triangles': triangles}, None, id, progress)
 
@@ -244,9 +237,7 @@ class SceneOperations:
             number if this name is taken.
         :param radius: The distance from the center to the vertices, in scene units. More than 0. Defaults to ``1.0``.
         :param center: The center of the tetrahedron, in scene units.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Tetrahedron', {'name': name, 'radius': radius, 'center': center}, None, id, progress)
 
@@ -269,9 +260,7 @@ class SceneOperations:
             number if this name is taken.
         :param radius: The distance from the center to the vertices, in scene units. More than 0. Defaults to ``1.0``.
         :param center: The center of the octahedron, in scene units.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Octahedron', {'name': name, 'radius': radius, 'center': center}, None, id, progress)
 
@@ -295,9 +284,7 @@ class SceneOperations:
             number if this name is taken.
         :param radius: The distance from the center to the vertices, in scene units. More than 0. Defaults to ``1.0``.
         :param center: The center of the icosahedron, in scene units.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Icosahedron', {'name': name, 'radius': radius, 'center': center}, None, id, progress)
 
@@ -324,9 +311,7 @@ class SceneOperations:
         :param rows: The number of squares along y. At least 1. Defaults to 10.
         :param size: The side length of a square, in scene units. More than 0. Defaults to ``1.0``.
         :param center: The center of the sheet, in scene units.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Grid', {'name': name, 'columns': columns, 'rows': rows, 'size': size, 'center': center}, None, id, progress)
 
@@ -360,9 +345,7 @@ class SceneOperations:
         :param minor: The radius of the tube, in scene units. More than 0. If ``minor`` is not less than ``major``, the
             tube intersects itself. Defaults to ``0.25``.
         :param center: The center of the torus, in scene units.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Torus', {'name': name, 'around': around, 'across': across, 'major': major, 'minor': minor, 'center': center}, None, id, progress)
 
@@ -394,9 +377,7 @@ class SceneOperations:
         :param height: The height along z, in scene units. More than 0. Defaults to ``2.0``.
         :param caps: Whether the ends are closed. Defaults to ``True``.
         :param center: The center of the cylinder, in scene units.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Cylinder', {'name': name, 'around': around, 'radius': radius, 'height': height, 'caps': caps, 'center': center}, None, id, progress)
 
@@ -425,9 +406,7 @@ class SceneOperations:
         :param rings: The number of bands of faces from pole to pole. At least 2. Defaults to 16.
         :param radius: The distance from the center to the vertices, in scene units. More than 0. Defaults to ``1.0``.
         :param center: The center of the sphere, in scene units.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('UvSphere', {'name': name, 'around': around, 'rings': rings, 'radius': radius, 'center': center}, None, id, progress)
 
@@ -460,10 +439,8 @@ class SceneOperations:
         :param uvs: Whether to store the parameters (u, v) of each patch as UVs of corners. The UVs of each patch cover
             the whole square from 0 to 1. Defaults to ``False``.
         :param normals: Whether to store the exact unit normals of the patches as vertex normals. Defaults to ``False``.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Tessellate', {'segments': segments, 'faces': faces, 'uvs': uvs, 'normals': normals}, on, id, progress)
 
@@ -484,10 +461,8 @@ class SceneOperations:
         Example: ``scene.sample_curve(segments=1)``, in a recipe ``SampleCurve(segments: 1)``
 
         :param segments: The number of straight segments.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('SampleCurve', {'segments': segments}, on, id, progress)
 
@@ -508,10 +483,8 @@ class SceneOperations:
         Example: ``scene.curve_levels(t=0)``, in a recipe ``CurveLevels(t: 0)``
 
         :param t: The parameter of the point, from 0 (the start of the curve) to 1 (its end).
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('CurveLevels', {'t': t}, on, id, progress)
 
@@ -532,13 +505,11 @@ class SceneOperations:
         Example: ``scene.move_control_point(index=1, to=(2, -3.5))``, in a recipe ``MoveControlPoint(index: 1, to: (2,
         -3.5))``
 
-        :param index: The index of the control point, from 0. Every curve on which the step acts must have a control
-            point with this index.
+        :param index: The index of the control point, from 0. Every curve on which the operation acts must have a
+            control point with this index.
         :param to: The new position: ``(x, y)`` in the plane z = 0, in scene units.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('MoveControlPoint', {'index': index, 'to': to}, on, id, progress)
 
@@ -562,12 +533,10 @@ class SceneOperations:
         0.5))``
 
         :param index: The index of the control point, from 0: 16 times the index of the patch, plus 4 times the row,
-            plus the column. Every object on which the step acts must have a control point with this index.
+            plus the column. Every object on which the operation acts must have a control point with this index.
         :param to: The new position ``(x, y, z)``, in scene units.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('MovePatchPoint', {'index': index, 'to': to}, on, id, progress)
 
@@ -588,9 +557,7 @@ class SceneOperations:
 
         :param from_: The name of the object to copy.
         :param to: The name of the new object.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Copy', {'from': from_, 'to': to}, None, id, progress)
 
@@ -609,9 +576,7 @@ class SceneOperations:
         Example: ``scene.delete(objects=["mesh"])``, in a recipe ``Delete(objects: ["mesh"])``
 
         :param objects: The names of the objects. All of these objects must exist.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Delete', {'objects': objects}, None, id, progress)
 
@@ -632,9 +597,7 @@ class SceneOperations:
 
         :param from_: The current name.
         :param to: The new name.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Rename', {'from': from_, 'to': to}, None, id, progress)
 
@@ -669,10 +632,8 @@ class SceneOperations:
         :param objects: The names of the meshes. At least one name, without duplicates.
         :param name: The name of the result. This name may be the name of one of the meshes.
         :param tag_parts: Whether to tag the faces of each part with the name of the part, so that
-            ``sel.Tagged("head")`` selects them in later steps. Defaults to ``True``.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+            ``sel.Tagged("head")`` selects them in later operations. Defaults to ``True``.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Join', {'objects': objects, 'name': name, 'tag_parts': tag_parts}, None, id, progress)
 
@@ -689,8 +650,8 @@ class SceneOperations:
 
         The parts of "figure" are named "figure 1", "figure 2" and so on. The first part replaces the object, and the
         other parts are added after all other objects. Elements keep their order and their values, and every part has
-        all materials. Vertices without a face are dropped. The report counts them. The step fails if the mesh has no
-        faces.
+        all materials. Vertices without a face are dropped. The report counts them. The operation fails if the mesh has
+        no faces.
 
         Nodes that placed the object place the first part instead. Each of these nodes gets child nodes that place the
         other parts.
@@ -706,12 +667,10 @@ class SceneOperations:
             ``"Material"``: One part for each material that a face has, in order of the materials.
             ``choice.Tag(..)``: The first part has the faces with the tag of this name, and the second part all other
                 faces.
-        :param count: The expected number of parts. The step fails if the number of parts is not ``count``. If omitted,
-            the names of the parts are not known before the recipe runs, so the object names in later steps cannot be
-            checked before the run.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param count: The expected number of parts. The operation fails if the number of parts is not ``count``. If
+            omitted, the names of the parts are not known before the recipe runs, so the object names in later
+            operations cannot be checked before the run.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Separate', {'object': object, 'by': by, 'count': count}, None, id, progress)
 
@@ -729,18 +688,19 @@ class SceneOperations:
     ) -> Self:
         """Scales, rotates and moves objects.
 
-        Points are first scaled, then rotated, then moved. The step changes the points of meshes, patches, curves and
-        polylines. If nodes place an object and ``space`` is ``Scene``, the step changes the placements of these nodes
-        instead of the points. Everything below these nodes also moves. With ``space="Scene"``, a skinned mesh moves
-        with its joints. If the placement of a node is animated, the node gets a new parent, and the step moves this
-        parent instead. If ``space`` is ``Scene``, ``on:`` is omitted and ``about`` is not ``Center``, all other root
-        nodes also move, for example the nodes of cameras and lights. A curve must stay in the plane z = 0.
+        Points are first scaled, then rotated, then moved. The operation changes the points of meshes, patches, curves
+        and polylines. If nodes place an object and ``space`` is ``Scene``, the operation changes the placements of
+        these nodes instead of the points. Everything below these nodes also moves. With ``space="Scene"``, a skinned
+        mesh moves with its joints. If the placement of a node is animated, the node gets a new parent, and the
+        operation moves this parent instead. If ``space`` is ``Scene``, ``on:`` is omitted and ``about`` is not
+        ``Center``, all other root nodes also move, for example the nodes of cameras and lights. A curve must stay in
+        the plane z = 0.
 
         Ids do not change. If the points of a mesh change, its normals, tangents and deltas of morph targets are also
         transformed; other attributes do not change. If the points are mirrored (one or three negative factors in
         ``scale``), the faces are also reversed, so that they stay counter-clockwise seen from outside. In a reversed
         face, the first corner stays first, and the other corners follow in reverse order. In mirrored patches, u and v
-        are exchanged, so that the same side of the surface remains the outside. Like any step that changes the
+        are exchanged, so that the same side of the surface remains the outside. Like any operation that changes the
         connectivity, mirroring the points drops attributes whose edit rule is ``Drop``, such as tangents of corners.
 
         Example: ``scene.transform(scale=(2, 1, 1), rotate=[{"axis": "Z", "angle": 90}], move=(3, 1, 0))``, in a recipe
@@ -759,10 +719,8 @@ class SceneOperations:
         :param space: The coordinate system in which objects are scaled, rotated and moved. Defaults to ``"Scene"``.
             ``"Scene"``: The space of the scene.
             ``"Object"``: The space of each object.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Transform', {'scale': scale, 'rotate': rotate, 'move': move, 'about': about, 'space': space}, on, id, progress)
 
@@ -784,7 +742,7 @@ class SceneOperations:
         Generating Poisson Disk Sample Sets", 2015). Each copy is a node that references the object (an instance), so
         copies need almost no memory, and almost no space in ``.gltf``, ``.glb`` and ``.mws`` files. The node of each
         copy moves the origin of the object to one of the points. To make one mesh of all copies, use ``join()``
-        afterwards. If no node placed the object before the step, the object then appears only at the points.
+        afterwards. If no node placed the object before the operation, the object then appears only at the points.
 
         Without ``object``, the result is a mesh that consists of the points and has no faces. The vertex normals of
         this mesh are the normals of the surface at the points.
@@ -803,9 +761,7 @@ class SceneOperations:
             ``"Y"``: The y axis.
             ``"Z"``: The z axis.
         :param name: Without ``object``, the name of the mesh of points. Defaults to ``points``.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Scatter', {'object': object, 'surface': surface, 'count': count, 'seed': seed, 'align': align, 'name': name}, None, id, progress)
 
@@ -837,10 +793,8 @@ class SceneOperations:
 
         :param distance: The largest distance between linked vertices, in scene units. With 0, only vertices at equal
             positions merge.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Weld', {'distance': distance}, on, id, progress)
 
@@ -855,19 +809,17 @@ class SceneOperations:
         """Reverses the orientation of faces, so that their other side is the outside.
 
         Adjacent faces must have the same orientation, so only whole connected components can be reversed. If a selected
-        face shares an edge with a face that is not selected, the step is refused. No vertex moves, and all elements
-        keep their ids. The first corner of a face stays first, and the other corners follow in reverse order. Normals
-        are negated. Attributes whose edit rule is ``Drop``, such as tangents of corners, are dropped. Other attributes
-        stay with their elements, and corner values stay with their vertex and face.
+        face shares an edge with a face that is not selected, the operation is refused. No vertex moves, and all
+        elements keep their ids. The first corner of a face stays first, and the other corners follow in reverse order.
+        Normals are negated. Attributes whose edit rule is ``Drop``, such as tangents of corners, are dropped. Other
+        attributes stay with their elements, and corner values stay with their vertex and face.
 
         Example: ``scene.reverse()``, in a recipe ``Reverse()``
 
         :param faces: The faces to reverse. The faces must form whole connected components. Defaults to ``"All"``.
             ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Reverse', {'faces': faces}, on, id, progress)
 
@@ -903,10 +855,8 @@ class SceneOperations:
 
         :param faces: The faces to cut. Defaults to ``"All"``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a
             value of ``meshwright.sel``.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Triangulate', {'faces': faces}, on, id, progress)
 
@@ -934,9 +884,9 @@ class SceneOperations:
         With ``until="Delaunay"`` or ``until="Valence"``, an edge is flipped only if the flip improves the mesh. Edges
         are checked again, pass after pass, until a pass flips no edge or ``passes`` is reached. Flips with
         ``until="Delaunay"`` or ``until="Valence"`` neither fold the surface nor create zero-area triangles. If a flip
-        that would improve the mesh is refused, the step does not fail. An edge whose flip is refused is left unchanged,
-        and the report counts the refusals by reason. The report also states the number of passes, and whether the step
-        stopped because ``passes`` was reached.
+        that would improve the mesh is refused, the operation does not fail. An edge whose flip is refused is left
+        unchanged, and the report counts the refusals by reason. The report also states the number of passes, and
+        whether the operation stopped because ``passes`` was reached.
 
         On a surface that is not flat, a flip changes the shape. To keep creases and other edges, exclude them from
         ``edges``, for example with ``sel.Flat(below=30)`` or ``sel.Not(sel.Tagged("keep"))``.
@@ -959,10 +909,8 @@ class SceneOperations:
         :param seams: What to do at seams. Defaults to ``"Refuse"``.
             ``"Refuse"``: Refuse the edit.
             ``"Drop"``: Edit anyway.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('FlipEdges', {'edges': edges, 'until': until, 'passes': passes, 'on_refusal': on_refusal, 'seams': seams}, on, id, progress)
 
@@ -993,10 +941,8 @@ class SceneOperations:
         :param on_refusal: What to do when a split is refused. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('SplitEdges', {'edges': edges, 'at': at, 'on_refusal': on_refusal}, on, id, progress)
 
@@ -1043,10 +989,8 @@ class SceneOperations:
         :param on_refusal: What to do when a collapse is refused. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('CollapseEdges', {'edges': edges, 'at': at, 'on_refusal': on_refusal}, on, id, progress)
 
@@ -1065,7 +1009,7 @@ class SceneOperations:
         Edges are removed in order of their ids. Each removal is checked against the mesh as edited so far. Each removal
         reduces the numbers of edges and faces by 1. Of the two faces beside the edge, the face with the lower id is
         kept, with its values. No vertex is removed or moved. To remove vertices that are left with two edges, use
-        ``dissolve_vertices(vertices=sel.Valence(2))`` in a later step. The remaining elements keep their order and
+        ``dissolve_vertices(vertices=sel.Valence(2))`` in a later operation. The remaining elements keep their order and
         their values but get new ids.
 
         An edge cannot be removed if it is on the boundary, if the same face is on both of its sides, or if one of its
@@ -1081,10 +1025,8 @@ class SceneOperations:
         :param seams: What to do at seams. Defaults to ``"Refuse"``.
             ``"Refuse"``: Refuse the edit.
             ``"Drop"``: Edit anyway.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('DissolveEdges', {'edges': edges, 'on_refusal': on_refusal, 'seams': seams}, on, id, progress)
 
@@ -1134,10 +1076,8 @@ class SceneOperations:
         :param on_refusal: What to do when an edge cannot be beveled. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('BevelEdges', {'edges': edges, 'width': width, 'fraction': fraction, 'on_refusal': on_refusal}, on, id, progress)
 
@@ -1155,8 +1095,8 @@ class SceneOperations:
 
         Sets the edge attribute ``crease`` of the selected edges and the vertex attribute ``corner`` of the selected
         vertices to ``sharpness``. Elements that are not selected keep their values, or get 0 if the attribute did not
-        exist before the step. Loop and Catmull-Clark subdivision keep an edge or a vertex sharp for as many levels as
-        its sharpness, and smooth it in later levels. For example, an edge with sharpness 2.5 is sharp for two levels
+        exist before the operation. Loop and Catmull-Clark subdivision keep an edge or a vertex sharp for as many levels
+        as its sharpness, and smooth it in later levels. For example, an edge with sharpness 2.5 is sharp for two levels
         and half sharp in the third level. With sharpness 10, an edge is sharp at every level. Boundary edges are always
         sharp.
 
@@ -1172,10 +1112,8 @@ class SceneOperations:
             ``meshwright.sel``.
         :param vertices: The vertices to change. If omitted, no vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or
             a value of ``meshwright.sel``.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Crease', {'edges': edges, 'vertices': vertices, 'sharpness': sharpness}, on, id, progress)
 
@@ -1211,10 +1149,8 @@ class SceneOperations:
         :param on_refusal: What to do when a face cannot be poked. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('PokeFaces', {'faces': faces, 'distance': distance, 'on_refusal': on_refusal}, on, id, progress)
 
@@ -1245,10 +1181,8 @@ class SceneOperations:
         :param on_refusal: What to do when a cut is refused. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('SplitFaces', {'between': between, 'on_refusal': on_refusal}, on, id, progress)
 
@@ -1266,8 +1200,8 @@ class SceneOperations:
 
         All faces are removed at once, so their order does not matter. Edges left without a face are removed. Vertices
         that lose their last edge are also removed, unless ``keep_vertices`` is true. Vertices that were isolated before
-        the step are kept. The remaining elements keep their order and their values but get new ids. To delete edges or
-        vertices together with their faces, select the faces with ``sel.FacesBeside("edges")`` or
+        the operation are kept. The remaining elements keep their order and their values but get new ids. To delete
+        edges or vertices together with their faces, select the faces with ``sel.FacesBeside("edges")`` or
         ``sel.FacesAround("vertices")``.
 
         The removal is refused if the remaining faces around a vertex would form several fans that meet only at that
@@ -1282,10 +1216,8 @@ class SceneOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param keep_vertices: Whether to keep vertices that are left without an edge. Defaults to ``False``.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('DeleteFaces', {'faces': faces, 'on_refusal': on_refusal, 'keep_vertices': keep_vertices}, on, id, progress)
 
@@ -1311,12 +1243,12 @@ class SceneOperations:
         area vectors of the faces cancel each other out, as in a closed region, the region has no normal, and ``by``
         must be an ``choice.Offset``.
 
-        The faces keep their ids, so the same selection can be extruded again in later steps, for example to grow an arm
-        out of a body. Vertices and edges inside a region also keep their ids. The vertices and edges of the old rim do
-        not move, and the moved faces get a new rim. New side faces get the highest ids. They are ordered by region (by
-        the lowest face id of each region), then by face, and then counter-clockwise around each face from its first
-        corner. The new vertices are in the same order as the side faces. Each new vertex is a copy of the first vertex
-        of the corresponding side face.
+        The faces keep their ids, so the same selection can be extruded again in later operations, for example to grow
+        an arm out of a body. Vertices and edges inside a region also keep their ids. The vertices and edges of the old
+        rim do not move, and the moved faces get a new rim. New side faces get the highest ids. They are ordered by
+        region (by the lowest face id of each region), then by face, and then counter-clockwise around each face from
+        its first corner. The new vertices are in the same order as the side faces. Each new vertex is a copy of the
+        first vertex of the corresponding side face.
 
         A side face has the values of the adjacent moved face (material, tags). The corners of a side face have the
         values of the corners of the moved face, so textures have no seam between the two faces. However, a side face
@@ -1339,10 +1271,8 @@ class SceneOperations:
                 towards the viewer. Rotations by multiples of 90 degrees have no rounding errors.
         :param tag: The name of a tag for the moved faces and their side faces. Faces that already have the tag keep it.
             If omitted, no faces are tagged.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('ExtrudeFaces', {'faces': faces, 'by': by, 'scale': scale, 'rotate': rotate, 'tag': tag}, on, id, progress)
 
@@ -1380,10 +1310,8 @@ class SceneOperations:
         :param on_refusal: What to do when a face cannot be inset. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('InsetFaces', {'faces': faces, 'fraction': fraction, 'on_refusal': on_refusal}, on, id, progress)
 
@@ -1424,10 +1352,8 @@ class SceneOperations:
         :param on_refusal: What to do when a face cannot be beveled. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('BevelFaces', {'faces': faces, 'fraction': fraction, 'distance': distance, 'on_refusal': on_refusal}, on, id, progress)
 
@@ -1466,10 +1392,8 @@ class SceneOperations:
         :param seams: What to do at seams. Defaults to ``"Refuse"``.
             ``"Refuse"``: Refuse the edit.
             ``"Drop"``: Edit anyway.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('DissolveVertices', {'vertices': vertices, 'on_refusal': on_refusal, 'seams': seams}, on, id, progress)
 
@@ -1486,9 +1410,9 @@ class SceneOperations:
         """Replaces vertices with faces.
 
         Each edge at a selected vertex is cut near this vertex, and a new face joins the cuts. The distance of a cut
-        from the vertex is a fraction of the length that the edge had before the step. The new face has as many corners
-        as the vertex had edges. If both ends of an edge are selected, the fraction must be below 0.5. For example, a
-        fraction of 0.25 turns a cube into a truncated cube.
+        from the vertex is a fraction of the length that the edge had before the operation. The new face has as many
+        corners as the vertex had edges. If both ends of an edge are selected, the fraction must be below 0.5. For
+        example, a fraction of 0.25 turns a cube into a truncated cube.
 
         The selected vertices are removed, so the ids of the vertices after them change. New vertices get the highest
         ids, in order of the selected vertices and clockwise around each vertex. Faces keep their ids; new faces get the
@@ -1511,10 +1435,8 @@ class SceneOperations:
         :param on_refusal: What to do when a vertex cannot be beveled. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('BevelVertices', {'vertices': vertices, 'fraction': fraction, 'on_refusal': on_refusal}, on, id, progress)
 
@@ -1538,10 +1460,8 @@ class SceneOperations:
             ``"Area"``: The area of the face.
             ``"Angle"``: The angle of the face at the vertex, at most 180 degrees.
             ``"Uniform"``: The same weight for all faces.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('VertexNormals', {'weight': weight}, on, id, progress)
 
@@ -1559,17 +1479,15 @@ class SceneOperations:
         tangents are written to the corner attribute ``tangent``, which is replaced if it exists. A tangent is a unit
         vector perpendicular to the normal, followed by the sign of the bitangent as the fourth number. ``.glb`` and
         ``.gltf`` files store the attribute as ``TANGENT``. Polygons are triangulated in the same way as for ``.glb``
-        and ``.gltf`` files. Steps that change the shape or the faces remove the tangents, except a ``transform()`` that
-        does not mirror the points. Corners at which the texture coordinates define no direction get an arbitrary
+        and ``.gltf`` files. Operations that change the shape or the faces remove the tangents, except a ``transform()``
+        that does not mirror the points. Corners at which the texture coordinates define no direction get an arbitrary
         tangent. The report counts these corners.
 
         Example: ``scene.tangents()``, in a recipe ``Tangents()``
 
         :param uv: The name of the texture coordinates of the normal map. Defaults to ``uv``.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Tangents', {'uv': uv}, on, id, progress)
 
@@ -1611,10 +1529,8 @@ class SceneOperations:
         :param on_refusal: What to do when a hole cannot be filled. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('FillHoles', {'around': around, 'max_edges': max_edges, 'with': with_, 'on_refusal': on_refusal}, on, id, progress)
 
@@ -1631,26 +1547,24 @@ class SceneOperations:
 
         Each hole is identified by one of its vertices. The band starts at a new edge that joins the two given vertices,
         and goes around both holes. Holes with n and m edges, where n is at least m, are joined by m quadrilaterals and
-        n - m evenly spread triangles. The step adds n edges and no vertices. Both holes may be in one connected part of
-        the mesh, which then gets a tunnel or a handle, or in two separate parts of the same mesh. (``join()`` joins two
-        objects into one.)
+        n - m evenly spread triangles. The operation adds n edges and no vertices. Both holes may be in one connected
+        part of the mesh, which then gets a tunnel or a handle, or in two separate parts of the same mesh. (``join()``
+        joins two objects into one.)
 
         Each new face copies the attribute values of the adjacent face at the hole with more edges. New corners have the
         values of the corners at the same vertices in the adjacent faces. Normals are dropped.
 
-        The step is refused if a vertex is not on the boundary (``NotBoundary``), or if both vertices are on the same
-        hole (``WrongPlace``). The step is also refused if the band would join two vertices that are already joined by
-        an edge (``DuplicateEdge``). If a step is refused as ``DuplicateEdge``, it may succeed with other vertices of
-        the same holes.
+        The operation is refused if a vertex is not on the boundary (``NotBoundary``), or if both vertices are on the
+        same hole (``WrongPlace``). The operation is also refused if the band would join two vertices that are already
+        joined by an edge (``DuplicateEdge``). If an operation is refused as ``DuplicateEdge``, it may succeed with
+        other vertices of the same holes.
 
         Example: ``scene.bridge_loops(first=0, second=5)``, in a recipe ``BridgeLoops(first: 0, second: 5)``
 
         :param first: The id of a vertex on the first hole.
         :param second: The id of a vertex on the second hole. A new edge joins this vertex to the vertex ``first``.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('BridgeLoops', {'first': first, 'second': second}, on, id, progress)
 
@@ -1687,10 +1601,8 @@ class SceneOperations:
             ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Stitch', {'distance': distance, 'on_refusal': on_refusal}, on, id, progress)
 
@@ -1721,10 +1633,8 @@ class SceneOperations:
         :param on_refusal: What to do when an edge cannot be cut. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Cut', {'edges': edges, 'on_refusal': on_refusal}, on, id, progress)
 
@@ -1737,13 +1647,13 @@ class SceneOperations:
         id: str | None = None,
         progress: bool | Progress | None = None,
     ) -> Self:
-        """Tags the selected vertices and removes the tag from all other vertices. In later steps, ``sel.Tagged("rim")``
-        selects the vertices with the tag ``rim``.
+        """Tags the selected vertices and removes the tag from all other vertices. In later operations,
+        ``sel.Tagged("rim")`` selects the vertices with the tag ``rim``.
 
-        If a later step copies a tagged vertex, as ``extrude_faces()`` does, the copy is also tagged. If a later step
-        adds a vertex on an edge, as ``split_edges()`` does, the new vertex is not tagged. An existing tag of the same
-        name is replaced. If an attribute of another type has this name, the step fails. The geometry does not change.
-        The report counts the vertices that gained or lost the tag.
+        If a later operation copies a tagged vertex, as ``extrude_faces()`` does, the copy is also tagged. If a later
+        operation adds a vertex on an edge, as ``split_edges()`` does, the new vertex is not tagged. An existing tag of
+        the same name is replaced. If an attribute of another type has this name, the operation fails. The geometry does
+        not change. The report counts the vertices that gained or lost the tag.
 
         Example: ``scene.tag_vertices(name="some", vertices="Boundary")``, in a recipe ``TagVertices(name: "some",
         vertices: Boundary)``
@@ -1751,10 +1661,8 @@ class SceneOperations:
         :param name: The name of the tag. The name must not be empty and must not start or end with whitespace.
         :param vertices: The vertices to tag. An empty selection gives an empty tag. ``"All"``, ``"Boundary"``,
             ``"Isolated"``, or a value of ``meshwright.sel``.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('TagVertices', {'name': name, 'vertices': vertices}, on, id, progress)
 
@@ -1767,11 +1675,11 @@ class SceneOperations:
         id: str | None = None,
         progress: bool | Progress | None = None,
     ) -> Self:
-        """Tags the selected edges and removes the tag from all other edges. In later steps, ``sel.Tagged("rim")``
+        """Tags the selected edges and removes the tag from all other edges. In later operations, ``sel.Tagged("rim")``
         selects the edges with the tag ``rim``.
 
         When a tagged edge is split or subdivided, its parts are also tagged. An existing tag of the same name is
-        replaced. If an attribute of another type has this name, the step fails. The geometry does not change. The
+        replaced. If an attribute of another type has this name, the operation fails. The geometry does not change. The
         report counts the edges that gained or lost the tag.
 
         Example: ``scene.tag_edges(name="marked", edges=sel.EdgeLoop(sel.Longest(count=2)))``, in a recipe
@@ -1780,10 +1688,8 @@ class SceneOperations:
         :param name: The name of the tag. The name must not be empty and must not start or end with whitespace.
         :param edges: The edges to tag. An empty selection gives an empty tag. ``"All"``, ``"Boundary"``, or a value of
             ``meshwright.sel``.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('TagEdges', {'name': name, 'edges': edges}, on, id, progress)
 
@@ -1796,11 +1702,11 @@ class SceneOperations:
         id: str | None = None,
         progress: bool | Progress | None = None,
     ) -> Self:
-        """Tags the selected faces and removes the tag from all other faces. In later steps, ``sel.Tagged("rim")``
+        """Tags the selected faces and removes the tag from all other faces. In later operations, ``sel.Tagged("rim")``
         selects the faces with the tag ``rim``.
 
         When a tagged face is split or subdivided, its parts are also tagged. An existing tag of the same name is
-        replaced. If an attribute of another type has this name, the step fails. The geometry does not change. The
+        replaced. If an attribute of another type has this name, the operation fails. The geometry does not change. The
         report counts the faces that gained or lost the tag.
 
         Example: ``scene.tag_faces(name="some", faces=sel.Facing(direction=(0, 0, 1), within=45))``, in a recipe
@@ -1809,10 +1715,8 @@ class SceneOperations:
         :param name: The name of the tag. The name must not be empty and must not start or end with whitespace.
         :param faces: The faces to tag. An empty selection gives an empty tag. ``"All"``, ``"Boundary"``,
             ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('TagFaces', {'name': name, 'faces': faces}, on, id, progress)
 
@@ -1875,10 +1779,8 @@ class SceneOperations:
             four, so that no vertex lies inside an edge. The surface outside the refined faces does not move. For the
             ids of new elements, see ``subdivision::refine_faces``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``,
             or a value of ``meshwright.sel``.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('LoopSubdivide', {'levels': levels, 'until': until, 'weights': weights, 'boundary': boundary, 'creasing': creasing, 'face_varying': face_varying, 'to_limit': to_limit, 'faces': faces}, on, id, progress)
 
@@ -1939,10 +1841,8 @@ class SceneOperations:
             on common edges as additional corners. The surface outside the refined faces does not move. For the ids of
             new elements, see ``subdivision::refine_faces``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a
             value of ``meshwright.sel``.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('CatmullClark', {'levels': levels, 'until': until, 'boundary': boundary, 'creasing': creasing, 'face_varying': face_varying, 'to_limit': to_limit, 'faces': faces}, on, id, progress)
 
@@ -1985,10 +1885,8 @@ class SceneOperations:
             vertices on common edges as additional corners. For the ids of new elements, see
             ``subdivision::refine_faces``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
             ``meshwright.sel``.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Midpoint', {'levels': levels, 'until': until, 'into': into, 'faces': faces}, on, id, progress)
 
@@ -2020,10 +1918,8 @@ class SceneOperations:
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
                 than ``below``.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Butterfly', {'levels': levels, 'until': until}, on, id, progress)
 
@@ -2041,8 +1937,8 @@ class SceneOperations:
         A level turns V vertices, E edges and F triangles into V + F vertices, E + 3 F edges and 3 F triangles. In
         addition, every second level adds one vertex and one edge for each boundary edge. V - E + F does not change. Old
         vertices keep their ids. The vertex in face f has the id V + f, and face f becomes faces 3f to 3f + 2. All faces
-        must be triangles. Levels are counted from the start of the step. One step of two levels therefore cuts the
-        boundary edges, but two steps of one level leave the boundary unchanged.
+        must be triangles. Levels are counted from the start of the operation. One operation of two levels therefore
+        cuts the boundary edges, but two operations of one level leave the boundary unchanged.
 
         Vertex attributes are smoothed with the same weights as the positions. Corner values are interpolated linearly
         within each old triangle separately. A triangle next to a flipped edge covers parts of two old triangles. If the
@@ -2059,10 +1955,8 @@ class SceneOperations:
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
                 than ``below``.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Sqrt3', {'levels': levels, 'until': until}, on, id, progress)
 
@@ -2097,10 +1991,8 @@ class SceneOperations:
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
                 than ``below``.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('DooSabin', {'levels': levels, 'until': until}, on, id, progress)
 
@@ -2129,7 +2021,7 @@ class SceneOperations:
         the back if its normal points to the front, because the face then closes the solid behind the plane. Vertices
         left without a face are removed. If the remaining faces around a vertex form several fans, each fan gets a
         separate copy of the vertex. No faces are added to close the cut. To close the cut, use ``fill_holes()`` in a
-        later step.
+        later operation.
 
         Example: ``scene.bisect(normal=(0, 0, 1))``, in a recipe ``Bisect(normal: (0, 0, 1))``
 
@@ -2142,10 +2034,8 @@ class SceneOperations:
             ``"Back"``: The side that the normal points away from.
         :param tag: The name of a tag for the edges on the plane. Edges that already have the tag keep it. If omitted,
             no edges are tagged.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Bisect', {'point': point, 'normal': normal, 'keep': keep, 'tag': tag}, on, id, progress)
 
@@ -2179,10 +2069,8 @@ class SceneOperations:
         :param from_: The half that is kept and mirrored. Defaults to ``"Front"``.
             ``"Front"``: The side that the normal points to.
             ``"Back"``: The side that the normal points away from.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Symmetrize', {'point': point, 'normal': normal, 'from': from_}, on, id, progress)
 
@@ -2204,7 +2092,7 @@ class SceneOperations:
 
         Edges are collapsed, starting with the edges whose collapse changes the surface least. The change is measured by
         the squared distance of the new vertex to the planes of the original triangles that it replaces (Garland,
-        Heckbert, 1997). The step ends when ``faces`` or ``ratio`` is reached, or when every remaining collapse is
+        Heckbert, 1997). The operation ends when ``faces`` or ``ratio`` is reached, or when every remaining collapse is
         refused or could exceed ``error``. At least one of ``faces``, ``ratio`` and ``error`` must be given, but not
         both ``faces`` and ``ratio``. All faces must be triangles.
 
@@ -2223,11 +2111,12 @@ class SceneOperations:
 
         In a texture, the border of a chart is also simplified, and can then cross a chart that is close to it. The
         report counts the faces that overlap in the texture. To leave more space between charts, use ``pack_uvs()`` with
-        a larger ``padding`` before this step.
+        a larger ``padding`` before this operation.
 
         No triangle is turned over. Remaining elements get new ids, in the order of their old ids. If the number of
-        faces cannot be reached and ``error`` is not given, the step is refused as ``Unreached``, and the message states
-        the reasons. With ``on_refusal="Skip"``, the step keeps the mesh with the fewest faces that it reached.
+        faces cannot be reached and ``error`` is not given, the operation is refused as ``Unreached``, and the message
+        states the reasons. With ``on_refusal="Skip"``, the operation keeps the mesh with the fewest faces that it
+        reached.
 
         Example: ``scene.simplify(ratio=0.5)``, in a recipe ``Simplify(ratio: 0.5)``
 
@@ -2235,26 +2124,24 @@ class SceneOperations:
             A mesh that already has at most this number of faces does not change.
         :param ratio: The number of faces to reach, as a fraction of the number of faces of each mesh.
         :param error: The largest allowed Hausdorff distance between the old and the new surface, in scene units. The
-            limit is guaranteed, because the step adds up upper bounds of the distances by which the collapses move the
-            surface. The true distance is usually between a third of the limit and the limit. If omitted, there is no
-            limit.
+            limit is guaranteed, because the operation adds up upper bounds of the distances by which the collapses move
+            the surface. The true distance is usually between a third of the limit and the limit. If omitted, there is
+            no limit.
         :param features: Edges to keep as lines, in addition to the lines that are always kept. For example,
             ``sel.Sharp(above=30)``. If omitted, no additional edges. ``"All"``, ``"Boundary"``, or a value of
             ``meshwright.sel``.
         :param pin: Vertices that keep their exact positions, for example ``Boundary``. If omitted, no vertices.
             ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
-        :param intersections: Whether the step may create intersections of faces. Such intersections can occur where
-            parts of the surface are close together. Defaults to ``"Allow"``.
+        :param intersections: Whether the operation may create intersections of faces. Such intersections can occur
+            where parts of the surface are close together. Defaults to ``"Allow"``.
             ``"Allow"``: New intersections are allowed, and not detected.
             ``"Refuse"``: No changed face intersects another face, so a mesh without self-intersections stays without
                 self-intersections.
         :param on_refusal: What to do if the number of faces cannot be reached. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Simplify', {'faces': faces, 'ratio': ratio, 'error': error, 'features': features, 'pin': pin, 'intersections': intersections, 'on_refusal': on_refusal}, on, id, progress)
 
@@ -2290,9 +2177,7 @@ class SceneOperations:
         :param on_refusal: What to do if the number of faces of a copy cannot be reached. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Lods', {'from': from_, 'ratios': ratios, 'to': to, 'features': features, 'on_refusal': on_refusal}, None, id, progress)
 
@@ -2335,19 +2220,19 @@ class SceneOperations:
           positions. Vertices with sharpness also keep their exact positions.
 
         The number of faces depends on the area of the mesh, which is not known before the run. Therefore ``check``
-        shows the largest number of faces that fits the memory budget. When the step starts, it estimates the number of
-        faces from the area. The step fails if the estimate exceeds the memory budget.
+        shows the largest number of faces that fits the memory budget. When the operation starts, it estimates the
+        number of faces from the area. The operation fails if the estimate exceeds the memory budget.
 
         Edits that would turn a triangle by more than 60 degrees are refused. All elements get new ids. If the distance
-        between the result and the original could exceed ``error``, the step is refused as ``Unreached``. With
-        ``on_refusal="Skip"``, a refused step does not change the mesh.
+        between the result and the original could exceed ``error``, the operation is refused as ``Unreached``. With
+        ``on_refusal="Skip"``, a refused operation does not change the mesh.
 
         Example: ``scene.remesh(length=0.5)``, in a recipe ``Remesh(length: 0.5)``
 
         :param length: The target length of edges, in scene units.
         :param curvature: Target lengths that follow the curvature. Replaces ``length``.
             ``"error"``: The intended distance between the surface and the triangles, in scene units. It is not
-                guaranteed. To guarantee a distance, use the parameter ``error`` of the step.
+                guaranteed. To guarantee a distance, use the parameter ``error`` of the operation.
             ``"min"``: The smallest target length of edges, in scene units.
             ``"max"``: The largest target length of edges, in scene units.
         :param features: Edges to keep as lines, in addition to the lines that are always kept. For example,
@@ -2355,19 +2240,17 @@ class SceneOperations:
             ``meshwright.sel``.
         :param error: The largest allowed Hausdorff distance between the old and the new surface, in scene units. To
             keep this limit, some edges can become shorter than the target length. The distance is measured at the end
-            of the step, in both directions and for all points of both surfaces. If omitted, there is no limit.
+            of the operation, in both directions and for all points of both surfaces. If omitted, there is no limit.
         :param pin: Vertices that keep their exact positions, for example ``Boundary``. If omitted, no vertices.
             ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
-        :param passes: The largest number of passes, from 1 to 1000. The step ends earlier if a pass changes almost
+        :param passes: The largest number of passes, from 1 to 1000. The operation ends earlier if a pass changes almost
             nothing. Defaults to 10.
         :param on_refusal: What to do if the distance between the result and the original could exceed ``error``.
             Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Remesh', {'length': length, 'curvature': curvature, 'features': features, 'error': error, 'pin': pin, 'passes': passes, 'on_refusal': on_refusal}, on, id, progress)
 
@@ -2416,13 +2299,11 @@ class SceneOperations:
             ``"Fixed"``: The vertices do not move.
             ``"Free"``: The boundary is smoothed as a set of curves, so the movement of a vertex on the boundary depends
                 only on its neighbors along the boundary.
-        :param keep_volume: Whether to restore the original volume of the mesh. To restore the volume, the step finally
-            shifts all moved vertices along their normals by the same distance. The mesh must be closed. Defaults to
-            ``False``.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param keep_volume: Whether to restore the original volume of the mesh. To restore the volume, the operation
+            finally shifts all moved vertices along their normals by the same distance. The mesh must be closed.
+            Defaults to ``False``.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Smooth', {'by': by, 'passes': passes, 'vertices': vertices, 'pin': pin, 'boundary': boundary, 'keep_volume': keep_volume}, on, id, progress)
 
@@ -2438,13 +2319,13 @@ class SceneOperations:
     ) -> Self:
         """Copies attributes from the nearest points of another object.
 
-        The step copies vertex, corner and face attributes from the object ``from_`` to elements of the same kind in the
-        changed mesh. Numbers and vectors of vertices and corners are interpolated inside the face that contains the
-        nearest point. Whole numbers, tags, and attributes that edits do not interpolate are copied from the nearest
+        The operation copies vertex, corner and face attributes from the object ``from_`` to elements of the same kind
+        in the changed mesh. Numbers and vectors of vertices and corners are interpolated inside the face that contains
+        the nearest point. Whole numbers, tags, and attributes that edits do not interpolate are copied from the nearest
         corner of the face that contains the nearest point. Values of faces are copied from the face that contains the
         nearest point. If the attribute already exists with the same type of values, it is overwritten. If the attribute
-        already exists with a different type of values, the step fails. Without ``on``, the step acts on all meshes
-        except ``from_``.
+        already exists with a different type of values, the operation fails. Without ``on``, a method of a scene acts on
+        all meshes except ``from_``.
 
         All corners of a face take their values from one side of each seam, so no triangle is stretched across a seam of
         texture coordinates. Usually the corners take their values from the side that is nearest to the center of the
@@ -2462,10 +2343,8 @@ class SceneOperations:
         :param from_: The name of the object with the attributes.
         :param attributes: The names of the attributes, for example ``["uv", "color"]``.
         :param within: The largest distance from the source, in scene units. If omitted, there is no limit.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Transfer', {'from': from_, 'attributes': attributes, 'within': within}, on, id, progress)
 
@@ -2505,10 +2384,8 @@ class SceneOperations:
             ``choice.Scale(..)``: Scales along x, y and z about the mean of the selected vertices.
         :param falloff: The distance from the selected vertices at which the movement has fallen to 0, in scene units.
             If omitted, only the selected vertices move.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('MoveVertices', {'vertices': vertices, 'by': by, 'falloff': falloff}, on, id, progress)
 
@@ -2544,10 +2421,8 @@ class SceneOperations:
             the vertex inwards.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Displace', {'by': by, 'distance': distance, 'vertices': vertices}, on, id, progress)
 
@@ -2597,10 +2472,8 @@ class SceneOperations:
             coordinate of the mesh. Must not be less than ``from_``.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Bend', {'axis': axis, 'angle': angle, 'towards': towards, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, on, id, progress)
 
@@ -2641,10 +2514,8 @@ class SceneOperations:
             coordinate of the mesh. Must not be less than ``from_``.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Twist', {'axis': axis, 'angle': angle, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, on, id, progress)
 
@@ -2684,10 +2555,8 @@ class SceneOperations:
             coordinate of the mesh. Must not be less than ``from_``.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Taper', {'axis': axis, 'factor': factor, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, on, id, progress)
 
@@ -2725,10 +2594,8 @@ class SceneOperations:
         :param max: The highest corner of the box. If omitted, the highest corner of the bounding box of the mesh.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Lattice', {'size': size, 'moves': moves, 'min': min, 'max': max, 'vertices': vertices}, on, id, progress)
 
@@ -2747,9 +2614,9 @@ class SceneOperations:
         """Moves vertices onto the surface of another object (shrinkwrap).
 
         Only vertices in ``vertices`` that are not in ``pin`` move. All other vertices keep their exact positions.
-        Without ``on``, the step acts on all meshes except the object ``onto``, which does not change. Normals and
-        tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch with the
-        surface.
+        Without ``on``, a method of a scene acts on all meshes except the object ``onto``, which does not change.
+        Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch
+        with the surface.
 
         Vertices that would move farther than ``distance`` do not move. With ``Normal`` and ``choice.Direction``,
         vertices whose line misses the surface do not move either. The report counts the vertices that would move too
@@ -2768,10 +2635,8 @@ class SceneOperations:
         :param pin: Vertices that do not move. If omitted, no vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
         :param distance: The largest distance that a vertex moves, in scene units. If omitted, any distance.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Project', {'onto': onto, 'along': along, 'vertices': vertices, 'pin': pin, 'distance': distance}, on, id, progress)
 
@@ -2787,13 +2652,13 @@ class SceneOperations:
     ) -> Self:
         """Stores a quantity, such as a curvature or a distance, as an attribute of vertices or faces.
 
-        Later steps can select elements by the attribute (``sel.Where``), move vertices by it (``displace()``), show it
-        in a picture (``picture()``), and save it to files (``save()``). The attribute is not updated when the mesh
-        changes. Positions and other attributes do not change. Quantities are computed in the space of the mesh, without
-        the transforms of nodes. The report states the lowest, the mean and the highest value of each object.
+        Later operations can select elements by the attribute (``sel.Where``), move vertices by it (``displace()``),
+        show it in a picture (``picture()``), and save it to files (``save()``). The attribute is not updated when the
+        mesh changes. Positions and other attributes do not change. Quantities are computed in the space of the mesh,
+        without the transforms of nodes. The report states the lowest, the mean and the highest value of each object.
 
         An attribute of the same name is replaced if it belongs to the same elements (vertices or faces) and has one
-        floating-point number for each element. Otherwise the step fails.
+        floating-point number for each element. Otherwise the operation fails.
 
         Example: ``scene.measure(of="MeanCurvature")``, in a recipe ``Measure(of: MeanCurvature)``
 
@@ -2826,10 +2691,8 @@ class SceneOperations:
         :param missing: The value for elements at which the quantity is not defined, such as the curvature of a vertex
             without faces. The report counts these elements. If omitted, 0 for quantities that can be negative, and -1
             for all others.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Measure', {'of': of, 'name': name, 'missing': missing}, on, id, progress)
 
@@ -2859,9 +2722,9 @@ class SceneOperations:
         The coordinates are written to the corner attribute ``uv``, which is replaced if it exists. Edges at which
         charts meet become seams. Positions, faces and other attributes do not change, but tangents are removed.
         Zero-area faces have no area in the texture. The report counts them. If a polygon is bent so far that it
-        overlaps itself in the texture, the step is refused as ``WrongPlace``. Before this step, triangulate polygons
-        that would overlap themselves. With ``on_refusal="Skip"``, the triangles of such a polygon overlap in the
-        texture.
+        overlaps itself in the texture, the operation is refused as ``WrongPlace``. Before this operation, triangulate
+        polygons that would overlap themselves. With ``on_refusal="Skip"``, the triangles of such a polygon overlap in
+        the texture.
 
         Example: ``scene.unwrap(max_angle=60)``, in a recipe ``Unwrap(max_angle: 60)``
 
@@ -2880,10 +2743,8 @@ class SceneOperations:
         :param on_refusal: What to do if a polygon overlaps itself in the texture. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Unwrap', {'seams': seams, 'max_angle': max_angle, 'max_stretch': max_stretch, 'page': page, 'padding': padding, 'uv': uv, 'on_refusal': on_refusal}, on, id, progress)
 
@@ -2899,8 +2760,8 @@ class SceneOperations:
     ) -> Self:
         """Moves, rotates and scales charts of texture coordinates so that they do not overlap and have the same scale.
 
-        A chart is a set of faces that are connected without seams of the texture coordinates. After the step, the area
-        of each chart in the texture is proportional to its area on the surface. The shape of each chart does not
+        A chart is a set of faces that are connected without seams of the texture coordinates. After the operation, the
+        area of each chart in the texture is proportional to its area on the surface. The shape of each chart does not
         change, even if it is stretched, mirrored or overlaps itself. Each zero-area chart becomes a point. The report
         counts zero-area charts and charts that overlap themselves. Each mesh gets its own page, that is, the whole
         square of a texture. Tangents are removed, because charts are rotated.
@@ -2912,10 +2773,8 @@ class SceneOperations:
             The size only determines how large the padding is. Defaults to ``1024``.
         :param padding: The number of empty texels around each chart. The distance between two charts is at least twice
             this number. Defaults to 2.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('PackUvs', {'uv': uv, 'page': page, 'padding': padding}, on, id, progress)
 
@@ -2931,7 +2790,7 @@ class SceneOperations:
         highlight: Literal['All', 'Boundary', 'Isolated', 'SelfIntersecting'] | Choice | Arg | Ron | None = None,
         highlight_width: float | Arg | Ron | None = None,
         marks: Sequence[Mapping[str, Any]] | NDArray[Any] | Arg | Ron | None = None,
-        color_by: Mapping[str, Any] | Arg | Ron | None = None,
+        color_by: str | Choice | Mapping[str, Any] | Arg | Ron | None = None,
         turntable: Mapping[str, Any] | Arg | Ron | None = None,
         images: str | Arg | Ron | None = None,
         on: str | Sequence[str] | None = None,
@@ -2989,7 +2848,9 @@ class SceneOperations:
             ``"color"``: The color.
             ``"width"``: The width of edges and the diameter of vertices, in pixels. If omitted, the defaults of
                 ``highlight_width``.
-        :param color_by: The quantity to show as colors of the surface.
+        :param color_by: What the colors of the surface show: a quantity (``"Valence"``, ``"MinAngle"``, ``"Area"``,
+            ``"DihedralAngle"``, ``"MeanCurvature"``, ``"GaussianCurvature"``, or a value of ``meshwright.choice``), the
+            name of an attribute, or a mapping with more details.
             ``"of"``: The quantity that the colors show.
             ``"map"``: The color map. If omitted, ``Classes`` for valences, ``Diverging`` for curvatures, else
                 ``Viridis``.
@@ -3003,10 +2864,8 @@ class SceneOperations:
         :param images: The folder of texture images that are not stored next to their model. The path is relative to the
             folder of the recipe. If omitted, the folder of the recipe. Missing images are not drawn, and the report
             lists them.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Picture', {'path': path, 'size': size, 'camera': camera, 'views': views, 'columns': columns, 'style': style, 'highlight': highlight, 'highlight_width': highlight_width, 'marks': marks, 'color_by': color_by, 'turntable': turntable, 'images': images}, on, id, progress)
 
@@ -3054,10 +2913,8 @@ class SceneOperations:
         :param scale: The number of PNG pixels per SVG pixel. Has no effect on ``.svg`` files. Defaults to ``2``.
         :param labels: Whether points are labeled with their names. Defaults to ``True``.
         :param legend: Whether there is a legend below the panels. Defaults to ``True``.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('CurveFigure', {'path': path, 't': t, 'by_level': by_level, 'before': before, 'width': width, 'columns': columns, 'scale': scale, 'labels': labels, 'legend': legend}, on, id, progress)
 
@@ -3093,10 +2950,8 @@ class SceneOperations:
             ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
         :param width: The width of the figure in SVG pixels. Defaults to ``640``.
         :param scale: The number of PNG pixels per SVG pixel. Has no effect on ``.svg`` files. Defaults to ``2``.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('HalfEdgeFigure', {'path': path, 'faces': faces, 'width': width, 'scale': scale}, on, id, progress)
 
@@ -3134,10 +2989,8 @@ class SceneOperations:
         :param edges: Whether edges inside charts are drawn. Defaults to ``True``.
         :param width: The width of the figure in SVG pixels. Defaults to ``640``.
         :param scale: The number of PNG pixels per SVG pixel. Has no effect on ``.svg`` files. Defaults to ``2``.
-        :param on: The objects that the step acts on. If omitted, all that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. For a recipe, see :meth:`Recipe.run`.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('UvPicture', {'path': path, 'uv': uv, 'fill': fill, 'edges': edges, 'width': width, 'scale': scale}, on, id, progress)
 
@@ -3174,8 +3027,7 @@ class MeshOperations:
         is a table of the positions and attributes of vertices, faces or corners, and ``.npz`` has the arrays of a mesh
         for ``NumPy``. ``load()`` cannot read ``.csv`` and ``.npz`` files. If the name ends with ``.gz``, as in
         ``a.obj.gz``, the file is compressed with gzip. Files in the formats ``.glb``, ``.mws`` and ``.npz`` cannot be
-        compressed with gzip. The report lists the content that the format cannot store. A recipe creates the file only
-        if all of its steps and expectations succeed.
+        compressed with gzip. The report lists the content that the format cannot store.
 
         Example: ``mesh.save(path="a.obj")``
 
@@ -3209,10 +3061,9 @@ class MeshOperations:
             ``"Vertices"``: Vertices.
             ``"Faces"``: Faces.
             ``"Corners"``: The corners of the faces, face by face.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
-        :returns: The new mesh. This mesh does not change.
+        :param id, progress: See :class:`Mesh`.
+        :warns meshwright.LossWarning: If the format cannot store some of the data. The text lists what is lost.
+        :returns: The same mesh.
         """
         return self._apply('Save', {'path': path, 'images': images, 'compress': compress, 'quantize': quantize, 'weight_sets': weight_sets, 'rows': rows}, None, id, progress)
 
@@ -3244,9 +3095,7 @@ class MeshOperations:
         :param uvs: Whether to store the parameters (u, v) of each patch as UVs of corners. The UVs of each patch cover
             the whole square from 0 to 1. Defaults to ``False``.
         :param normals: Whether to store the exact unit normals of the patches as vertex normals. Defaults to ``False``.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Tessellate', {'segments': segments, 'faces': faces, 'uvs': uvs, 'normals': normals}, None, id, progress)
@@ -3267,9 +3116,7 @@ class MeshOperations:
         Example: ``mesh.sample_curve(segments=1)``
 
         :param segments: The number of straight segments.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('SampleCurve', {'segments': segments}, None, id, progress)
@@ -3290,9 +3137,7 @@ class MeshOperations:
         Example: ``mesh.curve_levels(t=0)``
 
         :param t: The parameter of the point, from 0 (the start of the curve) to 1 (its end).
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('CurveLevels', {'t': t}, None, id, progress)
@@ -3312,12 +3157,10 @@ class MeshOperations:
 
         Example: ``mesh.move_control_point(index=1, to=(2, -3.5))``
 
-        :param index: The index of the control point, from 0. Every curve on which the step acts must have a control
-            point with this index.
+        :param index: The index of the control point, from 0. Every curve on which the operation acts must have a
+            control point with this index.
         :param to: The new position: ``(x, y)`` in the plane z = 0, in scene units.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('MoveControlPoint', {'index': index, 'to': to}, None, id, progress)
@@ -3340,11 +3183,9 @@ class MeshOperations:
         Example: ``mesh.move_patch_point(index=5, to=(1, 2, 0.5))``
 
         :param index: The index of the control point, from 0: 16 times the index of the patch, plus 4 times the row,
-            plus the column. Every object on which the step acts must have a control point with this index.
+            plus the column. Every object on which the operation acts must have a control point with this index.
         :param to: The new position ``(x, y, z)``, in scene units.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('MovePatchPoint', {'index': index, 'to': to}, None, id, progress)
@@ -3362,18 +3203,19 @@ class MeshOperations:
     ) -> Self:
         """Scales, rotates and moves objects.
 
-        Points are first scaled, then rotated, then moved. The step changes the points of meshes, patches, curves and
-        polylines. If nodes place an object and ``space`` is ``Scene``, the step changes the placements of these nodes
-        instead of the points. Everything below these nodes also moves. With ``space="Scene"``, a skinned mesh moves
-        with its joints. If the placement of a node is animated, the node gets a new parent, and the step moves this
-        parent instead. If ``space`` is ``Scene``, ``on:`` is omitted and ``about`` is not ``Center``, all other root
-        nodes also move, for example the nodes of cameras and lights. A curve must stay in the plane z = 0.
+        Points are first scaled, then rotated, then moved. The operation changes the points of meshes, patches, curves
+        and polylines. If nodes place an object and ``space`` is ``Scene``, the operation changes the placements of
+        these nodes instead of the points. Everything below these nodes also moves. With ``space="Scene"``, a skinned
+        mesh moves with its joints. If the placement of a node is animated, the node gets a new parent, and the
+        operation moves this parent instead. If ``space`` is ``Scene``, ``on:`` is omitted and ``about`` is not
+        ``Center``, all other root nodes also move, for example the nodes of cameras and lights. A curve must stay in
+        the plane z = 0.
 
         Ids do not change. If the points of a mesh change, its normals, tangents and deltas of morph targets are also
         transformed; other attributes do not change. If the points are mirrored (one or three negative factors in
         ``scale``), the faces are also reversed, so that they stay counter-clockwise seen from outside. In a reversed
         face, the first corner stays first, and the other corners follow in reverse order. In mirrored patches, u and v
-        are exchanged, so that the same side of the surface remains the outside. Like any step that changes the
+        are exchanged, so that the same side of the surface remains the outside. Like any operation that changes the
         connectivity, mirroring the points drops attributes whose edit rule is ``Drop``, such as tangents of corners.
 
         Example: ``mesh.transform(scale=(2, 1, 1), rotate=[{"axis": "Z", "angle": 90}], move=(3, 1, 0))``
@@ -3391,9 +3233,7 @@ class MeshOperations:
         :param space: The coordinate system in which objects are scaled, rotated and moved. Defaults to ``"Scene"``.
             ``"Scene"``: The space of the scene.
             ``"Object"``: The space of each object.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Transform', {'scale': scale, 'rotate': rotate, 'move': move, 'about': about, 'space': space}, None, id, progress)
@@ -3425,9 +3265,7 @@ class MeshOperations:
 
         :param distance: The largest distance between linked vertices, in scene units. With 0, only vertices at equal
             positions merge.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Weld', {'distance': distance}, None, id, progress)
@@ -3442,18 +3280,16 @@ class MeshOperations:
         """Reverses the orientation of faces, so that their other side is the outside.
 
         Adjacent faces must have the same orientation, so only whole connected components can be reversed. If a selected
-        face shares an edge with a face that is not selected, the step is refused. No vertex moves, and all elements
-        keep their ids. The first corner of a face stays first, and the other corners follow in reverse order. Normals
-        are negated. Attributes whose edit rule is ``Drop``, such as tangents of corners, are dropped. Other attributes
-        stay with their elements, and corner values stay with their vertex and face.
+        face shares an edge with a face that is not selected, the operation is refused. No vertex moves, and all
+        elements keep their ids. The first corner of a face stays first, and the other corners follow in reverse order.
+        Normals are negated. Attributes whose edit rule is ``Drop``, such as tangents of corners, are dropped. Other
+        attributes stay with their elements, and corner values stay with their vertex and face.
 
         Example: ``mesh.reverse()``
 
         :param faces: The faces to reverse. The faces must form whole connected components. Defaults to ``"All"``.
             ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Reverse', {'faces': faces}, None, id, progress)
@@ -3489,9 +3325,7 @@ class MeshOperations:
 
         :param faces: The faces to cut. Defaults to ``"All"``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a
             value of ``meshwright.sel``.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Triangulate', {'faces': faces}, None, id, progress)
@@ -3519,9 +3353,9 @@ class MeshOperations:
         With ``until="Delaunay"`` or ``until="Valence"``, an edge is flipped only if the flip improves the mesh. Edges
         are checked again, pass after pass, until a pass flips no edge or ``passes`` is reached. Flips with
         ``until="Delaunay"`` or ``until="Valence"`` neither fold the surface nor create zero-area triangles. If a flip
-        that would improve the mesh is refused, the step does not fail. An edge whose flip is refused is left unchanged,
-        and the report counts the refusals by reason. The report also states the number of passes, and whether the step
-        stopped because ``passes`` was reached.
+        that would improve the mesh is refused, the operation does not fail. An edge whose flip is refused is left
+        unchanged, and the report counts the refusals by reason. The report also states the number of passes, and
+        whether the operation stopped because ``passes`` was reached.
 
         On a surface that is not flat, a flip changes the shape. To keep creases and other edges, exclude them from
         ``edges``, for example with ``sel.Flat(below=30)`` or ``sel.Not(sel.Tagged("keep"))``.
@@ -3544,9 +3378,7 @@ class MeshOperations:
         :param seams: What to do at seams. Defaults to ``"Refuse"``.
             ``"Refuse"``: Refuse the edit.
             ``"Drop"``: Edit anyway.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('FlipEdges', {'edges': edges, 'until': until, 'passes': passes, 'on_refusal': on_refusal, 'seams': seams}, None, id, progress)
@@ -3577,9 +3409,7 @@ class MeshOperations:
         :param on_refusal: What to do when a split is refused. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('SplitEdges', {'edges': edges, 'at': at, 'on_refusal': on_refusal}, None, id, progress)
@@ -3625,9 +3455,7 @@ class MeshOperations:
         :param on_refusal: What to do when a collapse is refused. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('CollapseEdges', {'edges': edges, 'at': at, 'on_refusal': on_refusal}, None, id, progress)
@@ -3646,7 +3474,7 @@ class MeshOperations:
         Edges are removed in order of their ids. Each removal is checked against the mesh as edited so far. Each removal
         reduces the numbers of edges and faces by 1. Of the two faces beside the edge, the face with the lower id is
         kept, with its values. No vertex is removed or moved. To remove vertices that are left with two edges, use
-        ``dissolve_vertices(vertices=sel.Valence(2))`` in a later step. The remaining elements keep their order and
+        ``dissolve_vertices(vertices=sel.Valence(2))`` in a later operation. The remaining elements keep their order and
         their values but get new ids.
 
         An edge cannot be removed if it is on the boundary, if the same face is on both of its sides, or if one of its
@@ -3662,9 +3490,7 @@ class MeshOperations:
         :param seams: What to do at seams. Defaults to ``"Refuse"``.
             ``"Refuse"``: Refuse the edit.
             ``"Drop"``: Edit anyway.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('DissolveEdges', {'edges': edges, 'on_refusal': on_refusal, 'seams': seams}, None, id, progress)
@@ -3713,9 +3539,7 @@ class MeshOperations:
         :param on_refusal: What to do when an edge cannot be beveled. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('BevelEdges', {'edges': edges, 'width': width, 'fraction': fraction, 'on_refusal': on_refusal}, None, id, progress)
@@ -3733,8 +3557,8 @@ class MeshOperations:
 
         Sets the edge attribute ``crease`` of the selected edges and the vertex attribute ``corner`` of the selected
         vertices to ``sharpness``. Elements that are not selected keep their values, or get 0 if the attribute did not
-        exist before the step. Loop and Catmull-Clark subdivision keep an edge or a vertex sharp for as many levels as
-        its sharpness, and smooth it in later levels. For example, an edge with sharpness 2.5 is sharp for two levels
+        exist before the operation. Loop and Catmull-Clark subdivision keep an edge or a vertex sharp for as many levels
+        as its sharpness, and smooth it in later levels. For example, an edge with sharpness 2.5 is sharp for two levels
         and half sharp in the third level. With sharpness 10, an edge is sharp at every level. Boundary edges are always
         sharp.
 
@@ -3749,9 +3573,7 @@ class MeshOperations:
             ``meshwright.sel``.
         :param vertices: The vertices to change. If omitted, no vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or
             a value of ``meshwright.sel``.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Crease', {'edges': edges, 'vertices': vertices, 'sharpness': sharpness}, None, id, progress)
@@ -3787,9 +3609,7 @@ class MeshOperations:
         :param on_refusal: What to do when a face cannot be poked. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('PokeFaces', {'faces': faces, 'distance': distance, 'on_refusal': on_refusal}, None, id, progress)
@@ -3820,9 +3640,7 @@ class MeshOperations:
         :param on_refusal: What to do when a cut is refused. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('SplitFaces', {'between': between, 'on_refusal': on_refusal}, None, id, progress)
@@ -3840,8 +3658,8 @@ class MeshOperations:
 
         All faces are removed at once, so their order does not matter. Edges left without a face are removed. Vertices
         that lose their last edge are also removed, unless ``keep_vertices`` is true. Vertices that were isolated before
-        the step are kept. The remaining elements keep their order and their values but get new ids. To delete edges or
-        vertices together with their faces, select the faces with ``sel.FacesBeside("edges")`` or
+        the operation are kept. The remaining elements keep their order and their values but get new ids. To delete
+        edges or vertices together with their faces, select the faces with ``sel.FacesBeside("edges")`` or
         ``sel.FacesAround("vertices")``.
 
         The removal is refused if the remaining faces around a vertex would form several fans that meet only at that
@@ -3856,9 +3674,7 @@ class MeshOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param keep_vertices: Whether to keep vertices that are left without an edge. Defaults to ``False``.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('DeleteFaces', {'faces': faces, 'on_refusal': on_refusal, 'keep_vertices': keep_vertices}, None, id, progress)
@@ -3884,12 +3700,12 @@ class MeshOperations:
         area vectors of the faces cancel each other out, as in a closed region, the region has no normal, and ``by``
         must be an ``choice.Offset``.
 
-        The faces keep their ids, so the same selection can be extruded again in later steps, for example to grow an arm
-        out of a body. Vertices and edges inside a region also keep their ids. The vertices and edges of the old rim do
-        not move, and the moved faces get a new rim. New side faces get the highest ids. They are ordered by region (by
-        the lowest face id of each region), then by face, and then counter-clockwise around each face from its first
-        corner. The new vertices are in the same order as the side faces. Each new vertex is a copy of the first vertex
-        of the corresponding side face.
+        The faces keep their ids, so the same selection can be extruded again in later operations, for example to grow
+        an arm out of a body. Vertices and edges inside a region also keep their ids. The vertices and edges of the old
+        rim do not move, and the moved faces get a new rim. New side faces get the highest ids. They are ordered by
+        region (by the lowest face id of each region), then by face, and then counter-clockwise around each face from
+        its first corner. The new vertices are in the same order as the side faces. Each new vertex is a copy of the
+        first vertex of the corresponding side face.
 
         A side face has the values of the adjacent moved face (material, tags). The corners of a side face have the
         values of the corners of the moved face, so textures have no seam between the two faces. However, a side face
@@ -3911,9 +3727,7 @@ class MeshOperations:
                 towards the viewer. Rotations by multiples of 90 degrees have no rounding errors.
         :param tag: The name of a tag for the moved faces and their side faces. Faces that already have the tag keep it.
             If omitted, no faces are tagged.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('ExtrudeFaces', {'faces': faces, 'by': by, 'scale': scale, 'rotate': rotate, 'tag': tag}, None, id, progress)
@@ -3950,9 +3764,7 @@ class MeshOperations:
         :param on_refusal: What to do when a face cannot be inset. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('InsetFaces', {'faces': faces, 'fraction': fraction, 'on_refusal': on_refusal}, None, id, progress)
@@ -3992,9 +3804,7 @@ class MeshOperations:
         :param on_refusal: What to do when a face cannot be beveled. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('BevelFaces', {'faces': faces, 'fraction': fraction, 'distance': distance, 'on_refusal': on_refusal}, None, id, progress)
@@ -4032,9 +3842,7 @@ class MeshOperations:
         :param seams: What to do at seams. Defaults to ``"Refuse"``.
             ``"Refuse"``: Refuse the edit.
             ``"Drop"``: Edit anyway.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('DissolveVertices', {'vertices': vertices, 'on_refusal': on_refusal, 'seams': seams}, None, id, progress)
@@ -4051,9 +3859,9 @@ class MeshOperations:
         """Replaces vertices with faces.
 
         Each edge at a selected vertex is cut near this vertex, and a new face joins the cuts. The distance of a cut
-        from the vertex is a fraction of the length that the edge had before the step. The new face has as many corners
-        as the vertex had edges. If both ends of an edge are selected, the fraction must be below 0.5. For example, a
-        fraction of 0.25 turns a cube into a truncated cube.
+        from the vertex is a fraction of the length that the edge had before the operation. The new face has as many
+        corners as the vertex had edges. If both ends of an edge are selected, the fraction must be below 0.5. For
+        example, a fraction of 0.25 turns a cube into a truncated cube.
 
         The selected vertices are removed, so the ids of the vertices after them change. New vertices get the highest
         ids, in order of the selected vertices and clockwise around each vertex. Faces keep their ids; new faces get the
@@ -4075,9 +3883,7 @@ class MeshOperations:
         :param on_refusal: What to do when a vertex cannot be beveled. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('BevelVertices', {'vertices': vertices, 'fraction': fraction, 'on_refusal': on_refusal}, None, id, progress)
@@ -4101,9 +3907,7 @@ class MeshOperations:
             ``"Area"``: The area of the face.
             ``"Angle"``: The angle of the face at the vertex, at most 180 degrees.
             ``"Uniform"``: The same weight for all faces.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change. Its ``attributes["normal"]`` has the normals.
         """
         return self._apply('VertexNormals', {'weight': weight}, None, id, progress)
@@ -4121,16 +3925,14 @@ class MeshOperations:
         tangents are written to the corner attribute ``tangent``, which is replaced if it exists. A tangent is a unit
         vector perpendicular to the normal, followed by the sign of the bitangent as the fourth number. ``.glb`` and
         ``.gltf`` files store the attribute as ``TANGENT``. Polygons are triangulated in the same way as for ``.glb``
-        and ``.gltf`` files. Steps that change the shape or the faces remove the tangents, except a ``transform()`` that
-        does not mirror the points. Corners at which the texture coordinates define no direction get an arbitrary
+        and ``.gltf`` files. Operations that change the shape or the faces remove the tangents, except a ``transform()``
+        that does not mirror the points. Corners at which the texture coordinates define no direction get an arbitrary
         tangent. The report counts these corners.
 
         Example: ``mesh.tangents()``
 
         :param uv: The name of the texture coordinates of the normal map. Defaults to ``uv``.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Tangents', {'uv': uv}, None, id, progress)
@@ -4172,9 +3974,7 @@ class MeshOperations:
         :param on_refusal: What to do when a hole cannot be filled. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('FillHoles', {'around': around, 'max_edges': max_edges, 'with': with_, 'on_refusal': on_refusal}, None, id, progress)
@@ -4191,25 +3991,23 @@ class MeshOperations:
 
         Each hole is identified by one of its vertices. The band starts at a new edge that joins the two given vertices,
         and goes around both holes. Holes with n and m edges, where n is at least m, are joined by m quadrilaterals and
-        n - m evenly spread triangles. The step adds n edges and no vertices. Both holes may be in one connected part of
-        the mesh, which then gets a tunnel or a handle, or in two separate parts of the same mesh. (``join()`` joins two
-        objects into one.)
+        n - m evenly spread triangles. The operation adds n edges and no vertices. Both holes may be in one connected
+        part of the mesh, which then gets a tunnel or a handle, or in two separate parts of the same mesh. (``join()``
+        joins two objects into one.)
 
         Each new face copies the attribute values of the adjacent face at the hole with more edges. New corners have the
         values of the corners at the same vertices in the adjacent faces. Normals are dropped.
 
-        The step is refused if a vertex is not on the boundary (``NotBoundary``), or if both vertices are on the same
-        hole (``WrongPlace``). The step is also refused if the band would join two vertices that are already joined by
-        an edge (``DuplicateEdge``). If a step is refused as ``DuplicateEdge``, it may succeed with other vertices of
-        the same holes.
+        The operation is refused if a vertex is not on the boundary (``NotBoundary``), or if both vertices are on the
+        same hole (``WrongPlace``). The operation is also refused if the band would join two vertices that are already
+        joined by an edge (``DuplicateEdge``). If an operation is refused as ``DuplicateEdge``, it may succeed with
+        other vertices of the same holes.
 
         Example: ``mesh.bridge_loops(first=0, second=5)``
 
         :param first: The id of a vertex on the first hole.
         :param second: The id of a vertex on the second hole. A new edge joins this vertex to the vertex ``first``.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('BridgeLoops', {'first': first, 'second': second}, None, id, progress)
@@ -4246,9 +4044,7 @@ class MeshOperations:
             ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Stitch', {'distance': distance, 'on_refusal': on_refusal}, None, id, progress)
@@ -4279,9 +4075,7 @@ class MeshOperations:
         :param on_refusal: What to do when an edge cannot be cut. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Cut', {'edges': edges, 'on_refusal': on_refusal}, None, id, progress)
@@ -4294,22 +4088,20 @@ class MeshOperations:
         id: str | None = None,
         progress: bool | Progress | None = None,
     ) -> Self:
-        """Tags the selected vertices and removes the tag from all other vertices. In later steps, ``sel.Tagged("rim")``
-        selects the vertices with the tag ``rim``.
+        """Tags the selected vertices and removes the tag from all other vertices. In later operations,
+        ``sel.Tagged("rim")`` selects the vertices with the tag ``rim``.
 
-        If a later step copies a tagged vertex, as ``extrude_faces()`` does, the copy is also tagged. If a later step
-        adds a vertex on an edge, as ``split_edges()`` does, the new vertex is not tagged. An existing tag of the same
-        name is replaced. If an attribute of another type has this name, the step fails. The geometry does not change.
-        The report counts the vertices that gained or lost the tag.
+        If a later operation copies a tagged vertex, as ``extrude_faces()`` does, the copy is also tagged. If a later
+        operation adds a vertex on an edge, as ``split_edges()`` does, the new vertex is not tagged. An existing tag of
+        the same name is replaced. If an attribute of another type has this name, the operation fails. The geometry does
+        not change. The report counts the vertices that gained or lost the tag.
 
         Example: ``mesh.tag_vertices(name="some", vertices="Boundary")``
 
         :param name: The name of the tag. The name must not be empty and must not start or end with whitespace.
         :param vertices: The vertices to tag. An empty selection gives an empty tag. ``"All"``, ``"Boundary"``,
             ``"Isolated"``, or a value of ``meshwright.sel``.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change. Its ``tag("vertex", name)`` is an array of Booleans.
         """
         return self._apply('TagVertices', {'name': name, 'vertices': vertices}, None, id, progress)
@@ -4322,11 +4114,11 @@ class MeshOperations:
         id: str | None = None,
         progress: bool | Progress | None = None,
     ) -> Self:
-        """Tags the selected edges and removes the tag from all other edges. In later steps, ``sel.Tagged("rim")``
+        """Tags the selected edges and removes the tag from all other edges. In later operations, ``sel.Tagged("rim")``
         selects the edges with the tag ``rim``.
 
         When a tagged edge is split or subdivided, its parts are also tagged. An existing tag of the same name is
-        replaced. If an attribute of another type has this name, the step fails. The geometry does not change. The
+        replaced. If an attribute of another type has this name, the operation fails. The geometry does not change. The
         report counts the edges that gained or lost the tag.
 
         Example: ``mesh.tag_edges(name="marked", edges=sel.EdgeLoop(sel.Longest(count=2)))``
@@ -4334,9 +4126,7 @@ class MeshOperations:
         :param name: The name of the tag. The name must not be empty and must not start or end with whitespace.
         :param edges: The edges to tag. An empty selection gives an empty tag. ``"All"``, ``"Boundary"``, or a value of
             ``meshwright.sel``.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change. Its ``tag("edge", name)`` is an array of Booleans.
         """
         return self._apply('TagEdges', {'name': name, 'edges': edges}, None, id, progress)
@@ -4349,11 +4139,11 @@ class MeshOperations:
         id: str | None = None,
         progress: bool | Progress | None = None,
     ) -> Self:
-        """Tags the selected faces and removes the tag from all other faces. In later steps, ``sel.Tagged("rim")``
+        """Tags the selected faces and removes the tag from all other faces. In later operations, ``sel.Tagged("rim")``
         selects the faces with the tag ``rim``.
 
         When a tagged face is split or subdivided, its parts are also tagged. An existing tag of the same name is
-        replaced. If an attribute of another type has this name, the step fails. The geometry does not change. The
+        replaced. If an attribute of another type has this name, the operation fails. The geometry does not change. The
         report counts the faces that gained or lost the tag.
 
         Example: ``mesh.tag_faces(name="some", faces=sel.Facing(direction=(0, 0, 1), within=45))``
@@ -4361,9 +4151,7 @@ class MeshOperations:
         :param name: The name of the tag. The name must not be empty and must not start or end with whitespace.
         :param faces: The faces to tag. An empty selection gives an empty tag. ``"All"``, ``"Boundary"``,
             ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change. Its ``tag("face", name)`` is an array of Booleans.
         """
         return self._apply('TagFaces', {'name': name, 'faces': faces}, None, id, progress)
@@ -4426,9 +4214,7 @@ class MeshOperations:
             four, so that no vertex lies inside an edge. The surface outside the refined faces does not move. For the
             ids of new elements, see ``subdivision::refine_faces``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``,
             or a value of ``meshwright.sel``.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('LoopSubdivide', {'levels': levels, 'until': until, 'weights': weights, 'boundary': boundary, 'creasing': creasing, 'face_varying': face_varying, 'to_limit': to_limit, 'faces': faces}, None, id, progress)
@@ -4489,9 +4275,7 @@ class MeshOperations:
             on common edges as additional corners. The surface outside the refined faces does not move. For the ids of
             new elements, see ``subdivision::refine_faces``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a
             value of ``meshwright.sel``.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('CatmullClark', {'levels': levels, 'until': until, 'boundary': boundary, 'creasing': creasing, 'face_varying': face_varying, 'to_limit': to_limit, 'faces': faces}, None, id, progress)
@@ -4534,9 +4318,7 @@ class MeshOperations:
             vertices on common edges as additional corners. For the ids of new elements, see
             ``subdivision::refine_faces``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
             ``meshwright.sel``.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Midpoint', {'levels': levels, 'until': until, 'into': into, 'faces': faces}, None, id, progress)
@@ -4568,9 +4350,7 @@ class MeshOperations:
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
                 than ``below``.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Butterfly', {'levels': levels, 'until': until}, None, id, progress)
@@ -4588,8 +4368,8 @@ class MeshOperations:
         A level turns V vertices, E edges and F triangles into V + F vertices, E + 3 F edges and 3 F triangles. In
         addition, every second level adds one vertex and one edge for each boundary edge. V - E + F does not change. Old
         vertices keep their ids. The vertex in face f has the id V + f, and face f becomes faces 3f to 3f + 2. All faces
-        must be triangles. Levels are counted from the start of the step. One step of two levels therefore cuts the
-        boundary edges, but two steps of one level leave the boundary unchanged.
+        must be triangles. Levels are counted from the start of the operation. One operation of two levels therefore
+        cuts the boundary edges, but two operations of one level leave the boundary unchanged.
 
         Vertex attributes are smoothed with the same weights as the positions. Corner values are interpolated linearly
         within each old triangle separately. A triangle next to a flipped edge covers parts of two old triangles. If the
@@ -4606,9 +4386,7 @@ class MeshOperations:
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
                 than ``below``.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Sqrt3', {'levels': levels, 'until': until}, None, id, progress)
@@ -4643,9 +4421,7 @@ class MeshOperations:
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
                 than ``below``.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('DooSabin', {'levels': levels, 'until': until}, None, id, progress)
@@ -4674,7 +4450,7 @@ class MeshOperations:
         the back if its normal points to the front, because the face then closes the solid behind the plane. Vertices
         left without a face are removed. If the remaining faces around a vertex form several fans, each fan gets a
         separate copy of the vertex. No faces are added to close the cut. To close the cut, use ``fill_holes()`` in a
-        later step.
+        later operation.
 
         Example: ``mesh.bisect(normal=(0, 0, 1))``
 
@@ -4687,9 +4463,7 @@ class MeshOperations:
             ``"Back"``: The side that the normal points away from.
         :param tag: The name of a tag for the edges on the plane. Edges that already have the tag keep it. If omitted,
             no edges are tagged.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Bisect', {'point': point, 'normal': normal, 'keep': keep, 'tag': tag}, None, id, progress)
@@ -4723,9 +4497,7 @@ class MeshOperations:
         :param from_: The half that is kept and mirrored. Defaults to ``"Front"``.
             ``"Front"``: The side that the normal points to.
             ``"Back"``: The side that the normal points away from.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Symmetrize', {'point': point, 'normal': normal, 'from': from_}, None, id, progress)
@@ -4747,7 +4519,7 @@ class MeshOperations:
 
         Edges are collapsed, starting with the edges whose collapse changes the surface least. The change is measured by
         the squared distance of the new vertex to the planes of the original triangles that it replaces (Garland,
-        Heckbert, 1997). The step ends when ``faces`` or ``ratio`` is reached, or when every remaining collapse is
+        Heckbert, 1997). The operation ends when ``faces`` or ``ratio`` is reached, or when every remaining collapse is
         refused or could exceed ``error``. At least one of ``faces``, ``ratio`` and ``error`` must be given, but not
         both ``faces`` and ``ratio``. All faces must be triangles.
 
@@ -4766,11 +4538,12 @@ class MeshOperations:
 
         In a texture, the border of a chart is also simplified, and can then cross a chart that is close to it. The
         report counts the faces that overlap in the texture. To leave more space between charts, use ``pack_uvs()`` with
-        a larger ``padding`` before this step.
+        a larger ``padding`` before this operation.
 
         No triangle is turned over. Remaining elements get new ids, in the order of their old ids. If the number of
-        faces cannot be reached and ``error`` is not given, the step is refused as ``Unreached``, and the message states
-        the reasons. With ``on_refusal="Skip"``, the step keeps the mesh with the fewest faces that it reached.
+        faces cannot be reached and ``error`` is not given, the operation is refused as ``Unreached``, and the message
+        states the reasons. With ``on_refusal="Skip"``, the operation keeps the mesh with the fewest faces that it
+        reached.
 
         Example: ``mesh.simplify(ratio=0.5)``
 
@@ -4778,25 +4551,23 @@ class MeshOperations:
             A mesh that already has at most this number of faces does not change.
         :param ratio: The number of faces to reach, as a fraction of the number of faces of each mesh.
         :param error: The largest allowed Hausdorff distance between the old and the new surface, in scene units. The
-            limit is guaranteed, because the step adds up upper bounds of the distances by which the collapses move the
-            surface. The true distance is usually between a third of the limit and the limit. If omitted, there is no
-            limit.
+            limit is guaranteed, because the operation adds up upper bounds of the distances by which the collapses move
+            the surface. The true distance is usually between a third of the limit and the limit. If omitted, there is
+            no limit.
         :param features: Edges to keep as lines, in addition to the lines that are always kept. For example,
             ``sel.Sharp(above=30)``. If omitted, no additional edges. ``"All"``, ``"Boundary"``, or a value of
             ``meshwright.sel``.
         :param pin: Vertices that keep their exact positions, for example ``Boundary``. If omitted, no vertices.
             ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
-        :param intersections: Whether the step may create intersections of faces. Such intersections can occur where
-            parts of the surface are close together. Defaults to ``"Allow"``.
+        :param intersections: Whether the operation may create intersections of faces. Such intersections can occur
+            where parts of the surface are close together. Defaults to ``"Allow"``.
             ``"Allow"``: New intersections are allowed, and not detected.
             ``"Refuse"``: No changed face intersects another face, so a mesh without self-intersections stays without
                 self-intersections.
         :param on_refusal: What to do if the number of faces cannot be reached. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Simplify', {'faces': faces, 'ratio': ratio, 'error': error, 'features': features, 'pin': pin, 'intersections': intersections, 'on_refusal': on_refusal}, None, id, progress)
@@ -4839,19 +4610,19 @@ class MeshOperations:
           positions. Vertices with sharpness also keep their exact positions.
 
         The number of faces depends on the area of the mesh, which is not known before the run. Therefore ``check``
-        shows the largest number of faces that fits the memory budget. When the step starts, it estimates the number of
-        faces from the area. The step fails if the estimate exceeds the memory budget.
+        shows the largest number of faces that fits the memory budget. When the operation starts, it estimates the
+        number of faces from the area. The operation fails if the estimate exceeds the memory budget.
 
         Edits that would turn a triangle by more than 60 degrees are refused. All elements get new ids. If the distance
-        between the result and the original could exceed ``error``, the step is refused as ``Unreached``. With
-        ``on_refusal="Skip"``, a refused step does not change the mesh.
+        between the result and the original could exceed ``error``, the operation is refused as ``Unreached``. With
+        ``on_refusal="Skip"``, a refused operation does not change the mesh.
 
         Example: ``mesh.remesh(length=0.5)``
 
         :param length: The target length of edges, in scene units.
         :param curvature: Target lengths that follow the curvature. Replaces ``length``.
             ``"error"``: The intended distance between the surface and the triangles, in scene units. It is not
-                guaranteed. To guarantee a distance, use the parameter ``error`` of the step.
+                guaranteed. To guarantee a distance, use the parameter ``error`` of the operation.
             ``"min"``: The smallest target length of edges, in scene units.
             ``"max"``: The largest target length of edges, in scene units.
         :param features: Edges to keep as lines, in addition to the lines that are always kept. For example,
@@ -4859,18 +4630,16 @@ class MeshOperations:
             ``meshwright.sel``.
         :param error: The largest allowed Hausdorff distance between the old and the new surface, in scene units. To
             keep this limit, some edges can become shorter than the target length. The distance is measured at the end
-            of the step, in both directions and for all points of both surfaces. If omitted, there is no limit.
+            of the operation, in both directions and for all points of both surfaces. If omitted, there is no limit.
         :param pin: Vertices that keep their exact positions, for example ``Boundary``. If omitted, no vertices.
             ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
-        :param passes: The largest number of passes, from 1 to 1000. The step ends earlier if a pass changes almost
+        :param passes: The largest number of passes, from 1 to 1000. The operation ends earlier if a pass changes almost
             nothing. Defaults to 10.
         :param on_refusal: What to do if the distance between the result and the original could exceed ``error``.
             Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Remesh', {'length': length, 'curvature': curvature, 'features': features, 'error': error, 'pin': pin, 'passes': passes, 'on_refusal': on_refusal}, None, id, progress)
@@ -4919,34 +4688,31 @@ class MeshOperations:
             ``"Fixed"``: The vertices do not move.
             ``"Free"``: The boundary is smoothed as a set of curves, so the movement of a vertex on the boundary depends
                 only on its neighbors along the boundary.
-        :param keep_volume: Whether to restore the original volume of the mesh. To restore the volume, the step finally
-            shifts all moved vertices along their normals by the same distance. The mesh must be closed. Defaults to
-            ``False``.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param keep_volume: Whether to restore the original volume of the mesh. To restore the volume, the operation
+            finally shifts all moved vertices along their normals by the same distance. The mesh must be closed.
+            Defaults to ``False``.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Smooth', {'by': by, 'passes': passes, 'vertices': vertices, 'pin': pin, 'boundary': boundary, 'keep_volume': keep_volume}, None, id, progress)
 
     def transfer(
         self,
-        from_: "Mesh" | str | Ron,
+        from_: Mesh | str | Ron,
         attributes: Sequence[str] | NDArray[Any] | Ron,
         *,
         within: float | Ron | None = None,
         id: str | None = None,
         progress: bool | Progress | None = None,
     ) -> Self:
-        """Copies attributes from the nearest points of another object.
+        """Copies attributes from the nearest points of another mesh.
 
-        The step copies vertex, corner and face attributes from the object ``from_`` to elements of the same kind in the
-        changed mesh. Numbers and vectors of vertices and corners are interpolated inside the face that contains the
+        The operation copies vertex, corner and face attributes from the mesh ``from_`` to elements of the same kind in
+        the changed mesh. Numbers and vectors of vertices and corners are interpolated inside the face that contains the
         nearest point. Whole numbers, tags, and attributes that edits do not interpolate are copied from the nearest
         corner of the face that contains the nearest point. Values of faces are copied from the face that contains the
         nearest point. If the attribute already exists with the same type of values, it is overwritten. If the attribute
-        already exists with a different type of values, the step fails. Without ``on``, the step acts on all meshes
-        except ``from_``.
+        already exists with a different type of values, the operation fails.
 
         All corners of a face take their values from one side of each seam, so no triangle is stretched across a seam of
         texture coordinates. Usually the corners take their values from the side that is nearest to the center of the
@@ -4963,9 +4729,7 @@ class MeshOperations:
         :param from_: The mesh with the attributes.
         :param attributes: The names of the attributes, for example ``["uv", "color"]``.
         :param within: The largest distance from the source, in scene units. If omitted, there is no limit.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Transfer', {'from': from_, 'attributes': attributes, 'within': within}, None, id, progress)
@@ -5004,9 +4768,7 @@ class MeshOperations:
             ``choice.Scale(..)``: Scales along x, y and z about the mean of the selected vertices.
         :param falloff: The distance from the selected vertices at which the movement has fallen to 0, in scene units.
             If omitted, only the selected vertices move.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('MoveVertices', {'vertices': vertices, 'by': by, 'falloff': falloff}, None, id, progress)
@@ -5041,9 +4803,7 @@ class MeshOperations:
             the vertex inwards.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Displace', {'by': by, 'distance': distance, 'vertices': vertices}, None, id, progress)
@@ -5093,9 +4853,7 @@ class MeshOperations:
             coordinate of the mesh. Must not be less than ``from_``.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Bend', {'axis': axis, 'angle': angle, 'towards': towards, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, None, id, progress)
@@ -5136,9 +4894,7 @@ class MeshOperations:
             coordinate of the mesh. Must not be less than ``from_``.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Twist', {'axis': axis, 'angle': angle, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, None, id, progress)
@@ -5178,9 +4934,7 @@ class MeshOperations:
             coordinate of the mesh. Must not be less than ``from_``.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Taper', {'axis': axis, 'factor': factor, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, None, id, progress)
@@ -5217,16 +4971,14 @@ class MeshOperations:
         :param max: The highest corner of the box. If omitted, the highest corner of the bounding box of the mesh.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Lattice', {'size': size, 'moves': moves, 'min': min, 'max': max, 'vertices': vertices}, None, id, progress)
 
     def project(
         self,
-        onto: "Mesh" | str | Ron,
+        onto: Mesh | str | Ron,
         *,
         along: Literal['Nearest', 'Normal'] | Choice | Ron | None = None,
         vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Ron | None = None,
@@ -5235,12 +4987,11 @@ class MeshOperations:
         id: str | None = None,
         progress: bool | Progress | None = None,
     ) -> Self:
-        """Moves vertices onto the surface of another object (shrinkwrap).
+        """Moves vertices onto the surface of another mesh (shrinkwrap).
 
         Only vertices in ``vertices`` that are not in ``pin`` move. All other vertices keep their exact positions.
-        Without ``on``, the step acts on all meshes except the object ``onto``, which does not change. Normals and
-        tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch with the
-        surface.
+        Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch
+        with the surface.
 
         Vertices that would move farther than ``distance`` do not move. With ``Normal`` and ``choice.Direction``,
         vertices whose line misses the surface do not move either. The report counts the vertices that would move too
@@ -5259,9 +5010,7 @@ class MeshOperations:
         :param pin: Vertices that do not move. If omitted, no vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
         :param distance: The largest distance that a vertex moves, in scene units. If omitted, any distance.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Project', {'onto': onto, 'along': along, 'vertices': vertices, 'pin': pin, 'distance': distance}, None, id, progress)
@@ -5277,13 +5026,13 @@ class MeshOperations:
     ) -> Self:
         """Stores a quantity, such as a curvature or a distance, as an attribute of vertices or faces.
 
-        Later steps can select elements by the attribute (``sel.Where``), move vertices by it (``displace()``), show it
-        in a picture (``picture()``), and save it to files (``save()``). The attribute is not updated when the mesh
-        changes. Positions and other attributes do not change. Quantities are computed in the space of the mesh, without
-        the transforms of nodes. The report states the lowest, the mean and the highest value of each object.
+        Later operations can select elements by the attribute (``sel.Where``), move vertices by it (``displace()``),
+        show it in a picture (``picture()``), and save it to files (``save()``). The attribute is not updated when the
+        mesh changes. Positions and other attributes do not change. Quantities are computed in the space of the mesh,
+        without the transforms of nodes. The report states the lowest, the mean and the highest value of each object.
 
         An attribute of the same name is replaced if it belongs to the same elements (vertices or faces) and has one
-        floating-point number for each element. Otherwise the step fails.
+        floating-point number for each element. Otherwise the operation fails.
 
         Example: ``mesh.measure(of="MeanCurvature")``
 
@@ -5316,9 +5065,7 @@ class MeshOperations:
         :param missing: The value for elements at which the quantity is not defined, such as the curvature of a vertex
             without faces. The report counts these elements. If omitted, 0 for quantities that can be negative, and -1
             for all others.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change. Its ``attributes["mean_curvature"]``, or the attribute of the
             given name, is an array of the values.
         """
@@ -5349,9 +5096,9 @@ class MeshOperations:
         The coordinates are written to the corner attribute ``uv``, which is replaced if it exists. Edges at which
         charts meet become seams. Positions, faces and other attributes do not change, but tangents are removed.
         Zero-area faces have no area in the texture. The report counts them. If a polygon is bent so far that it
-        overlaps itself in the texture, the step is refused as ``WrongPlace``. Before this step, triangulate polygons
-        that would overlap themselves. With ``on_refusal="Skip"``, the triangles of such a polygon overlap in the
-        texture.
+        overlaps itself in the texture, the operation is refused as ``WrongPlace``. Before this operation, triangulate
+        polygons that would overlap themselves. With ``on_refusal="Skip"``, the triangles of such a polygon overlap in
+        the texture.
 
         Example: ``mesh.unwrap(max_angle=60)``
 
@@ -5370,9 +5117,7 @@ class MeshOperations:
         :param on_refusal: What to do if a polygon overlaps itself in the texture. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change. Its ``attributes["uv"]`` has the coordinates of the corners,
             and ``corners`` has their vertices.
         """
@@ -5389,8 +5134,8 @@ class MeshOperations:
     ) -> Self:
         """Moves, rotates and scales charts of texture coordinates so that they do not overlap and have the same scale.
 
-        A chart is a set of faces that are connected without seams of the texture coordinates. After the step, the area
-        of each chart in the texture is proportional to its area on the surface. The shape of each chart does not
+        A chart is a set of faces that are connected without seams of the texture coordinates. After the operation, the
+        area of each chart in the texture is proportional to its area on the surface. The shape of each chart does not
         change, even if it is stretched, mirrored or overlaps itself. Each zero-area chart becomes a point. The report
         counts zero-area charts and charts that overlap themselves. Each mesh gets its own page, that is, the whole
         square of a texture. Tangents are removed, because charts are rotated.
@@ -5402,9 +5147,7 @@ class MeshOperations:
             The size only determines how large the padding is. Defaults to ``1024``.
         :param padding: The number of empty texels around each chart. The distance between two charts is at least twice
             this number. Defaults to 2.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
+        :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('PackUvs', {'uv': uv, 'page': page, 'padding': padding}, None, id, progress)
@@ -5421,7 +5164,7 @@ class MeshOperations:
         highlight: Literal['All', 'Boundary', 'Isolated', 'SelfIntersecting'] | Choice | Ron | None = None,
         highlight_width: float | Ron | None = None,
         marks: Sequence[Mapping[str, Any]] | NDArray[Any] | Ron | None = None,
-        color_by: Mapping[str, Any] | Ron | None = None,
+        color_by: str | Choice | Mapping[str, Any] | Ron | None = None,
         turntable: Mapping[str, Any] | Ron | None = None,
         images: str | Ron | None = None,
         id: str | None = None,
@@ -5430,9 +5173,8 @@ class MeshOperations:
         """Draws the scene into an image file.
 
         The extension of the file determines the format. A single image has the extension ``.png``. With ``turntable``,
-        ``.gif`` gives an animated GIF, and ``.apng`` or ``.png`` gives an animated PNG. The file is written only if the
-        whole recipe succeeds. The scene does not change. Drawing needs no GPU and gives the same bytes on every
-        machine.
+        ``.gif`` gives an animated GIF, and ``.apng`` or ``.png`` gives an animated PNG. The scene does not change.
+        Drawing needs no GPU and gives the same bytes on every machine.
 
         Example: ``mesh.picture(path="a.png", size=(64, 48), highlight=sel.Edges(sel.Sharp(above=30)), color_by={"of":
         "Valence"}, style={"wireframe": {}})``
@@ -5475,7 +5217,9 @@ class MeshOperations:
             ``"color"``: The color.
             ``"width"``: The width of edges and the diameter of vertices, in pixels. If omitted, the defaults of
                 ``highlight_width``.
-        :param color_by: The quantity to show as colors of the surface.
+        :param color_by: What the colors of the surface show: a quantity (``"Valence"``, ``"MinAngle"``, ``"Area"``,
+            ``"DihedralAngle"``, ``"MeanCurvature"``, ``"GaussianCurvature"``, or a value of ``meshwright.choice``), the
+            name of an attribute, or a mapping with more details.
             ``"of"``: The quantity that the colors show.
             ``"map"``: The color map. If omitted, ``Classes`` for valences, ``Diverging`` for curvatures, else
                 ``Viridis``.
@@ -5486,13 +5230,10 @@ class MeshOperations:
         :param turntable: If given, the picture is an animation in which the camera moves once around the scene.
             ``"frames"``: The number of images.
             ``"seconds"``: The duration of the turn.
-        :param images: The folder of texture images that are not stored next to their model. The path is relative to the
-            folder of the recipe. If omitted, the folder of the recipe. Missing images are not drawn, and the report
-            lists them.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
-        :returns: The new mesh. This mesh does not change.
+        :param images: The folder of texture images that are not stored next to their model. If omitted, the working
+            directory. Missing images are not drawn, and the report lists them.
+        :param id, progress: See :class:`Mesh`.
+        :returns: The same mesh.
         """
         return self._apply('Picture', {'path': path, 'size': size, 'camera': camera, 'views': views, 'columns': columns, 'style': style, 'highlight': highlight, 'highlight_width': highlight_width, 'marks': marks, 'color_by': color_by, 'turntable': turntable, 'images': images}, None, id, progress)
 
@@ -5518,8 +5259,7 @@ class MeshOperations:
         polygon, every level of de Casteljau's algorithm in a different color, and the constructed point. Both axes have
         the same scale. With ``by_level``, each panel shows one level more than the previous panel for the same value of
         ``t``. Only the last panel for a value of ``t`` shows the constructed point. The extension of the file
-        determines the format: ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The scene
-        does not change.
+        determines the format: ``.svg`` or ``.png``. The scene does not change.
 
         Example: ``mesh.curve_figure(path="figure.svg", t=[0.25, 0.5])``
 
@@ -5536,10 +5276,8 @@ class MeshOperations:
         :param scale: The number of PNG pixels per SVG pixel. Has no effect on ``.svg`` files. Defaults to ``2``.
         :param labels: Whether points are labeled with their names. Defaults to ``True``.
         :param legend: Whether there is a legend below the panels. Defaults to ``True``.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
-        :returns: The new mesh. This mesh does not change.
+        :param id, progress: See :class:`Mesh`.
+        :returns: The same mesh.
         """
         return self._apply('CurveFigure', {'path': path, 't': t, 'by_level': by_level, 'before': before, 'width': width, 'columns': columns, 'scale': scale, 'labels': labels, 'legend': legend}, None, id, progress)
 
@@ -5559,8 +5297,8 @@ class MeshOperations:
         curve leads from the head of the arrow to the next half-edge of the face. The twin of a half-edge is on the
         other side of the edge. Half-edges on the boundary have no face and are gray. The viewer looks at the faces from
         the direction of their mean normal. Faces that face away from the viewer or are seen nearly edge-on are left
-        out, and the report counts them. The extension of the file determines the format: ``.svg`` or ``.png``. The file
-        is written only if the whole recipe succeeds. The scene does not change.
+        out, and the report counts them. The extension of the file determines the format: ``.svg`` or ``.png``. The
+        scene does not change.
 
         The name of an element is a letter followed by the id of the element: ``v`` for vertices, ``h`` for half-edges,
         ``f`` for faces. Half-edges ``2e`` and ``2e + 1`` belong to edge ``e``.
@@ -5572,10 +5310,8 @@ class MeshOperations:
             ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
         :param width: The width of the figure in SVG pixels. Defaults to ``640``.
         :param scale: The number of PNG pixels per SVG pixel. Has no effect on ``.svg`` files. Defaults to ``2``.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
-        :returns: The new mesh. This mesh does not change.
+        :param id, progress: See :class:`Mesh`.
+        :returns: The same mesh.
         """
         return self._apply('HalfEdgeFigure', {'path': path, 'faces': faces, 'width': width, 'scale': scale}, None, id, progress)
 
@@ -5596,8 +5332,7 @@ class MeshOperations:
         A gray frame shows the page of the texture, where u and v are from 0 to 1; v points upwards. Thick lines are the
         borders of charts, and thin lines are the other edges. Coordinates outside the page are also drawn. To make room
         for coordinates outside the page, the figure becomes higher or its scale becomes smaller. The extension of the
-        file determines the format: ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The
-        scene does not change.
+        file determines the format: ``.svg`` or ``.png``. The scene does not change.
 
         Example: ``mesh.uv_picture(path="uv.svg")``
 
@@ -5610,9 +5345,7 @@ class MeshOperations:
         :param edges: Whether edges inside charts are drawn. Defaults to ``True``.
         :param width: The width of the figure in SVG pixels. Defaults to ``640``.
         :param scale: The number of PNG pixels per SVG pixel. Has no effect on ``.svg`` files. Defaults to ``2``.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm.
-        :returns: The new mesh. This mesh does not change.
+        :param id, progress: See :class:`Mesh`.
+        :returns: The same mesh.
         """
         return self._apply('UvPicture', {'path': path, 'uv': uv, 'fill': fill, 'edges': edges, 'width': width, 'scale': scale}, None, id, progress)

@@ -174,6 +174,41 @@ def write_choice(value: Choice, schema: Schema) -> str:
     return f"{value.name}({', '.join(inner)})"
 
 
+def ids_of(schema: Schema) -> str | None:
+    """The name of the selection of this schema that lists ids, if there is one."""
+    for option in options(schema):
+        name = name_of(option)
+        if name and "properties" in option:
+            items = resolve(option["properties"][name]).get("items", {})
+            if resolve(items).get("type") == "integer":
+                return name
+    return None
+
+
+def check_list(items: Sequence[Any], schema: Schema) -> None:
+    """Raises `TypeError` for a mask in place of ids, and for ids without their selection."""
+    lists = [o for o in options(schema) if o.get("type") == "array"]
+    takes_integers = any(resolve(o.get("items", {})).get("type") == "integer" for o in lists)
+    selection = None if lists else ids_of(schema)
+    if not takes_integers and selection is None:
+        return
+    if any(isinstance(item, bool | np.bool_) for item in items):
+        ids = f"sel.{selection}(numpy.flatnonzero(mask))" if selection else "numpy.flatnonzero(mask)"
+        tag = 'with_attribute("name", mask) and sel.Tagged("name")'
+        raise TypeError(f"a list of ids cannot be a mask of Booleans: use {ids}, or {tag}")
+    if selection:
+        raise TypeError(f"a selection cannot be a plain list: use sel.{selection}(ids) for a list of ids")
+
+
+def check_word(word: str, schema: Schema) -> None:
+    """Raises `TypeError` for the name of a variant that has parameters."""
+    from ._names import call
+
+    for option in options(schema):
+        if name_of(option) == word and "properties" in option:
+            raise TypeError(f'"{word}" has parameters of its own: write {call(option)} without quotes')
+
+
 def write_list(items: Sequence[Any], schema: Schema) -> str:
     """A list ``[a, b]``, or a tuple ``(a, b)`` where the schema has a fixed length."""
     for option in options(schema):
@@ -182,6 +217,7 @@ def write_list(items: Sequence[Any], schema: Schema) -> str:
         if is_fixed:
             inner = [write(v, parts[i] if parts and i < len(parts) else option.get("items", {})) for i, v in enumerate(items)]
             return f"({', '.join(inner)})"
+    check_list(items, schema)
     lists = [o for o in options(schema) if o.get("type") == "array"]
     each = lists[0].get("items", {}) if lists else {}
     inner = [write(v, each) for v in items]
@@ -209,6 +245,8 @@ def write(value: Any, schema: Schema) -> str:
     if isinstance(value, str):
         if value in words(schema):
             return value
+        if schema and not takes_text(schema):
+            check_word(value, schema)
         if schema and not takes_text(schema) and options(schema) and words(schema) and value.isidentifier():
             return value
         return quoted(value)
@@ -229,9 +267,22 @@ def write(value: Any, schema: Schema) -> str:
     raise TypeError(f"cannot write {type(value).__name__} in a recipe")
 
 
+def color_by(value: Any) -> Any:
+    """The value of the parameter `color_by` as a mapping. A text that is not a quantity is the name of an attribute."""
+    if value is None or isinstance(value, Ron | Arg):
+        return value
+    given = dict(value) if isinstance(value, Mapping) else {"of": value}
+    of = given.get("of")
+    if isinstance(of, str) and not isinstance(of, Ron) and of not in words(definition("Quantity")):
+        given["of"] = Choice("Attribute", name=of)
+    return given
+
+
 def step(operation: str, fields: Mapping[str, Any]) -> str:
     """A step: ``LoopSubdivide(levels: 2)``. Parameters that are ``None`` are omitted."""
     given = {name: value for name, value in fields.items() if value is not None}
+    if "color_by" in given:
+        given["color_by"] = color_by(given["color_by"])
     return operation + struct(given, definition(operation))
 
 

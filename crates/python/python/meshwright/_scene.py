@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, Self
 
 from . import _core, _ron
+from ._errors import Error, of_method, warn
 from ._mesh import Mesh
 from ._operations import SceneOperations
 from ._progress import Progress, callback
@@ -109,13 +110,16 @@ class Scene(SceneOperations, Mapping[str, Mesh]):
         budget: int | None = None,
         **parameters: Any,
     ) -> Self:
-        """Runs an operation by its name in recipes: ``scene.apply("Weld", distance=1e-6)``.
+        """Runs an operation by its name in recipes: ``scene.apply("Weld", distance=1e-6)`` is
+        ``scene.weld(distance=1e-6)``.
 
         :param operation: The name of the operation.
-        :param on: The objects that the operation acts on. If omitted, all objects that it supports.
-        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
-            `True` for a bar of tqdm. An exception cancels the operation.
+        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param id: A text that seeds the random choices of the operation. Defaults to the name of the operation. In a
+            recipe, the name of the step.
+        :param progress: Called with the operation, the task, the number of finished parts and the total number of
+            parts; or `True` for a bar of tqdm. An exception cancels the operation. For a recipe, see
+            :meth:`Recipe.run`.
         :param budget: The memory budget for meshes, in bytes. Defaults to 8 GiB.
         """
         return self._run(operation, parameters, on, id, progress=progress, budget=budget)[0]
@@ -158,22 +162,33 @@ class Scene(SceneOperations, Mapping[str, Mesh]):
         if operation not in _ron.operations():
             raise AttributeError(f"no operation is named {operation}")
         text = f"(recipe: 1, steps: [\n{whole_step(operation, fields, on, id)}\n])"
-        with callback(progress) as show:
-            core, about = self._core.run(text, "", output, files, budget, show)
-        notes = [line for report in about["reports"] for line in lines_of(json.loads(report))]
+        try:
+            with callback(progress) as show:
+                core, about = self._core.run(text, "", output, files, budget, show)
+        except Error as error:
+            raise of_method(error, operation) from None
+        reports = [json.loads(report) for report in about["reports"]]
+        if operation == "Save":
+            warn_of_losses(os.fspath(fields["path"]), reports)
+        notes = [line for report in reports for line in lines_of(report)]
         notes += [warning["message"] for warning in about["warnings"]]
         return type(self)(core, tuple(notes)), about["written"]
 
     # ---- Files
 
     def to_bytes(self, extension: str, **options: Any) -> bytes:
-        """Returns the content of a file of this format, such as ``"glb"``."""
+        """Returns the content of a file of this format, such as ``"glb"``. What the format cannot store is listed in a
+        :class:`meshwright.LossWarning`.
+
+        :param extension: The extension of the format.
+        :param options: The other parameters of :meth:`save`.
+        """
         name = f"scene.{extension.lstrip('.')}"
         written = self._run("Save", {"path": name, **options}, None, None, files={})[1]
         return written[name]
 
     def render(self, **options: Any) -> bytes:
-        """Draws the scene and returns a PNG file. The options are those of the step `Picture`.
+        """Draws the scene and returns the bytes of a PNG file. The options are the parameters of :meth:`picture`.
 
         >>> import meshwright as mw
         >>> mw.Scene().cube(name="box").render(size=(64, 48))[:4]
@@ -223,12 +238,23 @@ def lines_of(report: Mapping[str, Any]) -> Iterator[str]:
     """The lines of the report of a step."""
     for refused in report["refused"]:
         yield f"{refused['count']} refused: {refused['first']}"
-    for loss in report["losses"]:
-        object = f'"{loss["object"]}"' if loss["object"] else "the scene"
-        yield f"{object} lost {loss['what']}: {loss['reason']}" if loss["reason"] else loss["what"]
+    yield from map(line_of_loss, report["losses"])
     for change in report["changes"]:
         yield change["message"]
     yield from report["notes"]
+
+
+def line_of_loss(loss: Mapping[str, str]) -> str:
+    """A loss in words."""
+    object = f'"{loss["object"]}"' if loss["object"] else "the scene"
+    return f"{object} lost {loss['what']}: {loss['reason']}" if loss["reason"] else loss["what"]
+
+
+def warn_of_losses(path: str, reports: Sequence[Mapping[str, Any]]) -> None:
+    """Issues one warning that lists what a file lacks. Rounded positions are not lost."""
+    losses = [loss for report in reports for loss in report["losses"] if loss["name"] != "position"]
+    if losses:
+        warn(f"{path}: {'; '.join(map(line_of_loss, losses))}")
 
 
 def is_address(path: str) -> bool:
@@ -267,7 +293,7 @@ def read(path: str | os.PathLike[str], **options: Any) -> Scene:
 
     :param path: The file: .obj, .gltf, .glb, .ply, .stl, .off, .dae, .mws, .bez or .bzc. `s3://` and other addresses
         need fsspec, and the file must not refer to other files.
-    :param options: The other parameters of the step `Load`, such as `non_manifold`.
+    :param options: The other parameters of :meth:`Scene.load`, such as `non_manifold`.
     """
     text = os.fspath(path)
     if is_address(text):
@@ -286,7 +312,7 @@ def read_bytes(data: bytes, name: str, **options: Any) -> Scene:
 
     :param data: The content.
     :param name: The name of the file, whose extension gives the format.
-    :param options: The other parameters of the step `Load`.
+    :param options: The other parameters of :meth:`Scene.load`.
     """
     return Scene()._run("Load", {"path": name, **options}, None, None, files={name: bytes(data)})[0]
 

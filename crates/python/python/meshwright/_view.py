@@ -6,12 +6,15 @@ import base64
 import html
 import json
 import os
+from collections.abc import Mapping
 from functools import cache
 from importlib.resources import files
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
+
+from ._ron import Choice, color_by
 
 if TYPE_CHECKING:
     from ._mesh import Mesh
@@ -35,13 +38,37 @@ def encoded(array: NDArray[Any], dtype: str) -> str:
     return base64.b64encode(np.ascontiguousarray(array, dtype)).decode("ascii")
 
 
-def colors_of(values: NDArray[Any]) -> tuple[NDArray[np.uint8], str]:
-    """A color for each value, and the range of the values in words. If the values are vectors, their lengths are
-    used."""
-    numbers = values.astype(float) if values.ndim == 1 else np.linalg.norm(values, axis=1)
+#: The name of the attribute that holds the shown values for a moment.
+SHOWN = "values of the view"
+Values = tuple[Literal["vertex", "face"], NDArray[Any]]
+
+
+def quantity(mesh: Mesh, of: str | Choice) -> Values:
+    """The values of a quantity, and whether they belong to the vertices or the faces. If an attribute has vectors, their
+    lengths are used."""
+    if isinstance(of, Choice) and of.name == "Attribute":
+        name, component = of.fields["name"], of.fields.get("component")
+        domain = mesh.attributes.domain(name)
+        if domain not in ("vertex", "face"):
+            raise ValueError(f'"{name}" is an attribute of a {domain}, expected one of vertices or faces')
+        values = mesh.attributes[domain, name]
+        if component is not None:
+            values = values[:, component]
+        return domain, values.astype(float) if values.ndim == 1 else np.linalg.norm(values, axis=1)
+    if of == "Valence":
+        return "vertex", np.bincount(mesh.edges.reshape(-1), minlength=mesh.n_vertices).astype(float)
+    if isinstance(of, Choice) or of == "DihedralAngle":
+        expected = "expected an attribute or a quantity of vertices or faces"
+        raise ValueError(f"a view cannot show {of}: {expected}; picture() shows more")
+    at: Literal["vertex", "face"] = "face" if of in ("Area", "MinAngle") else "vertex"
+    return at, mesh.measure(of=Choice(of), name=SHOWN).attributes[at, SHOWN]
+
+
+def colors_of(numbers: NDArray[Any], span: tuple[float, float] | None = None) -> tuple[NDArray[np.uint8], str]:
+    """A color for each number, and the range of the colors in words."""
     if not len(numbers):
         return np.zeros((0, 3), np.uint8), "no values"
-    low, high = float(numbers.min()), float(numbers.max())
+    low, high = span or (float(numbers.min()), float(numbers.max()))
     part = (numbers - low) / (high - low) if high > low else np.zeros(len(numbers))
     at = np.linspace(0, 1, len(COLORS))
     channels = [np.interp(part, at, COLORS[:, i]) for i in range(3)]
@@ -52,20 +79,28 @@ class View:
     """An interactive view of a mesh. A notebook shows it at the end of a cell; :meth:`save` writes it as a page. The page
     contains the mesh and three.js, and needs no network."""
 
-    def __init__(self, mesh: Mesh, color_by: str | None, wireframe: bool | None, height: int) -> None:
+    def __init__(self, mesh: Mesh, shown: str | Choice | Mapping[str, Any] | None, wireframe: bool | None, height: int) -> None:
         self._height = height
-        pieces = mesh.triangulate() if (np.diff(mesh.face_starts) != 3).any() else mesh
+        caption, domain, values, given = repr(mesh), "", None, {}
+        pieces = mesh
+        if shown is not None:
+            given = color_by(shown)
+            unknown = sorted(set(given) - {"of", "range"})
+            if unknown:
+                raise ValueError(f'color_by has the key "{unknown[0]}", expected "of" or "range"; picture() takes more keys')
+            domain, values = quantity(mesh, given["of"])
+            if domain == "face":
+                pieces = mesh.with_attribute(SHOWN, values, "face")
+        if (np.diff(mesh.face_starts) != 3).any():
+            pieces = pieces.triangulate()
         # The mesh is moved to the origin, because 32-bit floats are precise only there.
         center = mesh.vertices.mean(axis=0) if mesh.n_vertices else np.zeros(3)
-        points, triangles = mesh.vertices - center, pieces.triangles
-        caption, colors = repr(mesh), None
-        if color_by is not None:
-            domain = mesh.attributes.domain(color_by)
-            if domain not in ("vertex", "face"):
-                raise ValueError(f'"{color_by}" is an attribute of a {domain}, expected one of vertices or faces')
-            source = mesh if domain == "vertex" else pieces
-            colors, span = colors_of(source.attributes[domain, color_by])
-            caption += f", {color_by}: {span}"
+        points, triangles, colors = mesh.vertices - center, pieces.triangles, None
+        if values is not None:
+            values = pieces.attributes["face", SHOWN] if domain == "face" else values
+            colors, span = colors_of(values, given.get("range"))
+            of = given["of"]
+            caption += f", {of.fields['name'] if isinstance(of, Choice) else of}: {span}"
             if domain == "face":
                 # Each triangle gets three points of its own. These points follow the vertices, to which the edges
                 # refer.

@@ -6,16 +6,21 @@ Generated from the schema of the operations by `generate.py`: do not edit.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from numpy.typing import NDArray
 
 from ._ron import Arg, Choice, Ron
 
+if TYPE_CHECKING:
+    from ._mesh import Mesh
+
 
 
 def Angles(*, azimuth: float | Arg | Ron, elevation: float | Arg | Ron) -> Choice:
     """From any direction.
+
+    For ``choice.Fit(from_=..)``.
 
     :param azimuth: The angle from the front towards the right, in degrees.
     :param elevation: The angle above the horizontal plane, in degrees.
@@ -25,10 +30,13 @@ def Angles(*, azimuth: float | Arg | Ron, elevation: float | Arg | Ron) -> Choic
 
 
 def Attribute(*, name: str | Arg | Ron, component: int | Arg | Ron | None = None) -> Choice:
-    """A vertex attribute that holds one number for each vertex.
+    """The meaning depends on the parameter.
 
-    An attribute. If several domains have an attribute of this name, the attribute of the first of them is used, in the
-    order vertices, faces, corners, edges.
+    - In ``displace(by=..)``, as ``choice.Attribute(name=..)``: A vertex attribute that holds one number for each
+      vertex.
+    - In ``picture(color_by=..)``, as ``choice.Attribute(name=.., component=..)``: An attribute. If several domains have
+      an attribute of this name, the attribute of the first of them is used, in the order vertices, faces, corners,
+      edges.
 
     :param name: The name of the attribute.
     :param component: The index of the component of a vector, from 0. If omitted, the length of the vector is used.
@@ -41,6 +49,8 @@ def Denoise(*, angle: float | Arg | Ron | None = None) -> Choice:
     """Filters the normals of the faces, so that similar normals become equal, then moves the vertices to fit the
     normals.
 
+    For ``smooth(by=..)``.
+
     :param angle: Normals that differ by more than this angle hardly affect each other, so edges sharper than this angle
         are kept. From 0 to 180 degrees. Defaults to 30.
     """
@@ -49,7 +59,10 @@ def Denoise(*, angle: float | Arg | Ron | None = None) -> Choice:
 
 
 def Direction(value: Sequence[float] | NDArray[Any] | Arg | Ron, /) -> Choice:
-    """Moves to the first point of the surface in this direction."""
+    """Moves to the first point of the surface in this direction.
+
+    For ``project(along=..)``.
+    """
     return Choice('Direction', value)
 
 
@@ -58,17 +71,20 @@ def Distance(
     value: float | Arg | Ron | None = None,
     /,
     *,
-    to: str | Arg | Ron | None = None,
+    to: Mesh | str | Arg | Ron | None = None,
     signed: bool | Arg | Ron | None = None,
 ) -> Choice:
-    """The distance along the normal of each region, in scene units.
+    """The meaning depends on the parameter.
 
-    A negative distance moves the faces inwards. The normal is the mean of the face normals, weighted by area. Moves by
-    this distance along the normal of each vertex, in scene units. A negative distance moves vertices inwards. The
-    distance from each vertex to the nearest point of another mesh of the scene, in scene units. Without ``on``, the
-    step measures all meshes except the mesh to which distances are measured.
+    - In ``extrude_faces(by=..)``, as ``choice.Distance(value)``: The distance along the normal of each region, in scene
+      units. A negative distance moves the faces inwards. The normal is the mean of the face normals, weighted by area.
+    - In ``move_vertices(by=..)``, as ``choice.Distance(value)``: Moves by this distance along the normal of each
+      vertex, in scene units. A negative distance moves vertices inwards.
+    - In ``measure(of=..)``, as ``choice.Distance(to=.., signed=..)``: The distance from each vertex to the nearest
+      point of another mesh, in scene units. Without ``on``, a method of a scene measures all meshes except the mesh to
+      which distances are measured.
 
-    :param to: The name of the object to which distances are measured.
+    :param to: The mesh to which distances are measured. For a scene or a recipe, the name of its object.
     :param signed: Whether distances are negative inside the other mesh, that is, where its winding number is more than
         1/2 or less than -1/2. Defaults to ``False``.
     """
@@ -79,7 +95,9 @@ def Distance(
 def DistanceTo(value: str | Arg | Ron, /) -> Choice:
     """The distance of each vertex from the nearest point of the meshes of a file, in scene units.
 
-    The path is relative to the folder of the recipe.
+    A relative path is relative to the working directory; in a recipe, to the folder of the recipe.
+
+    For ``picture(color_by=..)``.
     """
     return Choice('DistanceTo', value)
 
@@ -87,6 +105,9 @@ def DistanceTo(value: str | Arg | Ron, /) -> Choice:
 
 def EdgeLength(*, below: float | Arg | Ron) -> Choice:
     """Stops as soon as all edges are shorter than ``below``.
+
+    For ``loop_subdivide(until=..)``, ``catmull_clark(until=..)``, ``midpoint(until=..)``, ``butterfly(until=..)``,
+    ``sqrt3(until=..)`` and ``doo_sabin(until=..)``.
 
     :param below: The length, in scene units.
     """
@@ -104,15 +125,18 @@ def Fit(
 ) -> Choice:
     """Looks from a side, at the distance from which the picture shows the whole scene.
 
+    For ``picture(camera=..)`` and ``picture(views=[..])``.
+
     :param from_: The side from which the camera looks. Defaults to ``"ThreeQuarter"``.
-        ``"Front"``: From the front.
-        ``"Back"``: From the back.
+        ``"Front"``: From the front: the side where z is large if y points upwards, and where y is small if z points
+            upwards.
+        ``"Back"``: From the back, which is opposite to the front.
         ``"Left"``: From the side where x is small.
         ``"Right"``: From the side where x is large.
         ``"Top"``: From above.
         ``"Bottom"``: From below.
         ``"Isometric"``: From the front, right and above, so that the three axes are equally long in the picture.
-        ``"ThreeQuarter"``: From the front, 30 degrees to the right and 22 degrees above.
+        ``"ThreeQuarter"``: From the front, 30 degrees towards the side where x is large, and 22 degrees above.
         ``choice.Angles(..)``: From any direction.
     :param up: The axis that points upwards. Defaults to ``"Y"``.
         ``"Y"``: The y axis, as in glTF.
@@ -135,6 +159,8 @@ def Geodesic(*, from_: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | R
     On fine meshes of smooth surfaces, the mean error is below 1 %. A vertex has no distance if no path of edges joins
     it to a selected vertex.
 
+    For ``measure(of=..)``.
+
     :param from_: The vertices from which distances are measured. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value
         of ``meshwright.sel``.
     """
@@ -145,12 +171,15 @@ def Geodesic(*, from_: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | R
 def Image(*, path: str | Arg | Ron, uv: str | Arg | Ron | None = None) -> Choice:
     """The brightness of an image (a height map), from 0 (black) to 1 (white), at the texture coordinates of the vertex.
 
-    Brightness is the mean of red, green and blue as they are stored in the file. The step interpolates between the
+    Brightness is the mean of red, green and blue as they are stored in the file. The operation interpolates between the
     pixels. Where the texture coordinates are less than 0 or more than 1, the image is repeated. A vertex on a seam
     moves by the mean of the values at its corners. Gray PNG files with 16 bits per pixel give smoother surfaces than
     files with 8 bits.
 
-    :param path: The PNG or JPEG file. A relative path is relative to the folder of the recipe.
+    For ``displace(by=..)``.
+
+    :param path: The PNG or JPEG file. A relative path is relative to the working directory; in a recipe, to the folder
+        of the recipe.
     :param uv: The name of the texture coordinates. Defaults to ``uv``.
     """
     return Choice('Image', path=path, uv=uv)
@@ -161,6 +190,8 @@ def Implicit(*, time: float | Arg | Ron) -> Choice:
     """Moves the surface by mean curvature flow for the given time, in one stable step.
 
     Details smaller than the square root of the time disappear, regardless of the density of the mesh.
+
+    For ``smooth(by=..)``.
 
     :param time: The time, in squares of the scene unit.
     """
@@ -174,6 +205,8 @@ def Laplacian(
     factor: float | Arg | Ron | None = None,
 ) -> Choice:
     """Moves each vertex towards the mean of its neighbors.
+
+    For ``smooth(by=..)``.
 
     :param weights: The weights of the neighbors. Defaults to ``"Uniform"``.
         ``"Uniform"``: All vertices that share an edge with the vertex have the same weight.
@@ -190,6 +223,9 @@ def LimitDistance(*, below: float | Arg | Ron) -> Choice:
 
     Available only for Loop and Catmull-Clark subdivision.
 
+    For ``loop_subdivide(until=..)``, ``catmull_clark(until=..)``, ``midpoint(until=..)``, ``butterfly(until=..)``,
+    ``sqrt3(until=..)`` and ``doo_sabin(until=..)``.
+
     :param below: The distance, in scene units.
     """
     return Choice('LimitDistance', below=below)
@@ -204,6 +240,8 @@ def LookAt(
     projection: Literal['Orthographic'] | Choice | Arg | Ron | None = None,
 ) -> Choice:
     """Looks from one point to another point.
+
+    For ``picture(camera=..)`` and ``picture(views=[..])``.
 
     :param from_: The position of the camera, ``(x, y, z)``, in scene units.
     :param to: The point in the middle of the picture, ``(x, y, z)``, in scene units.
@@ -225,6 +263,8 @@ def Noise(*, scale: float | Arg | Ron, seed: int | Arg | Ron | None = None) -> C
 
     The value depends only on the position, so vertices at the same position move by the same amount.
 
+    For ``displace(by=..)``.
+
     :param scale: The size of the waves, in scene units.
     :param seed: The seed. A different seed gives different noise. The same seed gives the same noise in every step.
         Defaults to 0.
@@ -239,6 +279,8 @@ def Occlusion(*, rays: int | Arg | Ron | None = None, seed: int | Arg | Ron | No
 
     The density of the rays is proportional to the cosine of their angle to the normal.
 
+    For ``measure(of=..)``.
+
     :param rays: The number of rays from each vertex. At most 4096. Defaults to 64.
     :param seed: The seed of the rays. Defaults to 0.
     """
@@ -247,9 +289,10 @@ def Occlusion(*, rays: int | Arg | Ron | None = None, seed: int | Arg | Ron | No
 
 
 def Offset(value: Sequence[float] | NDArray[Any] | Arg | Ron, /) -> Choice:
-    """The offset along x, y and z, in scene units.
+    """The meaning depends on the parameter.
 
-    Moves by this offset along x, y and z, in scene units.
+    - In ``extrude_faces(by=..)``: The offset along x, y and z, in scene units.
+    - In ``move_vertices(by=..)``: Moves by this offset along x, y and z, in scene units.
     """
     return Choice('Offset', value)
 
@@ -258,6 +301,8 @@ def Offset(value: Sequence[float] | NDArray[Any] | Arg | Ron, /) -> Choice:
 def Perspective(*, angle: float | Arg | Ron) -> Choice:
     """Perspective projection, as in a photograph.
 
+    For ``choice.Fit(projection=..)`` and ``choice.LookAt(projection=..)``.
+
     :param angle: The vertical field of view, in degrees.
     """
     return Choice('Perspective', angle=angle)
@@ -265,16 +310,20 @@ def Perspective(*, angle: float | Arg | Ron) -> Choice:
 
 
 def Plain(value: str | Arg | Ron, /) -> Choice:
-    """No lighting: the colors are unchanged.
+    """The meaning depends on the parameter.
 
-    This color.
+    - In ``picture(style={"shading": ..})``: No lighting: the colors are unchanged.
+    - In ``picture(style={"background": ..})``: This color.
     """
     return Choice('Plain', value)
 
 
 
 def Point(a: float | Arg, b: float | Arg, c: float | Arg, /) -> Choice:
-    """A point with the coordinates x, y, z."""
+    """A point with the coordinates x, y, z.
+
+    For ``transform(about=..)``.
+    """
     return Choice('Point', a, b, c)
 
 
@@ -284,6 +333,8 @@ def PrincipalCurvature(value: Literal['Largest', 'Smallest'] | Arg | Ron, /) -> 
     and Morvan, 2003.
 
     On a cylinder of radius r, the two principal curvatures are 0 and 1 / r.
+
+    For ``measure(of=..)``.
     """
     return Choice('PrincipalCurvature', value)
 
@@ -294,6 +345,8 @@ def Random(*, seed: int | Arg | Ron | None = None) -> Choice:
 
     The number depends on the id of the vertex.
 
+    For ``displace(by=..)``.
+
     :param seed: The seed. A different seed gives different numbers. The same seed gives the same numbers in every step.
         Defaults to 0.
     """
@@ -303,6 +356,8 @@ def Random(*, seed: int | Arg | Ron | None = None) -> Choice:
 
 def Rotate(*, axis: Literal['X', 'Y', 'Z'] | Arg | Ron, angle: float | Arg | Ron) -> Choice:
     """Rotates around an axis through the mean of the selected vertices.
+
+    For ``move_vertices(by=..)``.
 
     :param axis: The direction of the axis.
         ``"X"``: The x axis.
@@ -318,6 +373,8 @@ def Scale(value: Sequence[float] | NDArray[Any] | Arg | Ron, /) -> Choice:
     """Scales along x, y and z about the mean of the selected vertices.
 
     A factor of 0 along an axis gives all selected vertices the same coordinate along this axis.
+
+    For ``move_vertices(by=..)``.
     """
     return Choice('Scale', value)
 
@@ -327,6 +384,8 @@ def Tag(value: str | Arg | Ron, /) -> Choice:
     """The first part has the faces with the tag of this name, and the second part all other faces.
 
     A part without faces is left out.
+
+    For ``separate(by=..)``.
     """
     return Choice('Tag', value)
 
@@ -343,6 +402,8 @@ def Taubin(
     Removes noise, and keeps larger shapes and the volume nearly unchanged. One pass consists of the movement towards
     the mean and the movement back.
 
+    For ``smooth(by=..)``.
+
     :param weights: The weights of the neighbors. Defaults to ``"Uniform"``.
         ``"Uniform"``: All vertices that share an edge with the vertex have the same weight.
         ``"Cotangent"``: The weights depend on the angles of the faces (cotangent weights).
@@ -357,19 +418,23 @@ def Taubin(
 
 
 def To(value: Sequence[float] | NDArray[Any] | Arg | Ron, /) -> Choice:
-    """Moves by one common offset, so that the mean of the selected vertices arrives at this point."""
+    """Moves by one common offset, so that the mean of the selected vertices arrives at this point.
+
+    For ``move_vertices(by=..)``.
+    """
     return Choice('To', value)
 
 
 
-def Winding(*, of: str | Arg | Ron) -> Choice:
-    """The winding number of another mesh of the scene around each vertex: 1 inside, 0 outside, and numbers between 0
-    and 1 near gaps of the other mesh (Jacobson, Kavan, Sorkine-Hornung, 2013; Barill, Dickson, Schmidt, Levin,
-    Jacobson, 2018).
+def Winding(*, of: Mesh | str | Arg | Ron) -> Choice:
+    """The winding number of another mesh around each vertex: 1 inside, 0 outside, and numbers between 0 and 1 near gaps
+    of the other mesh (Jacobson, Kavan, Sorkine-Hornung, 2013; Barill, Dickson, Schmidt, Levin, Jacobson, 2018).
 
-    The error is usually below 0.001. Without ``on``, the step measures all meshes except the mesh whose winding number
-    is computed.
+    The error is usually below 0.001. Without ``on``, a method of a scene measures all meshes except the mesh whose
+    winding number is computed.
 
-    :param of: The name of the object whose winding number is computed.
+    For ``measure(of=..)``.
+
+    :param of: The mesh whose winding number is computed. For a scene or a recipe, the name of its object.
     """
     return Choice('Winding', of=of)

@@ -282,8 +282,11 @@ def HasAttribute(*, domain: Literal['Vertex', 'Corner', 'Edge', 'Face'] | Arg | 
 
 
 Manifold = Choice('Manifold')
-"""There is at least one mesh. Every mesh is a valid manifold, and no two edges of a mesh join the same vertices. Meshes
-are always built as manifolds. The expectation ``Manifold`` checks the meshes once more."""
+"""There is at least one mesh.
+
+Every mesh is a valid manifold, and no two edges of a mesh join the same vertices. Meshes are always built as manifolds.
+The expectation ``Manifold`` checks the meshes once more.
+"""
 
 
 def MeanFaceArea(
@@ -375,13 +378,12 @@ def Objects(
 
 
 def Output(*, path: str | Arg | Ron, as_: str | Arg | Ron, tolerance: int | Arg | Ron | None = None) -> Choice:
-    """A file that a step writes equals a reference file, which ``meshwright test --update`` creates and updates.
-    Pictures (.png, .apng) are compared pixel by pixel.
+    """A file that an operation writes equals a reference file, which ``meshwright test --update`` creates and updates.
 
-    Mesh files are compared by the objects that are read from them, and all other files byte by byte. Differences in the
-    recorded provenance are ignored.
+    Pictures (.png, .apng) are compared pixel by pixel. Mesh files are compared by the objects that are read from them,
+    and all other files byte by byte. Differences in the recorded provenance are ignored.
 
-    :param path: The path of the written file, relative to the output folder, as in the step that writes the file.
+    :param path: The path of the written file, relative to the output folder, as in the operation that writes the file.
     :param as_: The path of the reference file, relative to the recipe's folder. The file must be inside this folder.
     :param tolerance: The allowed difference between the colors of two pictures, in steps of 1/255. Defaults to 0.
     """

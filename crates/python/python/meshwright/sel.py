@@ -1,4 +1,4 @@
-"""Selections of vertices, edges and faces, and regions of space.
+"""Selections of the elements of a mesh, which are its vertices, edges and faces, and regions of space.
 
 Generated from the schema of the operations by `generate.py`: do not edit.
 """
@@ -6,25 +6,27 @@ Generated from the schema of the operations by `generate.py`: do not edit.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from numpy.typing import NDArray
 
 from ._ron import Arg, Choice, Ron
 
+if TYPE_CHECKING:
+    from ._mesh import Mesh
+
 
 All = Choice('All')
-"""All vertices. All edges. All faces."""
+"""All elements."""
 
 
 def And(
     value: Sequence[Literal['All', 'Boundary', 'Isolated'] | Choice] | NDArray[Any] | Sequence[Literal['All', 'Boundary'] | Choice] | Sequence[Literal['All', 'Boundary', 'SelfIntersecting'] | Choice] | Arg | Ron,
     /,
 ) -> Choice:
-    """The vertices in all of these selections.
+    """The elements in all of these selections.
 
-    An empty list selects all vertices. The edges in all of these selections. An empty list selects all edges. The faces
-    in all of these selections. An empty list selects all faces.
+    An empty list selects all elements.
     """
     return Choice('And', value)
 
@@ -39,8 +41,12 @@ def Between(a: int | Arg, b: int | Arg, /) -> Choice:
 
 
 Boundary = Choice('Boundary')
-"""Vertices with a boundary edge. Boundary edges: edges with a face on one side only. Faces with at least one boundary
-edge."""
+"""The meaning depends on what is selected.
+
+- As a selection of vertices: Vertices with a boundary edge.
+- As a selection of edges: Boundary edges: edges with a face on one side only.
+- As a selection of faces: Faces with at least one boundary edge.
+"""
 
 
 def Box(
@@ -57,15 +63,8 @@ def Box(
 
 
 
-def Component(
-    value: Literal['All', 'Boundary', 'Isolated'] | Choice | Literal['All', 'Boundary'] | Literal['All', 'Boundary', 'SelfIntersecting'] | Arg | Ron,
-    /,
-) -> Choice:
-    """The vertices of all connected components of the mesh that this selection touches.
-
-    The edges of all connected components of the mesh that this selection touches. The faces of all connected components
-    of the mesh that this selection touches.
-    """
+def Component(value: Literal['All', 'Boundary', 'Isolated', 'SelfIntersecting'] | Choice | Arg | Ron, /) -> Choice:
+    """The elements of all connected components of the mesh that this selection touches."""
     return Choice('Component', value)
 
 
@@ -102,7 +101,10 @@ def EdgeRing(value: Literal['All', 'Boundary'] | Choice | Arg | Ron, /) -> Choic
 
 
 def Edges(value: Literal['All', 'Boundary'] | Choice | Arg | Ron, /) -> Choice:
-    """A selection of edges."""
+    """A selection of edges.
+
+    For ``picture(highlight=..)`` and ``picture(marks=[{"of": ..}])``.
+    """
     return Choice('Edges', value)
 
 
@@ -150,13 +152,13 @@ def Expand(
 def Expect(
     *,
     count: int | Arg | Ron,
-    of: Literal['All', 'Boundary', 'Isolated'] | Choice | Literal['All', 'Boundary'] | Literal['All', 'Boundary', 'SelfIntersecting'] | Arg | Ron,
+    of: Literal['All', 'Boundary', 'Isolated', 'SelfIntersecting'] | Choice | Arg | Ron,
 ) -> Choice:
     """All elements of the selection ``of``.
 
     Refused unless the selection has exactly ``count`` elements.
 
-    :param count: The expected number of vertices.
+    :param count: The expected number of elements.
     :param of: The selection to count. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
     """
     return Choice('Expect', count=count, of=of)
@@ -164,12 +166,13 @@ def Expect(
 
 
 def Faces(
-    value: Sequence[int] | NDArray[Any] | Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron,
+    value: Literal['All', 'Boundary', 'SelfIntersecting'] | Sequence[int] | NDArray[Any] | Choice | Arg | Ron,
     /,
 ) -> Choice:
-    """The faces with these ids.
+    """The meaning depends on what is selected.
 
-    Refused if a face does not exist. A selection of faces.
+    - As a selection of faces: The faces with these ids. Refused if a face does not exist.
+    - In ``picture(highlight=..)`` and ``picture(marks=[{"of": ..}])``: A selection of faces.
     """
     return Choice('Faces', value)
 
@@ -207,13 +210,12 @@ def Flat(*, below: float | Arg | Ron) -> Choice:
 
 
 
-def Grow(
-    value: Literal['All', 'Boundary', 'Isolated'] | Choice | Literal['All', 'Boundary'] | Literal['All', 'Boundary', 'SelfIntersecting'] | Arg | Ron,
-    /,
-) -> Choice:
-    """This selection and the vertices that share an edge with it.
+def Grow(value: Literal['All', 'Boundary', 'Isolated', 'SelfIntersecting'] | Choice | Arg | Ron, /) -> Choice:
+    """The meaning depends on what is selected.
 
-    This selection and the edges that share a vertex with it. This selection and the faces that share a vertex with it.
+    - As a selection of vertices: This selection and the vertices that share an edge with it.
+    - As a selection of edges: This selection and the edges that share a vertex with it.
+    - As a selection of faces: This selection and the faces that share a vertex with it.
     """
     return Choice('Grow', value)
 
@@ -234,23 +236,27 @@ def HalfSpace(
 
 
 def Inside(value: Choice | Arg | Ron, /) -> Choice:
-    """Vertices in a region or on its surface.
+    """The meaning depends on what is selected.
 
-    Edges whose vertices all lie in a region or on its surface. Faces whose vertices all lie in a region or on its
-    surface.
+    - As a selection of vertices: Vertices in a region or on its surface.
+    - As a selection of edges: Edges whose vertices all lie in a region or on its surface.
+    - As a selection of faces: Faces whose vertices all lie in a region or on its surface.
     """
     return Choice('Inside', value)
 
 
 
-def InsideOf(value: str | Arg | Ron, /) -> Choice:
-    """The vertices inside the mesh of another object, given by its name.
+def InsideOf(value: Mesh | str | Arg | Ron, /) -> Choice:
+    """The meaning depends on what is selected.
+
+    - As a selection of vertices: The vertices inside another mesh.
+    - As a selection of edges: The edges whose vertices are all inside another mesh.
+    - As a selection of faces: The faces whose vertices are all inside another mesh.
 
     A point is inside if the winding number of the mesh around the point is above 1/2 or below -1/2. The mesh can have
-    small gaps. The edges whose vertices are all inside the mesh of another object, given by its name. A point is inside
-    if the winding number of the mesh around the point is above 1/2 or below -1/2. The mesh can have small gaps. The
-    faces whose vertices are all inside the mesh of another object, given by its name. A point is inside if the winding
-    number of the mesh around the point is above 1/2 or below -1/2. The mesh can have small gaps.
+    small gaps.
+
+    :param value: The mesh. For a scene or a recipe, the name of its object.
     """
     return Choice('InsideOf', value)
 
@@ -298,16 +304,19 @@ def Nearest(
     *,
     to: Sequence[float] | NDArray[Any] | Arg | Ron,
     count: int | Arg | Ron | None = None,
-    of: Literal['All', 'Boundary', 'Isolated'] | Choice | Literal['All', 'Boundary'] | Literal['All', 'Boundary', 'SelfIntersecting'] | Arg | Ron | None = None,
+    of: Literal['All', 'Boundary', 'Isolated', 'SelfIntersecting'] | Choice | Arg | Ron | None = None,
 ) -> Choice:
-    """The vertices nearest to a point.
+    """The meaning depends on what is selected.
 
-    If vertices are equally near, those with the lower ids are selected. The edges whose midpoints are nearest to a
-    point. If edges are equally near, those with the lower ids are selected. The faces whose centers (the means of their
-    vertices) are nearest to a point. If faces are equally near, those with the lower ids are selected.
+    - As a selection of vertices: The vertices nearest to a point. If vertices are equally near, those with the lower
+      ids are selected.
+    - As a selection of edges: The edges whose midpoints are nearest to a point. If edges are equally near, those with
+      the lower ids are selected.
+    - As a selection of faces: The faces whose centers (the means of their vertices) are nearest to a point. If faces
+      are equally near, those with the lower ids are selected.
 
     :param to: The point.
-    :param count: The number of vertices. If fewer are available, all are selected. Defaults to ``1``.
+    :param count: The number of elements. If fewer are available, all are selected. Defaults to ``1``.
     :param of: The selection to choose from. Defaults to ``"All"``. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
         value of ``meshwright.sel``.
     """
@@ -315,14 +324,8 @@ def Nearest(
 
 
 
-def Not(
-    value: Literal['All', 'Boundary', 'Isolated'] | Choice | Literal['All', 'Boundary'] | Literal['All', 'Boundary', 'SelfIntersecting'] | Arg | Ron,
-    /,
-) -> Choice:
-    """The vertices that are not in this selection.
-
-    The edges that are not in this selection. The faces that are not in this selection.
-    """
+def Not(value: Literal['All', 'Boundary', 'Isolated', 'SelfIntersecting'] | Choice | Arg | Ron, /) -> Choice:
+    """The elements that are not in this selection."""
     return Choice('Not', value)
 
 
@@ -331,10 +334,9 @@ def Or(
     value: Sequence[Literal['All', 'Boundary', 'Isolated'] | Choice] | NDArray[Any] | Sequence[Literal['All', 'Boundary'] | Choice] | Sequence[Literal['All', 'Boundary', 'SelfIntersecting'] | Choice] | Arg | Ron,
     /,
 ) -> Choice:
-    """The vertices in at least one of these selections.
+    """The elements in at least one of these selections.
 
-    An empty list selects no vertices. The edges in at least one of these selections. An empty list selects no edges.
-    The faces in at least one of these selections. An empty list selects no faces.
+    An empty list selects no elements.
     """
     return Choice('Or', value)
 
@@ -356,13 +358,13 @@ def Random(
     *,
     count: int | Arg | Ron,
     seed: int | Arg | Ron,
-    of: Literal['All', 'Boundary', 'Isolated'] | Choice | Literal['All', 'Boundary'] | Literal['All', 'Boundary', 'SelfIntersecting'] | Arg | Ron | None = None,
+    of: Literal['All', 'Boundary', 'Isolated', 'SelfIntersecting'] | Choice | Arg | Ron | None = None,
 ) -> Choice:
     """A random choice.
 
-    The same seed in the same step gives the same choice.
+    The same seed in the same operation gives the same choice.
 
-    :param count: The number of vertices. If fewer are available, all are selected.
+    :param count: The number of elements. If fewer are available, all are selected.
     :param seed: The seed. A different seed gives a different choice.
     :param of: The selection to choose from. Defaults to ``"All"``. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
         value of ``meshwright.sel``.
@@ -371,8 +373,11 @@ def Random(
 
 
 SelfIntersecting = Choice('SelfIntersecting')
-"""Faces that intersect another face of the object. Adjacent faces intersect only if they share points other than their
-common vertices and edges. Vertices at the same position count as the same vertex."""
+"""Faces that intersect another face of the object.
+
+Adjacent faces intersect only if they share points other than their common vertices and edges. Vertices at the same
+position count as the same vertex.
+"""
 
 
 def Sharp(*, above: float | Arg | Ron) -> Choice:
@@ -394,14 +399,13 @@ def Shorter(*, than: float | Arg | Ron) -> Choice:
 
 
 
-def Shrink(
-    value: Literal['All', 'Boundary', 'Isolated'] | Choice | Literal['All', 'Boundary'] | Literal['All', 'Boundary', 'SelfIntersecting'] | Arg | Ron,
-    /,
-) -> Choice:
-    """This selection without the vertices that share an edge with vertices outside the selection.
+def Shrink(value: Literal['All', 'Boundary', 'Isolated', 'SelfIntersecting'] | Choice | Arg | Ron, /) -> Choice:
+    """The meaning depends on what is selected.
 
-    This selection without the edges that share a vertex with edges outside the selection. This selection without the
-    faces that share a vertex with faces outside the selection.
+    - As a selection of vertices: This selection without the vertices that share an edge with vertices outside the
+      selection.
+    - As a selection of edges: This selection without the edges that share a vertex with edges outside the selection.
+    - As a selection of faces: This selection without the faces that share a vertex with faces outside the selection.
     """
     return Choice('Shrink', value)
 
@@ -418,10 +422,9 @@ def Sphere(*, center: Sequence[float] | NDArray[Any] | Arg | Ron, radius: float 
 
 
 def Tagged(value: str | Arg | Ron, /) -> Choice:
-    """The vertices with the tag of this name.
+    """The elements with the tag of this name.
 
-    Refused if no tag of vertices has this name. The edges with the tag of this name. Refused if no tag of edges has
-    this name. The faces with the tag of this name. Refused if no tag of faces has this name.
+    Refused if no tag of elements has this name.
     """
     return Choice('Tagged', value)
 
@@ -434,12 +437,13 @@ def Valence(value: int | Arg | Ron, /) -> Choice:
 
 
 def Vertices(
-    value: Sequence[int] | NDArray[Any] | Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron,
+    value: Literal['All', 'Boundary', 'Isolated'] | Sequence[int] | NDArray[Any] | Choice | Arg | Ron,
     /,
 ) -> Choice:
-    """The vertices with these ids.
+    """The meaning depends on what is selected.
 
-    Refused if a vertex does not exist. A selection of vertices.
+    - As a selection of vertices: The vertices with these ids. Refused if a vertex does not exist.
+    - In ``picture(highlight=..)`` and ``picture(marks=[{"of": ..}])``: A selection of vertices.
     """
     return Choice('Vertices', value)
 
@@ -452,11 +456,9 @@ def Where(
     above: float | Arg | Ron | None = None,
     below: float | Arg | Ron | None = None,
 ) -> Choice:
-    """The vertices whose attribute has a value in a range.
+    """The elements whose attribute has a value in a range.
 
-    Refused if no attribute of vertices has this name. The edges whose attribute has a value in a range. Refused if no
-    attribute of edges has this name. The faces whose attribute has a value in a range. Refused if no attribute of faces
-    has this name.
+    Refused if no attribute of elements has this name.
 
     :param attribute: The name of the attribute.
     :param component: The index of the component of a vector, starting at 0. Required if the attribute is a vector, and

@@ -140,7 +140,7 @@ pub use glam::{DMat3, DVec2, DVec3, DVec4};
 pub use id::{Domain, EdgeId, Element, FaceId, HalfEdgeId, Id, VertexId};
 pub use journal::Change;
 pub use measure::angle_between;
-pub use readable::{readable, readable_bytes};
+pub use readable::{counted, readable, readable_bytes};
 pub use traverse::Orbit;
 pub use validate::Defect;
 pub use zeroed::{OutOfMemory, require_memory, zeroed};

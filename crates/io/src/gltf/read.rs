@@ -10,13 +10,14 @@ use serde_json::Value;
 
 use super::budget::Budget;
 use super::buffers;
+use super::deformers::Deformers;
 use super::document::Document;
 use super::draco;
+use super::left_out::note_left_out;
 use super::materials::Materials;
 use super::nodes::{PlacedMesh, PlacedNodes, placed_meshes};
 use super::primitives::{Triangles, triangles};
 use super::rig::RigReader;
-use super::rig_json::Deformers;
 use super::views::Reader;
 use crate::assets::Assets;
 use crate::clean::gather;
@@ -44,6 +45,7 @@ pub(crate) fn read(
     let json = parse(json)?;
     let budget = Budget::of(bytes.len());
     let mut document = Document::new(&json, &budget, notes)?;
+    note_left_out(&json, &document, notes);
     drop(json);
     let (buffers, fallbacks) = (&document.buffers, &document.fallbacks);
     let mut loaded = buffers::load(buffers, fallbacks, binary, &budget, assets)?;

@@ -104,9 +104,8 @@ use store::Store;
 
 pub use assets::FileDependency;
 pub use capability::{Storage, Stored};
-pub use csv::Rows;
 pub use error::{ReadError, WriteError};
-pub use format::Format;
+pub use format::{Format, Rows};
 pub use images::Images;
 pub use loss::Loss;
 pub use note::{Note, NoteKind};

@@ -606,6 +606,17 @@ pub struct PlanContext<'a> {
     pub budget: u64,
 }
 
+impl<'a> PlanContext<'a> {
+    /// Creates the context of a step without `on:`. The memory budget is unlimited.
+    pub const fn new(files: &'a Files) -> Self {
+        Self {
+            files,
+            on: None,
+            budget: u64::MAX,
+        }
+    }
+}
+
 /// A problem with a step that is found before any step runs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problem {

@@ -194,11 +194,7 @@ fn results_are_as_planned() {
     for case in Case::all() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let files = files(folder.path());
-        let cx = PlanContext {
-            files: &files,
-            on: None,
-            budget: u64::MAX,
-        };
+        let cx = PlanContext::new(&files);
         let mut plan = exact_plan(&case.scene);
         let problems = case.step.plan(&mut plan, &cx);
         if problems.iter().any(|p| !p.is_warning) {
@@ -218,11 +214,7 @@ fn planning_never_panics_even_for_incomplete_plans() {
     for case in Case::all() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let files = files(folder.path());
-        let cx = PlanContext {
-            files: &files,
-            on: None,
-            budget: u64::MAX,
-        };
+        let cx = PlanContext::new(&files);
         // A plan is incomplete if an earlier step could not be read or planned.
         for incomplete in [false, true] {
             let mut plan = exact_plan(&case.scene);

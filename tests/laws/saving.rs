@@ -15,11 +15,7 @@ fn planned(path: &str, scene: &Scene) -> (Vec<Problem>, Plan) {
     let save = registry.get("Save").expect("an operation");
     let step = save.deserialize(&ron_tree::parse(&format!("(path: {path:?})")).value);
     let files = Files::default();
-    let cx = PlanContext {
-        files: &files,
-        on: None,
-        budget: u64::MAX,
-    };
+    let cx = PlanContext::new(&files);
     let mut plan = Plan::of(scene);
     let problems = step.expect("parameters of Save").plan(&mut plan, &cx);
     (problems, plan)

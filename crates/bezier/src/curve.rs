@@ -13,45 +13,14 @@
 //! Sources: Farin, "Curves and Surfaces for CAGD", 5th edition, 2002, chapters 4 and 5;
 //! de Casteljau, "Outillages méthodes calcul", Citroën, 1959.
 
-use std::fmt::Debug;
-use std::ops::{Add, Mul, Sub};
-
-use glam::{DVec2, DVec3};
-
-use crate::BezierError;
 use crate::weights::Weights;
+use crate::{BezierError, Point};
 
 /// The largest number of control points of a [`Curve`].
 ///
 /// De Casteljau's algorithm computes n (n + 1) / 2 points for n control points. The maximum limits the cost of one
 /// evaluation to about 8 million steps, and the memory of [`Curve::levels`] to about 200 MB.
 pub const MAX_POINTS: usize = 4096;
-
-/// A point or a vector, in 2D or 3D. The default is the origin.
-pub trait Point:
-    Copy
-    + Debug
-    + Default
-    + PartialEq
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<f64, Output = Self>
-{
-    /// Whether all coordinates are finite.
-    fn is_finite(self) -> bool;
-}
-
-impl Point for DVec2 {
-    fn is_finite(self) -> bool {
-        DVec2::is_finite(self)
-    }
-}
-
-impl Point for DVec3 {
-    fn is_finite(self) -> bool {
-        DVec3::is_finite(self)
-    }
-}
 
 /// A Bezier curve of degree n, given by n + 1 control points.
 ///
@@ -189,6 +158,7 @@ mod tests {
     use super::*;
     use crate::fixtures::{Lcg, assert_close};
     use crate::oracle;
+    use glam::{DVec2, DVec3};
 
     /// Returns random curves of degree 0 to 12.
     fn curves(seed: u64) -> Vec<Curve<DVec3>> {

@@ -57,13 +57,15 @@ pub mod normal;
 #[cfg(test)]
 mod oracle;
 pub mod patch;
+mod point;
 pub mod polygons;
 pub mod tessellate;
 mod weights;
 
-pub use curve::{Curve, MAX_POINTS, Point, one_step};
+pub use curve::{Curve, MAX_POINTS, one_step};
 pub use error::BezierError;
 pub use glam::{DVec2, DVec3};
 pub use patch::{MAX_COORDINATE, Patch};
-pub use polygons::{Counts, Tessellation};
-pub use tessellate::{Faces, counts, tessellate, tessellate_patch};
+pub use point::Point;
+pub use polygons::{Counts, Faces, Tessellation};
+pub use tessellate::{counts, tessellate, tessellate_patch};

@@ -31,6 +31,15 @@ pub struct Tessellation {
     pub empty_patches: Vec<u32>,
 }
 
+/// The kind of faces into which each cell of a patch is tessellated.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub enum Faces {
+    /// Two triangles, divided by the diagonal from corner (i, j) to corner (i + 1, j + 1).
+    Triangles,
+    /// One quad.
+    Quads,
+}
+
 impl Default for Tessellation {
     fn default() -> Self {
         Self {

@@ -38,16 +38,7 @@ use glam::DVec2;
 
 use crate::collapse::Sides;
 use crate::weights::Weights;
-use crate::{BezierError, Counts, Patch, Tessellation};
-
-/// The kind of faces into which each cell of a patch is tessellated.
-#[derive(Clone, Copy, Debug, Eq, PartialEq)]
-pub enum Faces {
-    /// Two triangles, divided by the diagonal from corner (i, j) to corner (i + 1, j + 1).
-    Triangles,
-    /// One quad.
-    Quads,
-}
+use crate::{BezierError, Counts, Faces, Patch, Tessellation};
 
 /// Tessellates `patches`, each into `segments` by `segments` cells.
 ///

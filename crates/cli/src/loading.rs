@@ -8,7 +8,7 @@ use anyhow::Context as _;
 use engine::{Engine, Loaded, Options, Source, Values};
 use walkdir::{DirEntry, WalkDir};
 
-use crate::args::{RecipeArgs, ValueArgs};
+use crate::args::{ManyArgs, RecipeArgs, ValueArgs};
 use crate::file_kind::{FileKind, expect_kind};
 use crate::pipes;
 
@@ -35,6 +35,16 @@ impl Checking {
     pub(crate) fn for_budget(budget: u64) -> Self {
         let strict = false;
         Self { budget, strict }
+    }
+}
+
+impl ManyArgs {
+    /// Returns how the recipes are checked.
+    pub(crate) fn checking(&self) -> Checking {
+        Checking {
+            budget: self.budget,
+            strict: self.strict,
+        }
     }
 }
 

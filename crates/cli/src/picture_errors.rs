@@ -3,8 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
+use mesh::counted;
 use op::{ErrorLocation, Progress};
-use recipe::{ActualValue, Failure, Listener, StepDone, schema_check::counted};
+use recipe::{ActualValue, Failure, Listener, StepDone};
 use render::{Image, difference};
 use scene::Scene;
 use view::draw_error_locations;

@@ -6,9 +6,8 @@ use std::sync::Arc;
 
 use anyhow::Context as _;
 use engine::Source;
-use mesh::{Domain, MATERIAL};
+use mesh::{Domain, MATERIAL, counted};
 use mesh_io::{Format, Loss, ReadOptions, WriteOptions, WriteReport};
-use recipe::schema_check::counted;
 use ron_tree::MAX_BYTES;
 use scene::{Geometry, Scene};
 use store::{Disk, Memory, Store as _};

@@ -12,10 +12,11 @@
 
 use bezier::{Curve, Patch};
 use glam::{DVec2, DVec3};
+use mesh::counted;
 use scene::{Geometry, Scene};
 
 use crate::error::Unwritable;
-use crate::fault::{Fault, counted};
+use crate::fault::Fault;
 use crate::loss::Losses;
 use crate::text::{Cursor, TextPosition, check_encoding, number, parsed, push_number};
 use crate::{Format, SingleFile};

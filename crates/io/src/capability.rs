@@ -1,8 +1,7 @@
 //! The table of what each format can store. The writers and the plans of recipes use the same table.
 
-use mesh::{COLOR, CORNER_NORMAL, Domain, MATERIAL, SMOOTHING, UV, VERTEX_NORMAL, Values};
+use mesh::{COLOR, CORNER_NORMAL, Domain, MATERIAL, SMOOTHING, UV, VERTEX_NORMAL, Values, counted};
 
-use crate::fault::counted;
 use crate::joined::Names;
 use crate::off::COLOR_INDEX;
 use crate::{Format, Rows, gltf};

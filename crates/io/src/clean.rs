@@ -3,9 +3,10 @@
 use std::sync::atomic::Ordering::Relaxed;
 
 use glam::DVec3;
-use mesh::{Attributes, Domain, Elements, VertexId};
+use mesh::{Domain, Elements, VertexId};
 
 use crate::note::{NoteKind, Notes};
+use crate::polygons::gather;
 use crate::{CleanupPolicy, Policies, Polygons};
 use mesh::parallel;
 
@@ -267,16 +268,6 @@ fn drop_isolated(polygons: &mut Polygons, notes: &mut Notes) {
     let positions = &polygons.positions;
     polygons.positions = kept.iter().map(|&v| positions[v as usize]).collect();
     gather(&mut polygons.attributes, Domain::Vertex, &kept);
-}
-
-/// Replaces the columns of a domain by their values at `sources`.
-pub(crate) fn gather(attributes: &mut Attributes, domain: Domain, sources: &[u32]) {
-    for (of, mut column) in std::mem::take(attributes) {
-        if of == domain {
-            column.values = (column.values).gather(sources.len(), |i| Some(sources[i] as usize));
-        }
-        attributes.insert(of, column);
-    }
 }
 
 #[cfg(test)]

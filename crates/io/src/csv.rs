@@ -15,38 +15,13 @@
 
 use mesh::{Domain, FaceId, HalfEdgeId, Mesh};
 use scene::{Geometry, Object, Scene};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 use crate::decimal::{push_number, push_whole};
 use crate::error::Unwritable;
 use crate::joined::joined;
 use crate::loss::Losses;
-use crate::{Format, SingleFile, WriteOptions};
+use crate::{Format, Rows, SingleFile, WriteOptions};
 use mesh::parallel;
-
-/// The kind of elements of a `.csv` file. Each element has a row.
-#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
-#[serde(deny_unknown_fields)]
-pub enum Rows {
-    /// Vertices.
-    #[default]
-    Vertices,
-    /// Faces. The position of a face is the mean of its corners.
-    Faces,
-    /// The corners of the faces, face by face.
-    Corners,
-}
-
-impl Rows {
-    pub(crate) const fn domain(self) -> Domain {
-        match self {
-            Self::Vertices => Domain::Vertex,
-            Self::Faces => Domain::Face,
-            Self::Corners => Domain::Corner,
-        }
-    }
-}
 
 /// Writes `scene`, and lists the content that the file does not store.
 ///

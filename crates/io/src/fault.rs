@@ -105,11 +105,6 @@ pub(crate) fn quoted(word: &[u8]) -> String {
     format!("`{}{dots}`", text.escape_debug())
 }
 
-/// Returns a number with its noun, for a message: "1 line", "2 lines".
-pub(crate) fn counted(n: usize, noun: &str) -> String {
-    format!("{n} {noun}{}", if n == 1 { "" } else { "s" })
-}
-
 /// Decodes a name in a file as UTF-8. If it is not valid UTF-8, decodes it as Latin-1, which accepts any bytes.
 pub(crate) fn name(bytes: &[u8]) -> String {
     match std::str::from_utf8(bytes) {

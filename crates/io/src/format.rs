@@ -3,6 +3,10 @@
 use std::fmt;
 use std::path::Path;
 
+use mesh::Domain;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use crate::gzip;
 
 /// A file format, which is determined by the extension of the file name.
@@ -106,6 +110,29 @@ fn list(formats: impl Iterator<Item = Format>) -> String {
 impl fmt::Display for Format {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(TABLE[*self as usize].2)
+    }
+}
+
+/// The kind of elements of a `.csv` file. Each element has a row.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub enum Rows {
+    /// Vertices.
+    #[default]
+    Vertices,
+    /// Faces. The position of a face is the mean of its corners.
+    Faces,
+    /// The corners of the faces, face by face.
+    Corners,
+}
+
+impl Rows {
+    pub(crate) const fn domain(self) -> Domain {
+        match self {
+            Self::Vertices => Domain::Vertex,
+            Self::Faces => Domain::Face,
+            Self::Corners => Domain::Corner,
+        }
     }
 }
 

@@ -36,7 +36,7 @@
 //! | `text` | words and numbers of a text file, with their positions; `decimal` reads and writes numbers |
 //! | `fault` | errors in a file, with their positions |
 //! | `note`, `loss` | the content that a reader left out or changed; the content that a written file does not store |
-//! | `polygons`, `clean`, `weld` | building a mesh from polygons with attributes |
+//! | `polygons`, `clean`, `weld`, `into_mesh` | building a mesh from polygons with attributes |
 //! | `joined`, `corners`, `file_vertices`, `writing` | converting a scene to a form that a format can store |
 //! | `assets`, `save` | the files that a file refers to; writing files atomically |
 //!
@@ -76,6 +76,7 @@ mod format;
 mod gltf;
 mod gzip;
 mod images;
+mod into_mesh;
 mod joined;
 mod loss;
 mod mws;
@@ -103,9 +104,8 @@ use store::Store;
 
 pub use assets::FileDependency;
 pub use capability::{Storage, Stored};
-pub use csv::Rows;
 pub use error::{ReadError, WriteError};
-pub use format::Format;
+pub use format::{Format, Rows};
 pub use images::Images;
 pub use loss::Loss;
 pub use note::{Note, NoteKind};

@@ -12,8 +12,8 @@ use glam::DVec3;
 use mesh::{Attributes, Domain, Mesh, Values, VertexId};
 use rayon::prelude::*;
 
-use crate::clean::gather;
 use crate::file_vertices::FileVertices;
+use crate::polygons::gather;
 use mesh::parallel;
 
 /// The number of positions that are hashed and indexed at a time.

@@ -37,24 +37,31 @@ fn ordinary(v: DVec3) -> (DVec3, i32) {
     (DVec3::from_array(scaled), exponent)
 }
 
+/// Returns the area vector of a polygon with these corners, as [`Mesh::area_vector`] does for a face.
+///
+/// The area vector is half the sum of the cross products of consecutive corners, relative to the first corner (Newell's
+/// method).
+#[inline]
+pub fn area_vector(mut corners: impl Iterator<Item = DVec3>) -> DVec3 {
+    let Some(first) = corners.next() else {
+        return DVec3::ZERO;
+    };
+    let mut sum = DVec3::ZERO;
+    let mut last = DVec3::ZERO;
+    for p in corners.map(|p| p - first) {
+        sum += last.cross(p);
+        last = p;
+    }
+    0.5 * sum
+}
+
 impl Mesh {
     /// Returns the area vector of a face: its length is the area, its direction is the normal.
     ///
-    /// The area vector is half the sum of the cross products of consecutive corners, relative to the first corner
-    /// (Newell's method). The result is exact for planar polygons. If a polygon is not planar, the length is the area
-    /// of its projection along the normal.
+    /// The result is exact for planar polygons. If a polygon is not planar, the length is the area of its projection
+    /// along the normal.
     pub fn area_vector(&self, f: FaceId) -> DVec3 {
-        let mut corners = self.face_vertices(f).map(|v| self.position(v));
-        let Some(first) = corners.next() else {
-            return DVec3::ZERO;
-        };
-        let mut sum = DVec3::ZERO;
-        let mut last = DVec3::ZERO;
-        for p in corners.map(|p| p - first) {
-            sum += last.cross(p);
-            last = p;
-        }
-        0.5 * sum
+        area_vector(self.face_vertices(f).map(|v| self.position(v)))
     }
 
     /// Returns the area of a face: the length of its [area vector](Self::area_vector).

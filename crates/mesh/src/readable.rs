@@ -1,5 +1,7 @@
 //! Formats numbers and sizes in messages for people.
 
+use std::fmt;
+
 /// Formats a number for people, with six significant digits. Numbers whose magnitude is below 1e-5 or at least 1e15 are
 /// in scientific notation. All other numbers keep all digits before the decimal point. A number that is not finite is
 /// written as `too large`: coordinates are always finite, so only an overflow leads to such a number.
@@ -45,9 +47,29 @@ pub fn readable_bytes(bytes: u64) -> String {
     }
 }
 
+/// Returns a number followed by its noun, such as "1 value", "2 values" or "0 vertices". `singular` is "vertex", a noun
+/// that ends with it, or a noun whose plural has an additional "s".
+pub fn counted<N: Copy + fmt::Display + From<u8> + PartialEq>(n: N, singular: &str) -> String {
+    if n == N::from(1) {
+        return format!("{n} {singular}");
+    }
+    match singular.strip_suffix("vertex") {
+        Some(start) => format!("{n} {start}vertices"),
+        None => format!("{n} {singular}s"),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn nouns_agree_with_their_numbers() {
+        assert_eq!(counted(0_u64, "face"), "0 faces");
+        assert_eq!(counted(1_usize, "boundary loop"), "1 boundary loop");
+        assert_eq!(counted(1_u32, "vertex"), "1 vertex");
+        assert_eq!(counted(2_usize, "vertex"), "2 vertices");
+    }
 
     #[test]
     fn bytes_are_formatted_with_a_unit_that_fits() {

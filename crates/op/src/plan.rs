@@ -235,12 +235,12 @@ impl MeshPlan {
 
     /// Returns an error message if the mesh certainly has no vertex with this id.
     pub fn missing_vertex_message(&self, number: u32) -> Option<String> {
-        missing_element_message(u64::from(number), self.vertices, ["vertex", "vertices"])
+        missing_element_message(u64::from(number), self.vertices, "vertex")
     }
 
     /// Returns an error message if the mesh certainly has no face with this id.
     pub fn missing_face_message(&self, number: u32) -> Option<String> {
-        missing_element_message(u64::from(number), self.faces, ["face", "faces"])
+        missing_element_message(u64::from(number), self.faces, "face")
     }
 
     /// Adds an attribute that certainly exists.
@@ -311,13 +311,11 @@ pub(crate) fn numbered(name: &str, first: u64) -> impl Iterator<Item = (u64, Str
     })
 }
 
-fn missing_element_message(number: u64, count: Range, nouns: [&str; 2]) -> Option<String> {
-    let n = count.max;
+fn missing_element_message(number: u64, count: Range, noun: &str) -> Option<String> {
     let limit = if count.is_exact() { "" } else { "at most " };
-    let [singular, plural] = nouns;
-    let noun = if n == 1 { singular } else { plural };
-    let message = || format!("{singular} {number} does not exist: the mesh has {limit}{n} {noun}");
-    (number >= n).then(message)
+    let n = mesh::counted(count.max, noun);
+    let message = || format!("{noun} {number} does not exist: the mesh has {limit}{n}");
+    (number >= count.max).then(message)
 }
 
 /// Returns the size of one value of an attribute, in bytes. The lower end of the range is 0 if it is not certain that
@@ -606,6 +604,17 @@ pub struct PlanContext<'a> {
     pub on: Option<&'a [String]>,
     /// The memory budget of meshes, in bytes.
     pub budget: u64,
+}
+
+impl<'a> PlanContext<'a> {
+    /// Creates the context of a step without `on:`. The memory budget is unlimited.
+    pub const fn new(files: &'a Files) -> Self {
+        Self {
+            files,
+            on: None,
+            budget: u64::MAX,
+        }
+    }
 }
 
 /// A problem with a step that is found before any step runs.

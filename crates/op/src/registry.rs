@@ -222,8 +222,7 @@ pub fn to_ron(value: &dyn erased_serde::Serialize) -> String {
 /// Returns the loss report for lost animation channels. `before` is the number of animation channels before the step.
 fn lost_channels(before: usize, graph: &Graph) -> Option<Loss> {
     let lost = before.saturating_sub(graph.n_channels());
-    let noun = if lost == 1 { "channel" } else { "channels" };
-    let what = format!("{lost} animation {noun}");
+    let what = mesh::counted(lost, "animation channel");
     (lost > 0).then(|| Loss {
         count: Some(lost as u64),
         ..Loss::part("", "animations", what, "the animated nodes were removed")

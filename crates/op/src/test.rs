@@ -69,11 +69,7 @@ pub fn run(operation: &impl Operation, scene: &mut Scene) -> Result<Report, OpEr
 pub fn made(operation: &impl Operation) -> Mesh {
     let files = Files::default();
     let mut plan = Plan::default();
-    let cx = PlanContext {
-        files: &files,
-        on: None,
-        budget: u64::MAX,
-    };
+    let cx = PlanContext::new(&files);
     let problems = operation.plan(&mut plan, &cx);
     assert!(
         problems.iter().all(|p| p.is_warning),
@@ -101,11 +97,7 @@ pub fn made(operation: &impl Operation) -> Mesh {
 /// Plans `operation` on a mesh. Returns the plan of the resulting mesh and the problems of the step.
 pub fn planned(operation: &impl MeshOperation, mesh: &Mesh) -> (MeshPlan, Vec<Problem>) {
     let files = Files::default();
-    let cx = PlanContext {
-        files: &files,
-        on: None,
-        budget: u64::MAX,
-    };
+    let cx = PlanContext::new(&files);
     let mut plan = MeshPlan::of(mesh);
     let problems = MeshOperation::plan(operation, &mut plan, &cx);
     (plan, problems)

@@ -138,6 +138,12 @@ impl Part<'_> {
         self.faces.get(triangle).map_or(triangle, |&f| f as usize)
     }
 
+    /// Returns the index of the surface of a triangle in [`materials`](Self::materials).
+    pub(crate) fn surface_index(&self, triangle: usize) -> usize {
+        let material = self.material_of_face.get(self.face(triangle));
+        material.map_or(0, |&m| m as usize)
+    }
+
     /// Returns the positions of the corners of a triangle.
     pub fn corners_at(&self, triangle: usize) -> [DVec3; 3] {
         self.triangles[triangle].map(|p| self.points[p as usize])

@@ -70,8 +70,8 @@ pub use drawing::{Channel, Drawing, Label, Line, NO_FACE, Part, Surface};
 pub use error::PictureError;
 pub use heights::Heights;
 pub use image::{Image, LARGEST_SIDE, checked_size};
-pub use raster::{Look, PlacedLabel, Rendered, bytes_needed, pixel_bytes, render};
-pub use style::{Background, Ids, Lines, Shading, Style};
+pub use raster::{PlacedLabel, Rendered, bytes_needed, pixel_bytes, render};
+pub use style::{Background, Ids, Lines, Look, Shading, Style};
 pub use texture::{Alpha, Texture, TextureCache};
 
 /// Renders a picture of a scene. Returns the picture, and a message for each texture that cannot be drawn.

@@ -4,7 +4,6 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::color::narrow;
-use crate::raster::Look;
 use crate::{Color, PictureError};
 
 /// The lighting of surfaces.
@@ -168,6 +167,24 @@ impl Style {
             occlusion: narrow(self.occlusion),
             background: Color(self.background.srgb()).linear(),
         }
+    }
+}
+
+/// The settings of a style that the rasterizer uses.
+#[derive(Clone, Copy, Debug)]
+pub struct Look {
+    /// The lighting of surfaces.
+    pub shading: Shading,
+    /// The strength of ambient occlusion, from 0 (none) to 1.
+    pub occlusion: f32,
+    /// Linear red, green, blue and alpha of the background.
+    pub background: [f32; 4],
+}
+
+impl Look {
+    /// Whether ambient occlusion is computed.
+    pub(crate) fn has_occlusion(&self) -> bool {
+        self.occlusion > 0.0 && self.shading != Shading::Plain
     }
 }
 

@@ -11,6 +11,7 @@ mod graph;
 mod material;
 mod placed;
 mod pose;
+mod transformed;
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -29,10 +30,11 @@ pub use graph::{
 pub use material::{
     AlphaMode, Filter, Image, Material, Sampler, Texture, TextureNames, TextureTransform, Wrap,
 };
-pub use placed::{
-    Instance, holds_normals, holds_tangents, transform_tangent, transform_tangents, transformed,
-};
+pub use placed::Instance;
 pub use pose::Pose;
+pub use transformed::{
+    holds_normals, holds_tangents, transform_tangent, transform_tangents, transformed,
+};
 
 /// A list of objects in the order of their creation, and the nodes that place them.
 #[derive(Clone, Debug, Default, PartialEq)]

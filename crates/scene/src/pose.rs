@@ -9,8 +9,7 @@ use mesh::{
     morph_normal_of, morph_tangent_of, parallel,
 };
 
-use crate::holds_tangents;
-use crate::placed::{LinearMap, mapped};
+use crate::transformed::{LinearMap, holds_tangents, mapped, transformed};
 use crate::{Graph, Node};
 
 /// A column of normals and its domain.
@@ -225,7 +224,7 @@ pub(crate) fn posed(mesh: &Mesh, pose: &Pose, to_scene: &DAffine3) -> Mesh {
     }
     match pose.blended(attributes, mesh.n_vertices()) {
         None if *to_scene == DAffine3::IDENTITY => morphed,
-        None => crate::transformed(&morphed, to_scene),
+        None => transformed(&morphed, to_scene),
         Some(maps) => {
             let is_mirror = maps.first().is_some_and(|m| m.matrix3.determinant() < 0.0);
             mapped(morphed, is_mirror, |v| LinearMap::of(&maps[v]))

@@ -36,7 +36,6 @@ use mesh::{Connectivity, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 use progress::{Cancelled, Meter};
 
 use crate::links::{self, Link, Links};
-use crate::size::is_inner_of_valence_2;
 use crate::subset::Subset;
 use crate::topology::{Place, Topology, place_near_origin};
 
@@ -287,4 +286,12 @@ impl Topology for DooSabin<'_> {
         };
         face.map(FaceId::index)
     }
+}
+
+/// Whether `v` is an inner vertex of valence 2.
+pub(crate) fn is_inner_of_valence_2(mesh: &Mesh, v: VertexId) -> bool {
+    mesh.vertex_half_edge(v).is_some_and(|h| {
+        let k = mesh.next(h.twin());
+        mesh.face(h).is_some() && mesh.next(k.twin()) == h
+    })
 }

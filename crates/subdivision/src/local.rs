@@ -48,8 +48,8 @@ use crate::sharpness::Sharpness;
 use crate::size::{Size, TooLarge};
 
 use closure::Cuts;
-use pieces::Pieces;
-use smoothed::{LocalMasks, SmoothedElements};
+use pieces::{Pieces, SmoothedElements};
+use smoothed::LocalMasks;
 
 /// Subdivides some of the faces of a mesh `levels` times. Each level refines the parts of the chosen faces.
 ///

@@ -5,6 +5,7 @@ use std::ops::Range;
 use mesh::{Domain, Mesh, VertexId, readable_bytes};
 
 use crate::attributes;
+use crate::doo_sabin::is_inner_of_valence_2;
 use crate::parallel::of_blocks;
 use crate::rules::{Scheme, Split};
 
@@ -65,14 +66,6 @@ pub struct Size<N = u64> {
     pub inner_of_valence_2: N,
     /// The number of bytes that all attributes together take for one vertex, one corner, one edge and one face.
     pub attributes: [u64; 4],
-}
-
-/// Whether `v` is an inner vertex of valence 2.
-pub(crate) fn is_inner_of_valence_2(mesh: &Mesh, v: VertexId) -> bool {
-    mesh.vertex_half_edge(v).is_some_and(|h| {
-        let k = mesh.next(h.twin());
-        mesh.face(h).is_some() && mesh.next(k.twin()) == h
-    })
 }
 
 impl Size {

@@ -5,7 +5,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 
 use mesh::{FaceId, Mesh};
 
-use crate::error_locations::bits;
+use crate::position_bits::bits;
 
 /// Returns one flag for each face of `mesh`. The flag is set if `other` has no face with the same corner positions in
 /// the same cyclic order. If `other` is `None`, no flag is set.

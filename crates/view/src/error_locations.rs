@@ -11,6 +11,7 @@ use render::{
 };
 use scene::{ErrorLocation, Scene};
 
+use crate::position_bits::bits;
 use crate::sheet::{Cell, SheetStyle, sheet};
 use crate::shot::{Shot, Subject};
 use crate::viewpoint::{Target, clear_direction};
@@ -271,12 +272,6 @@ fn is_face_location(
             location.points.len() == n && points.take(n).eq(location.points.iter().copied())
         })
     })
-}
-
-/// Returns the bits of a position, as a hash key.
-pub(crate) fn bits(p: DVec3) -> [u64; 3] {
-    // Adding zero turns -0 into 0, so that -0 and 0 have the same key.
-    (p + DVec3::ZERO).to_array().map(f64::to_bits)
 }
 
 /// Returns the preferred direction towards the camera. The preferred direction is between the normal of the surface and

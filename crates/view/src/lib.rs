@@ -13,6 +13,7 @@ mod changes;
 mod error_locations;
 mod highlight;
 mod numbers;
+mod position_bits;
 pub mod sheet;
 mod shot;
 mod viewpoint;

@@ -7,7 +7,7 @@ use mesh::{FaceId, Mesh};
 use rayon::prelude::*;
 use scene::Scene;
 
-use crate::error_locations::bits;
+use crate::position_bits::bits;
 
 /// The number of directions on the whole sphere. Only the directions with an allowed elevation on the outer side of the
 /// surface are tried.

@@ -13,7 +13,7 @@
 //! apart merge only if a chain of other vertices links them. Which vertices merge does not depend on the order of the
 //! vertices. The result does not depend on the number of threads.
 
-use mesh::VERTEX_NORMAL;
+use mesh::{VERTEX_NORMAL, counted};
 use op::prelude::*;
 
 /// Merges vertices that are close together, and joins the faces at them.
@@ -63,8 +63,7 @@ impl MeshOperation for Weld {
             return Ok(Report::default());
         }
         let n = merged.vertices;
-        let vertices = if n == 1 { "vertex" } else { "vertices" };
-        let mut report = Report::changed(n).note(format!("merged {n} {vertices}"));
+        let mut report = Report::changed(n).note(format!("merged {}", counted(n, "vertex")));
         report = report.count("faces that lost corners", merged.smaller_faces);
         if !merged.report.is_clean() {
             report = report.note(merged.report.summary());

@@ -107,11 +107,7 @@ mod tests {
     #[test]
     fn the_plan_reports_an_index_that_no_curve_can_have() {
         let files = op::Files::default();
-        let cx = PlanContext {
-            files: &files,
-            on: None,
-            budget: u64::MAX,
-        };
+        let cx = PlanContext::new(&files);
         let problem_fields = |points, text| {
             let mut plan = Plan::default();
             assert_eq!(plan.insert("arch", PlannedGeometry::Curve(points)), None);

@@ -165,11 +165,7 @@ mod tests {
     #[test]
     fn the_plan_reports_an_index_that_no_patch_can_have() {
         let files = op::Files::default();
-        let cx = PlanContext {
-            files: &files,
-            on: None,
-            budget: u64::MAX,
-        };
+        let cx = PlanContext::new(&files);
         for (index, n_problems) in [(31, 0), (32, 1)] {
             let mut plan = Plan::default();
             let two = PlannedGeometry::Patches(Range::exactly(2));

@@ -102,11 +102,7 @@ mod tests {
     #[test]
     fn the_plan_turns_curves_into_polylines_and_reports_missing_curves() {
         let files = op::Files::default();
-        let cx = PlanContext {
-            files: &files,
-            on: None,
-            budget: u64::MAX,
-        };
+        let cx = PlanContext::new(&files);
         let step = sample(8);
         let mut plan = Plan::default();
         assert_eq!(step.plan(&mut plan, &cx).len(), 1);

@@ -14,7 +14,7 @@
 mod goal;
 mod until;
 
-use mesh::{EdgeId, EditError};
+use mesh::{EdgeId, EditError, counted};
 use op::prelude::*;
 
 use goal::Goal;
@@ -125,9 +125,9 @@ impl MeshOperation for FlipEdges {
         Ok(match flips.crossed {
             0 => report,
             n => {
-                let edges = if n == 1 { "edge" } else { "edges" };
+                let edges = counted(n, "seam edge");
                 report.note(format!(
-                    "flipped {n} seam {edges}; each new corner took the values that the other triangle had at the same \
+                    "flipped {edges}; each new corner took the values that the other triangle had at the same \
                      vertex"
                 ))
             }

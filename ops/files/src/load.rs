@@ -305,11 +305,7 @@ mod tests {
         let operation = load("(path: \"a.obj\", name: Some(\"quad\"))");
 
         let mut plan = Plan::default();
-        let cx = PlanContext {
-            files: &files,
-            on: None,
-            budget: u64::MAX,
-        };
+        let cx = PlanContext::new(&files);
         assert_eq!(operation.plan(&mut plan, &cx), []);
         let Some(PlannedGeometry::Mesh(planned)) = plan.object("quad").map(|o| &o.geometry) else {
             panic!("a mesh is planned");
@@ -338,11 +334,7 @@ mod tests {
         let files = files(folder.path());
         let mut plan = Plan::default();
         let step = load("(path: \"a.glb\", name: Some(\"new\"))");
-        let cx = PlanContext {
-            files: &files,
-            on: None,
-            budget: u64::MAX,
-        };
+        let cx = PlanContext::new(&files);
         assert_eq!(step.plan(&mut plan, &cx), []);
         let problems = step.plan(&mut plan, &cx);
         assert_eq!(problems.len(), 1);
@@ -379,11 +371,7 @@ mod tests {
             ),
         ] {
             let mut plan = Plan::default();
-            let cx = PlanContext {
-                files: &files,
-                on: None,
-                budget: u64::MAX,
-            };
+            let cx = PlanContext::new(&files);
             assert_eq!(load(text).plan(&mut plan, &cx), []);
             let mut scene = Scene::new();
             let mut cx = Context::new(&NoProgress, &files);
@@ -401,11 +389,7 @@ mod tests {
     #[test]
     fn a_missing_file_is_a_problem_of_the_parameter_path() {
         let files = files(Path::new("nowhere"));
-        let cx = PlanContext {
-            files: &files,
-            on: None,
-            budget: u64::MAX,
-        };
+        let cx = PlanContext::new(&files);
         let problems = load("(path: \"a.obj\")").plan(&mut Plan::default(), &cx);
         assert_eq!(problems.len(), 1);
         assert_eq!(problems[0].path, ["path"]);

@@ -263,11 +263,7 @@ mod tests {
             assert_eq!(folder.join("wood.png").exists(), copied, "{text}");
         }
         let save: Save = op::test::read(r#"(path: "a.obj", images: Embed)"#).unwrap();
-        let plan = PlanContext {
-            files: &files,
-            on: None,
-            budget: u64::MAX,
-        };
+        let plan = PlanContext::new(&files);
         let mut planned = Plan::default();
         planned.insert("a", PlannedGeometry::Patches(Range::ANY));
         let problems = save.plan(&mut planned, &plan);
@@ -314,11 +310,7 @@ mod tests {
         }
         assert!(op::test::read::<Save>(r#"(path: "a.glb", quantize: (position: 17))"#).is_err());
         assert!(op::test::read::<Save>(r#"(path: "a.glb", quantize: (normal: 7))"#).is_err());
-        let plan = PlanContext {
-            files: &files,
-            on: None,
-            budget: u64::MAX,
-        };
+        let plan = PlanContext::new(&files);
         let mut planned = Plan::default();
         planned.insert("a", PlannedGeometry::Patches(Range::ANY));
         let save: Save = op::test::read(r#"(path: "a.ply", compress: Meshopt)"#).unwrap();
@@ -335,11 +327,7 @@ mod tests {
             output: "out".into(),
             ..Files::default()
         };
-        let cx = PlanContext {
-            files: &files,
-            on: None,
-            budget: u64::MAX,
-        };
+        let cx = PlanContext::new(&files);
         let mut plan = Plan::default();
         plan.insert("a", PlannedGeometry::Polylines);
         assert_eq!(save("a.obj").plan(&mut plan, &cx), []);

@@ -102,11 +102,7 @@ mod tests {
     #[test]
     fn the_plan_agrees_with_the_result() {
         let files = Files::default();
-        let cx = PlanContext {
-            files: &files,
-            on: None,
-            budget: u64::MAX,
-        };
+        let cx = PlanContext::new(&files);
         let mut plan = Plan::default();
         let cube = PlannedGeometry::Mesh(MeshPlan::of(&shapes::cube()));
         assert_eq!(plan.insert("head", cube.clone()), None);

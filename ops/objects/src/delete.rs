@@ -81,11 +81,7 @@ mod tests {
     #[test]
     fn the_plan_reports_the_index_of_a_missing_name() {
         let files = op::Files::default();
-        let cx = PlanContext {
-            files: &files,
-            on: None,
-            budget: u64::MAX,
-        };
+        let cx = PlanContext::new(&files);
         let mut plan = Plan::default();
         assert_eq!(plan.insert("a", PlannedGeometry::Polylines), None);
         let problems = step(r#"(objects: ["a", "d"])"#).plan(&mut plan, &cx);

@@ -90,11 +90,7 @@ mod tests {
     #[test]
     fn the_plan_agrees_with_the_result() {
         let files = op::Files::default();
-        let cx = PlanContext {
-            files: &files,
-            on: None,
-            budget: u64::MAX,
-        };
+        let cx = PlanContext::new(&files);
         let mut plan = Plan::default();
         for name in ["a", "b"] {
             assert_eq!(plan.insert(name, PlannedGeometry::Polylines), None);

@@ -330,14 +330,6 @@ fn a_deleted_object_keeps_joints_and_drops_channels() {
     assert_eq!(back, only);
 }
 
-fn on_all(files: &op::Files) -> op::PlanContext<'_> {
-    op::PlanContext {
-        files,
-        on: None,
-        budget: u64::MAX,
-    }
-}
-
 /// The plan of a step has the nodes, skins, animations and lost channels of the run.
 #[test]
 fn the_plan_has_the_nodes_of_the_run() {
@@ -346,7 +338,11 @@ fn the_plan_has_the_nodes_of_the_run() {
         let step: &dyn op::Step = &step;
         let files = op::Files::default();
         let mut plan = op::Plan::of(scene);
-        assert_eq!(step.plan(&mut plan, &on_all(&files)), [], "{text}");
+        assert_eq!(
+            step.plan(&mut plan, &op::PlanContext::new(&files)),
+            [],
+            "{text}"
+        );
         let mut cx = op::Context::new(&op::NoProgress, &files);
         let report = step.apply(scene, &mut cx).unwrap();
         assert_eq!(plan.graph(), scene.graph(), "{text}");
@@ -415,7 +411,7 @@ fn the_plan_names_a_shear() {
     ] {
         let step: Transform = op::test::read(text).unwrap();
         let mut plan = op::Plan::of(&turned());
-        let problems = op::Operation::plan(&step, &mut plan, &on_all(&files));
+        let problems = op::Operation::plan(&step, &mut plan, &op::PlanContext::new(&files));
         let planned: Vec<String> = problems.into_iter().map(|p| p.message).collect();
         let result = op::test::run(&step, &mut turned());
         let actual: Vec<String> = result.err().iter().map(ToString::to_string).collect();
@@ -426,7 +422,7 @@ fn the_plan_names_a_shear() {
     let step: Transform = op::test::read(uneven).unwrap();
     let mut plan = op::Plan::of(&turned());
     plan.incomplete = true;
-    let problems = op::Operation::plan(&step, &mut plan, &on_all(&files));
+    let problems = op::Operation::plan(&step, &mut plan, &op::PlanContext::new(&files));
     assert_eq!(problems, []);
 }
 
@@ -456,7 +452,7 @@ fn the_plan_of_a_join_names_the_loss_of_different_skins() {
         let mut plan = op::Plan::of(&scene);
         let step: Join = op::test::read(r#"(objects: ["body", "hat"], name: "all")"#).unwrap();
         let files = op::Files::default();
-        let problems = op::Operation::plan(&step, &mut plan, &on_all(&files));
+        let problems = op::Operation::plan(&step, &mut plan, &op::PlanContext::new(&files));
         assert_eq!(problems, []);
         assert_eq!(plan.losses.len(), n_lost, "{parts:?}");
         let nodes = plan.graph().nodes().iter().filter(|n| n.object.is_some());

@@ -218,11 +218,7 @@ mod tests {
     #[test]
     fn the_plan_counts_copies_and_earlier_nodes() {
         let files = op::Files::default();
-        let cx = PlanContext {
-            files: &files,
-            on: None,
-            budget: u64::MAX,
-        };
+        let cx = PlanContext::new(&files);
         for n_nodes in 0..3 {
             let mut scene = scene();
             for _ in 0..n_nodes {

@@ -278,11 +278,7 @@ mod tests {
 
     fn planned(step: &Separate, scene: &Scene) -> (Plan, Vec<Problem>) {
         let files = Files::default();
-        let cx = PlanContext {
-            files: &files,
-            on: None,
-            budget: u64::MAX,
-        };
+        let cx = PlanContext::new(&files);
         let mut plan = Plan::default();
         for object in scene.objects() {
             let mesh = MeshPlan::of(object.as_mesh().unwrap());

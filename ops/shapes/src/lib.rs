@@ -70,11 +70,7 @@ mod tests {
         let mut scene = Scene::new();
         let mut plan = Plan::default();
         let files = op::Files::default();
-        let cx = PlanContext {
-            files: &files,
-            on: None,
-            budget: u64::MAX,
-        };
+        let cx = PlanContext::new(&files);
         for _ in 0..2 {
             let step: O = op::test::read("()").unwrap();
             assert_eq!(step.plan(&mut plan, &cx), []);

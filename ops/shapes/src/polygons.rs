@@ -183,11 +183,7 @@ mod tests {
         let report = op::test::run(&step, &mut Scene::new()).unwrap();
         assert_eq!(report.notes, ["1 non-manifold vertex split (v0)"]);
         let files = op::Files::default();
-        let cx = PlanContext {
-            files: &files,
-            on: None,
-            budget: u64::MAX,
-        };
+        let cx = PlanContext::new(&files);
         let problems = step.plan(&mut Plan::default(), &cx);
         assert!(problems.len() == 1 && problems[0].is_warning);
     }

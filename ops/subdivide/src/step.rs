@@ -1,6 +1,6 @@
 //! The code that the operations of all subdivision schemes share: the plan, the memory budget, and the levels.
 
-use mesh::{CORNER_NORMAL, DVec3, Domain, EdgeId, Mesh, TANGENT, VERTEX_NORMAL};
+use mesh::{CORNER_NORMAL, DVec3, Domain, EdgeId, Mesh, TANGENT, VERTEX_NORMAL, counted};
 use op::{
     Context, FaceSelection, Levels, MeshPlan, OpError, PlanContext, PlannedAttribute,
     PositiveLength, Problem, Range, Refusal, Report, Select, readable,
@@ -199,8 +199,8 @@ impl Step<'_> {
                 }
             };
             if value < below {
-                let levels = if level == 1 { "level" } else { "levels" };
-                return Ok(format!("{level} {levels}; {measure} {}", readable(value)));
+                let levels = counted(level, "level");
+                return Ok(format!("{levels}; {measure} {}", readable(value)));
             }
             let state = format!(
                 "after level {level}, {measure} {}, expected less than {}",

@@ -191,11 +191,7 @@ mod tests {
             r#"(from: "cube", ratios: [0.5])"#,
         ] {
             let files = Files::default();
-            let cx = PlanContext {
-                files: &files,
-                on: None,
-                budget: u64::MAX,
-            };
+            let cx = PlanContext::new(&files);
             let mut plan = Plan::default();
             let ball = PlannedGeometry::Mesh(MeshPlan::of(&shapes::icosahedron()));
             assert_eq!(plan.insert("ball", ball), None);
@@ -209,11 +205,7 @@ mod tests {
     #[test]
     fn the_plan_agrees_with_the_result() {
         let files = Files::default();
-        let cx = PlanContext {
-            files: &files,
-            on: None,
-            budget: u64::MAX,
-        };
+        let cx = PlanContext::new(&files);
         let mut plan = Plan::default();
         let ball = PlannedGeometry::Mesh(MeshPlan::of(&shapes::icosahedron()));
         assert_eq!(plan.insert("ball", ball), None);

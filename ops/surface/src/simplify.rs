@@ -10,7 +10,7 @@
 
 use geometry::simplify::{Blocked, Options, SimplifyError, simplify};
 use geometry::uv::overlapping_faces;
-use mesh::UV;
+use mesh::{UV, counted};
 use op::Refusal;
 use op::prelude::*;
 
@@ -156,9 +156,9 @@ pub(crate) fn unreached(n_faces: usize, goal: u64, blocked: &[(Blocked, usize)])
     } else {
         "faces were"
     };
-    let edges = if n_edges == 1 { "edge" } else { "edges" };
+    let edges = counted(n_edges, "edge");
     let message = format!(
-        "only {n_faces} {faces} reached instead of {goal}, because no further edge can be collapsed: of {n_edges} {edges}, {}",
+        "only {n_faces} {faces} reached instead of {goal}, because no further edge can be collapsed: of {edges}, {}",
         reasons.join(", ")
     );
     OpError::refused(Refusal::Unreached, message)
@@ -216,9 +216,9 @@ impl MeshOperation for Simplify {
                 .refuse(unreached(after, goal, &simplified.blocked), &mut report)?;
         }
         if before as u64 <= goal {
-            let faces = if before == 1 { "face" } else { "faces" };
+            let faces = counted(before, "face");
             report = report.note(format!(
-                "a mesh of {before} {faces} does not change, because the requested number is {goal}"
+                "a mesh of {faces} does not change, because the requested number is {goal}"
             ));
         }
         if after < before {

@@ -7,8 +7,6 @@ use std::str::FromStr;
 use clap::Args as ClapArgs;
 use serde::{Deserialize, Serialize};
 
-use crate::loading::Checking;
-
 use super::{CacheArgs, DrawArgs, Format, PictureErrorsArgs, ValueArgs, size};
 
 /// Options of the commands that run several recipes at the same time.
@@ -29,13 +27,6 @@ pub(crate) struct ManyArgs {
 }
 
 impl ManyArgs {
-    pub(crate) fn checking(&self) -> Checking {
-        Checking {
-            budget: self.budget,
-            strict: self.strict,
-        }
-    }
-
     pub(crate) fn limits(&self) -> recipe::JobLimits {
         recipe::JobLimits {
             threads: self.threads.map_or(0, usize::from),

@@ -7,6 +7,7 @@ mod many;
 mod picture;
 mod read;
 mod run;
+mod values;
 
 use std::path::PathBuf;
 
@@ -16,12 +17,11 @@ use mesh_io::{Compression, Images, Quantization, Rows};
 
 pub(crate) use cache::{CacheAction, CacheArgs, CacheCommandArgs, CacheFolder};
 pub(crate) use look::{DiffArgs, Kind, SelectArgs};
-pub(crate) use many::{BatchArgs, Shard, SweepArgs, TestArgs};
+pub(crate) use many::{BatchArgs, ManyArgs, Shard, SweepArgs, TestArgs};
 pub(crate) use picture::{DrawArgs, PictureArgs, PictureErrorsArgs};
 pub(crate) use read::ReadArgs;
-pub(crate) use run::{
-    CheckArgs, RecipeArgs, ReproduceArgs, RunArgs, ShrinkArgs, UpgradeArgs, ValueArgs,
-};
+pub(crate) use run::{CheckArgs, RecipeArgs, ReproduceArgs, RunArgs, ShrinkArgs, UpgradeArgs};
+pub(crate) use values::ValueArgs;
 
 /// Edit 3D meshes with recipes.
 #[derive(Debug, Parser)]

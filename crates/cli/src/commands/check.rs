@@ -1,9 +1,9 @@
 //! `meshwright check`: checks a recipe and forecasts the counts and the memory of each step.
 
 use engine::Engine;
+use mesh::counted;
 use op::Range;
 use op::readable_bytes;
-use recipe::schema_check::counted;
 use serde_json::json;
 
 use super::run::report_errors;

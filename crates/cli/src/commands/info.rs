@@ -3,11 +3,10 @@
 use std::path::Path;
 
 use engine::BUDGET;
-use mesh::{DVec3, Domain, Elements, Mesh, VertexId, is_rig_name};
+use mesh::{DVec3, Domain, Elements, Mesh, VertexId, counted, is_rig_name};
 use mesh_io::{Note, NoteKind};
 use op::ErrorLocation;
 use ops_pictures::Picture;
-use recipe::schema_check::counted;
 use scene::{Animation, Geometry, Graph, Instance, Object, Scene};
 use serde_json::json;
 

@@ -3,7 +3,8 @@
 use ::cache::Cache;
 use anyhow::Context as _;
 use engine::{Engine, Loaded, Run};
-use recipe::{Outcome, schema_check::counted};
+use mesh::counted;
+use recipe::Outcome;
 
 use crate::args::{Format, RunArgs};
 use crate::cache;

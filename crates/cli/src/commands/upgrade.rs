@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
+use mesh::counted;
 use op::Registry;
+use recipe::Source;
 use recipe::upgrade::upgrade;
-use recipe::{Source, schema_check::counted};
 
 use crate::args::UpgradeArgs;
 use crate::loading::recipes;

@@ -13,7 +13,7 @@ use mesh::{
     morph_tangent_name,
 };
 
-use super::rig_json::Deformers;
+use super::deformers::Deformers;
 use super::views::Reader;
 use crate::fault::Fault;
 

@@ -9,11 +9,9 @@ use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 
 use super::budget::Budget;
-use super::draco::{self, DRACO};
-use super::left_out::note_left_out;
+use super::draco_json::{self, DRACO};
 use super::meshopt::{self, Compressed, MESHOPT};
-use super::node_json::NodeJson;
-use super::rig;
+use super::node_json::{LIGHTS, NodeJson};
 use super::rig_json::{AnimationJson, SkinJson};
 use super::surface::{
     ImageJson, MaterialJson, STRENGTH, SamplerJson, TRANSFORM, TextureJson, UNLIT,
@@ -34,9 +32,6 @@ const KNOWN_EXTENSIONS: [&str; 8] = [
     MESHOPT[1],
 ];
 
-/// The extension for lights.
-pub(super) const LIGHTS: &str = "KHR_lights_punctual";
-
 /// A part of the document that is stored unchanged.
 pub(super) type Json = Map<String, Value>;
 
@@ -51,7 +46,7 @@ pub(super) struct Document {
     /// For each view, how it is compressed; `None` if it is not compressed.
     pub(super) compressed: Vec<Option<Compressed>>,
     /// The primitives that are compressed by Draco and not decoded yet.
-    pub(super) draco: Vec<draco::Compressed>,
+    pub(super) draco: Vec<draco_json::Compressed>,
     pub(super) materials: Vec<MaterialJson>,
     pub(super) meshes: Vec<Mesh>,
     /// The default weights of the morph targets of each mesh.
@@ -88,7 +83,7 @@ impl Document {
         let document = Self {
             fallbacks: meshopt::fallbacks(list(json, "buffers")?, &views, &compressed),
             compressed,
-            draco: draco::compressed(list(json, "meshes")?, list(json, "accessors")?)?,
+            draco: draco_json::compressed(list(json, "meshes")?, list(json, "accessors")?)?,
             accessors: pieces(json, "accessors", budget)?,
             buffers: pieces(json, "buffers", budget)?,
             views,
@@ -106,8 +101,7 @@ impl Document {
             samplers: pieces(json, "samplers", budget)?,
             images: pieces(json, "images", budget)?,
         };
-        rig::check(&document)?;
-        note_left_out(json, &document, notes);
+        check_rig(&document)?;
         Ok(document)
     }
 }
@@ -201,6 +195,57 @@ fn count_extensions<'a>(json: &'a Value, uses: &mut BTreeMap<&'a str, usize>) {
         }
         _ => {}
     }
+}
+
+/// Checks the indices in skins, nodes and animations. Each index must refer to an existing node, skin or sampler.
+///
+/// # Errors
+///
+/// Returns an error if an index refers to a missing part, or a skin has no joints.
+fn check_rig(document: &Document) -> Result<(), Fault> {
+    for (i, skin) in document.skins.iter().enumerate() {
+        let here = format!("/skins/{i}");
+        if skin.joints.is_empty() {
+            let message = "expected at least one joint";
+            return Err(Fault::json(format!("{here}/joints"), message));
+        }
+        for (k, &joint) in skin.joints.iter().enumerate() {
+            get(
+                &document.nodes,
+                joint,
+                format_args!("{here}/joints/{k}"),
+                "node",
+            )?;
+        }
+        if let Some(skeleton) = skin.skeleton {
+            get(
+                &document.nodes,
+                skeleton,
+                format_args!("{here}/skeleton"),
+                "node",
+            )?;
+        }
+    }
+    for (i, node) in document.nodes.iter().enumerate() {
+        if let Some(skin) = node.skin {
+            get(
+                &document.skins,
+                skin,
+                format_args!("/nodes/{i}/skin"),
+                "skin",
+            )?;
+        }
+    }
+    for (i, animation) in document.animations.iter().enumerate() {
+        for (k, channel) in animation.channels.iter().enumerate() {
+            let here = format!("/animations/{i}/channels/{k}");
+            get(&animation.samplers, channel.sampler, &here, "sampler")?;
+            if let Some(node) = channel.target.node {
+                get(&document.nodes, node, format_args!("{here}/target"), "node")?;
+            }
+        }
+    }
+    Ok(())
 }
 
 /// Returns the parts of the document that are stored unchanged: the asset without the members that the writer sets, the

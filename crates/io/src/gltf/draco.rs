@@ -11,7 +11,6 @@
 //! of the stream.
 
 use std::borrow::Cow;
-use std::collections::BTreeMap;
 
 use draco_core::{DataType, DecodeLimits, DecoderBuffer, Mesh, MeshDecoder, PointIndex};
 use gltf_json::Index;
@@ -20,85 +19,20 @@ use gltf_json::buffer::View;
 use gltf_json::mesh::{Mode, Semantic};
 use gltf_json::validation::Checked;
 use serde::Deserialize;
-use serde_json::{Value, json};
+use serde_json::json;
 
 use super::budget::Budget;
 use super::document::{Document, get};
+use super::draco_json::Compressed;
 use super::numbers::kinds;
 use super::views::Reader;
 use crate::fault::Fault;
-
-/// The name of the extension.
-pub(super) const DRACO: &str = "KHR_draco_mesh_compression";
 
 /// The approximate memory in bytes that decoding needs for each face and each vertex, in addition to the result.
 const WORK: u64 = 64;
 
 /// The maximum size in bytes of all attributes of a vertex together, including attributes that are not read.
 const LARGEST: u64 = 512;
-
-/// A compressed primitive.
-#[derive(Debug)]
-pub(super) struct Compressed {
-    mesh: usize,
-    primitive: usize,
-    extension: Extension,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(rename_all = "camelCase")]
-struct Extension {
-    buffer_view: usize,
-    attributes: BTreeMap<String, u32>,
-}
-
-impl Compressed {
-    /// The JSON pointer to the extension.
-    fn pointer(&self) -> String {
-        let Self {
-            mesh, primitive, ..
-        } = self;
-        format!("/meshes/{mesh}/primitives/{primitive}/extensions/{DRACO}")
-    }
-}
-
-/// Lists the primitives with data that only exists in compressed form.
-///
-/// # Errors
-///
-/// The first invalid extension.
-pub(super) fn compressed(meshes: &[Value], accessors: &[Value]) -> Result<Vec<Compressed>, Fault> {
-    let has_data = |accessor: &Value| {
-        let accessor = accessor.as_u64().and_then(|i| usize::try_from(i).ok());
-        // An accessor that does not exist is reported elsewhere.
-        let accessor = accessor.and_then(|i| accessors.get(i));
-        accessor.is_none_or(|a| a.get("bufferView").is_some() || a.get("sparse").is_some())
-    };
-    let mut found = Vec::new();
-    for (mesh, json) in meshes.iter().enumerate() {
-        let primitives = json.get("primitives").and_then(Value::as_array);
-        for (primitive, json) in primitives.into_iter().flatten().enumerate() {
-            let Some(extension) = json.get("extensions").and_then(|e| e.get(DRACO)) else {
-                continue;
-            };
-            let attributes = json.get("attributes").and_then(Value::as_object);
-            let mut used = attributes.into_iter().flatten().map(|(_, a)| a);
-            if json.get("indices").is_none_or(has_data) && used.all(has_data) {
-                continue;
-            }
-            let extension = Extension::deserialize(extension).map_err(|e| {
-                let at = format!("/meshes/{mesh}/primitives/{primitive}/extensions/{DRACO}");
-                Fault::json(at, e.to_string())
-            })?;
-            found.push(Compressed {
-                mesh,
-                primitive,
-                extension,
-            });
-        }
-    }
-    Ok(found)
-}
 
 /// Decodes all compressed primitives into additional buffers of the document.
 ///

@@ -6,8 +6,10 @@ use scene::Placement;
 use serde::Deserialize;
 use serde_json::Value;
 
-use super::document::LIGHTS;
 use crate::fault::Fault;
+
+/// The extension for lights.
+pub(super) const LIGHTS: &str = "KHR_lights_punctual";
 
 /// A node. The numbers of the node are not rounded to 32 bits.
 #[derive(Debug, Default, Deserialize)]

@@ -7,10 +7,9 @@ use scene::{Graph, MeshLabel, Node, Placement};
 use serde_json::Value;
 
 use super::budget::Budget;
+use super::deformers::Deformers;
 use super::document::{Document, Json, get};
 use super::node_json::NodeJson;
-use super::rig;
-use super::rig_json::Deformers;
 use crate::Placements;
 use crate::fault::Fault;
 use crate::note::{Names, Notes};
@@ -261,7 +260,7 @@ fn graph(
             graph.set_label(&*object.name, label);
         }
     }
-    let is_referenced = rig::referenced(document);
+    let is_referenced = referenced(document);
     let is_plain = |node: &SceneNode, object: &PlacedMesh| {
         !is_referenced[node.index] && is_plain(node, &document.nodes[node.index], object)
     };
@@ -325,4 +324,18 @@ fn first_name<'a>(names: [&'a Option<String>; 2], otherwise: &'a str) -> &'a str
 fn spend(name: &str, node: usize, budget: &Budget) -> Result<(), Fault> {
     let bytes = Budget::OBJECT + 8 * name.len() as u64;
     budget.spend(bytes, &format!("/nodes/{node}"))
+}
+
+/// Returns one flag for each node of the file: whether a skin or an animation refers to the node.
+fn referenced(document: &Document) -> Vec<bool> {
+    let mut flags = vec![false; document.nodes.len()];
+    let of_skins = document.skins.iter();
+    let of_skins = of_skins.flat_map(|skin| skin.joints.iter().chain(&skin.skeleton));
+    let channels = document.animations.iter().flat_map(|a| &a.channels);
+    for &node in of_skins.chain(channels.filter_map(|c| c.target.node.as_ref())) {
+        if let Some(flag) = flags.get_mut(node) {
+            *flag = true;
+        }
+    }
+    flags
 }

@@ -12,14 +12,15 @@ use scene::Graph;
 
 use super::budget::Budget;
 use super::deform::Directions;
+use super::deformers::Deformers;
 use super::document::Document;
+use super::left_out::note_left_out;
 use super::materials::{image_paths, material_name};
 use super::names::attribute_name;
 use super::nodes::placed_meshes;
 use super::primitives::attributes;
 use super::read::parse;
 use super::rig::RigReader;
-use super::rig_json::Deformers;
 use super::views::Reader;
 use crate::Placements;
 use crate::assets::Assets;
@@ -42,7 +43,10 @@ pub(crate) fn peek(
     notes: &mut Notes,
 ) -> Result<Vec<PeekObject>, Fault> {
     let budget = Budget::of(json.len());
-    let document = Document::new(&parse(json)?, &budget, notes)?;
+    let json = parse(json)?;
+    let document = Document::new(&json, &budget, notes)?;
+    note_left_out(&json, &document, notes);
+    drop(json);
     let reader = Reader::new(&document, &[], &budget);
     let mut meshes: BTreeMap<usize, Counted> = BTreeMap::new();
     let mut objects = Vec::new();

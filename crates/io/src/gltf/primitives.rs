@@ -13,9 +13,9 @@ use mesh::{
 };
 
 use super::deform::{Directions, Repairs, expect_len, joints, morphs};
+use super::deformers::Deformers;
 use super::document::get;
 use super::names::attribute_name;
-use super::rig_json::Deformers;
 use super::views::Reader;
 use crate::fault::Fault;
 use crate::note::Notes;

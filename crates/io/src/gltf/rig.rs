@@ -5,77 +5,11 @@ use std::collections::BTreeMap;
 use gltf_json::accessor::Type;
 use scene::{AnimatedProperty, Animation, AnimationSampler, Channel, Graph, Interpolation, Skin};
 
-use super::document::{Document, get};
 use super::nodes::PlacedNodes;
 use super::rig_json::{AnimationJson, SkinJson};
 use super::views::Reader;
 use crate::fault::Fault;
 use crate::note::Notes;
-
-/// Checks the indices in skins, nodes and animations. Each index must refer to an existing node, skin or sampler.
-///
-/// # Errors
-///
-/// Returns an error if an index refers to a missing part, or a skin has no joints.
-pub(super) fn check(document: &Document) -> Result<(), Fault> {
-    for (i, skin) in document.skins.iter().enumerate() {
-        let here = format!("/skins/{i}");
-        if skin.joints.is_empty() {
-            let message = "expected at least one joint";
-            return Err(Fault::json(format!("{here}/joints"), message));
-        }
-        for (k, &joint) in skin.joints.iter().enumerate() {
-            get(
-                &document.nodes,
-                joint,
-                format_args!("{here}/joints/{k}"),
-                "node",
-            )?;
-        }
-        if let Some(skeleton) = skin.skeleton {
-            get(
-                &document.nodes,
-                skeleton,
-                format_args!("{here}/skeleton"),
-                "node",
-            )?;
-        }
-    }
-    for (i, node) in document.nodes.iter().enumerate() {
-        if let Some(skin) = node.skin {
-            get(
-                &document.skins,
-                skin,
-                format_args!("/nodes/{i}/skin"),
-                "skin",
-            )?;
-        }
-    }
-    for (i, animation) in document.animations.iter().enumerate() {
-        for (k, channel) in animation.channels.iter().enumerate() {
-            let here = format!("/animations/{i}/channels/{k}");
-            get(&animation.samplers, channel.sampler, &here, "sampler")?;
-            if let Some(node) = channel.target.node {
-                get(&document.nodes, node, format_args!("{here}/target"), "node")?;
-            }
-        }
-    }
-    Ok(())
-}
-
-/// Returns one flag for each node of the file: whether a skin or an animation refers to the node.
-pub(super) fn referenced(document: &Document) -> Vec<bool> {
-    let mut flags = vec![false; document.nodes.len()];
-    let of_skins = document.skins.iter();
-    let of_skins = of_skins.flat_map(|skin| skin.joints.iter().chain(&skin.skeleton));
-    let channels = document.animations.iter().flat_map(|a| &a.channels);
-    for &node in of_skins.chain(channels.filter_map(|c| c.target.node.as_ref())) {
-        if let Some(flag) = flags.get_mut(node) {
-            *flag = true;
-        }
-    }
-    flags
-}
 
 /// Reads arrays of numbers. Each accessor is read only once.
 pub(super) struct RigReader<'a, 'r> {

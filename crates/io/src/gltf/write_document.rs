@@ -9,18 +9,18 @@ use scene::Graph;
 use serde_json::{Map, Value, json};
 
 use super::compress::{Array, compress};
-use super::document::LIGHTS;
+use super::extras::optional_json;
 use super::faces::Faces;
 use super::fill::{
     Bounds, bounds_of, fill_floats, fill_indices, fill_joints, fill_positions, fill_stream,
 };
 use super::meshopt::{Filter, MESHOPT};
+use super::node_json::LIGHTS;
 use super::numbers::type_name;
 use super::pieces::Piece;
 use super::prepare::PreparedObject;
 use super::quantize::{Integers, QUANTIZATION, Quantizer};
 use super::write_materials::MaterialWriter;
-use super::write_nodes::{NodeList, optional_json};
 use crate::error::Unwritable;
 use crate::loss::Losses;
 use crate::{Compression, WriteOptions};
@@ -51,6 +51,21 @@ pub(super) struct Writer<'a> {
 pub(super) struct Deformed {
     pub(super) has_joints: bool,
     pub(super) n_targets: usize,
+}
+
+/// The nodes of a document.
+#[derive(Default)]
+pub(super) struct NodeList {
+    pub(super) nodes: Vec<Value>,
+    /// The nodes without a parent.
+    pub(super) roots: Vec<usize>,
+    pub(super) cameras: Vec<Value>,
+    pub(super) lights: Vec<Value>,
+    pub(super) skins: Vec<Value>,
+    pub(super) animations: Vec<Value>,
+    /// The parts of the document that come from [`Graph::document`](scene::Graph::document). Each entry is the name of
+    /// a part and its members.
+    pub(super) kept: Vec<(String, Map<String, Value>)>,
 }
 
 impl<'a> Writer<'a> {

@@ -5,12 +5,12 @@ use std::sync::Arc;
 use scene::{AlphaMode, Filter, Image, Material, Sampler, Texture, TextureTransform};
 use serde_json::json;
 
+use super::extras::parsed;
 use super::materials::{has_scheme, rounded};
 use super::surface::{
     AlphaJson, Extensions, FILTERS, ImageJson, InfoJson, MaterialJson, PbrJson, STRENGTH,
     SamplerJson, TRANSFORM, TextureJson, TransformJson, UNLIT, WRAPS,
 };
-use super::write_nodes::parsed;
 use crate::assets::percent_encoded;
 use crate::error::Unwritable;
 use crate::loss::Losses;

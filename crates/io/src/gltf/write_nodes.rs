@@ -3,27 +3,13 @@
 use std::collections::BTreeSet;
 
 use scene::{Node, Placement, Scene};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
-use super::document::LIGHTS;
+use super::extras::{optional_json, parsed};
+use super::node_json::LIGHTS;
 use super::write_document::{Deformed, Writer};
 use crate::error::Unwritable;
 use crate::loss::Losses;
-
-/// The nodes of a document.
-#[derive(Default)]
-pub(super) struct NodeList {
-    pub(super) nodes: Vec<Value>,
-    /// The nodes without a parent.
-    pub(super) roots: Vec<usize>,
-    pub(super) cameras: Vec<Value>,
-    pub(super) lights: Vec<Value>,
-    pub(super) skins: Vec<Value>,
-    pub(super) animations: Vec<Value>,
-    /// The parts of the document that come from [`Graph::document`](scene::Graph::document). Each entry is the name of
-    /// a part and its members.
-    pub(super) kept: Vec<(String, Map<String, Value>)>,
-}
 
 impl Writer<'_> {
     /// Adds the nodes of the graph, and then a node for each object that no node references.
@@ -146,18 +132,4 @@ fn write_placement(node: &Node, json: &mut Value) -> Result<(), Unwritable> {
         "the placement of the node \"{name}\" exceeds the range of the 32-bit numbers of glTF"
     );
     Err(Unwritable::scene(message))
-}
-
-/// Parses a part of the scene as JSON.
-pub(super) fn parsed(text: &str) -> Result<Value, Unwritable> {
-    serde_json::from_str(text).map_err(|why| {
-        Unwritable::scene(format!(
-            "expected JSON as extras or as a part of a node: {why}"
-        ))
-    })
-}
-
-/// Parses an optional part. The result is null if the part is missing.
-pub(super) fn optional_json(text: Option<&str>) -> Result<Value, Unwritable> {
-    text.map_or(Ok(Value::Null), parsed)
 }

@@ -4,8 +4,8 @@ use gltf_json::accessor::{ComponentType, Type};
 use scene::{AnimatedProperty, Animation, Channel, Graph, Scene, Skin};
 use serde_json::{Value, json};
 
+use super::extras::optional_json;
 use super::write_document::Writer;
-use super::write_nodes::optional_json;
 use crate::error::Unwritable;
 use crate::loss::Losses;
 

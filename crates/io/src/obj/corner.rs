@@ -4,6 +4,7 @@
 use super::file::NONE;
 use crate::fault::Fault;
 use crate::text::{TextPosition, parsed, quoted};
+use mesh::counted;
 
 /// The numbers of positions, texture coordinates and normals.
 pub(super) type Counts = [usize; 3];
@@ -32,18 +33,7 @@ pub(super) enum Limits {
     Whole(Counts),
 }
 
-/// The singular and the plural of a noun.
-type Noun = (&'static str, &'static str);
-const NOUNS: [Noun; 3] = [
-    ("vertex", "vertices"),
-    ("texture coordinate", "texture coordinates"),
-    ("normal", "normals"),
-];
-
-/// Returns a number of elements with its noun, for a message: "1 vertex", "2 vertices".
-fn counted(n: usize, (one, many): Noun) -> String {
-    format!("{n} {}", if n == 1 { one } else { many })
-}
+const NOUNS: [&str; 3] = ["vertex", "texture coordinate", "normal"];
 
 /// Parses `v`, `v/vt`, `v//vn` or `v/vt/vn`. `now` has the numbers of elements that are defined before this corner.
 /// Negative indices count backward from the numbers in `now`.
@@ -79,12 +69,11 @@ fn index(
     field: &[u8],
     count: usize,
     limit: Option<usize>,
-    noun: Noun,
+    noun: &str,
 ) -> Result<Index, Fault> {
     let Some(written) = parsed::<i64>(field) else {
         return Err(place.expected("a corner such as 1, 1/2, 1//3 or 1/2/3", word));
     };
-    let kind = noun.0;
     if written == 0 {
         let word = quoted(word);
         let message = format!("the corner {word} has index 0, but indices start at 1");
@@ -95,7 +84,7 @@ fn index(
         if relative < 0 && limit.is_some() {
             let defined = counted(count, noun);
             let message = format!(
-                "the corner refers to {kind} {written}, but the file defines {defined} before this line"
+                "the corner refers to {noun} {written}, but the file defines {defined} before this line"
             );
             return Err(place.error(message));
         }
@@ -112,7 +101,7 @@ fn index(
                 "defines"
             };
             let message =
-                format!("the corner refers to {kind} {written}, but the file {verb} {defined}");
+                format!("the corner refers to {noun} {written}, but the file {verb} {defined}");
             Err(place.error(message))
         }
     }

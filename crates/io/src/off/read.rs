@@ -1,10 +1,10 @@
 //! Converts the lines of an OFF file to polygons.
 
 use glam::{DVec2, DVec3, DVec4};
-use mesh::{COLOR, Domain, Rule, UV, VERTEX_NORMAL};
+use mesh::{COLOR, Domain, Rule, UV, VERTEX_NORMAL, counted};
 
 use crate::Polygons;
-use crate::fault::{Fault, counted};
+use crate::fault::Fault;
 use crate::note::Notes;
 use crate::peek::{MAX_COMPARED, PeekMesh, are_different};
 use crate::text::{Cursor, TextPosition, check_encoding, number, parsed};

@@ -8,9 +8,10 @@ use std::borrow::Cow;
 use super::header::{Element, Encoding, Header, Property};
 use super::table::Table;
 use super::types::Type;
-use crate::fault::{Fault, Location, counted};
+use crate::fault::{Fault, Location};
 use crate::note::Notes;
 use crate::text::{Cursor, TextPosition, is_not_finite, number, parsed};
+use mesh::counted;
 
 /// The values of a file as bytes.
 #[derive(Debug)]

@@ -2,8 +2,8 @@
 
 use super::header::{Element, Property};
 use super::types::{Type, number, read_all, whole};
-use crate::fault::{Fault, counted};
-use mesh::parallel;
+use crate::fault::Fault;
+use mesh::{counted, parallel};
 
 /// The rows of one element, and the positions of their values.
 #[derive(Debug)]

@@ -7,9 +7,9 @@ use rayon::prelude::*;
 
 use super::buckets::Buckets;
 use super::polygons::{NONE, Polygons, to_id};
-use super::star::Star;
+use super::star::{Outgoing, Star};
+use crate::VertexId;
 use crate::parallel::BLOCK;
-use crate::{HalfEdgeId, VertexId};
 
 /// The pairs of sides, and the vertices and edges at which the polygons are not a manifold.
 pub(super) struct PairedSides {
@@ -25,41 +25,6 @@ pub(super) struct PairedSides {
     pub(super) non_manifold_edges: Vec<[VertexId; 2]>,
     /// Whether any edge has exactly two sides that run in the same direction.
     pub(super) has_inconsistent_edge: bool,
-}
-
-/// An outgoing half-edge of a vertex: the side that starts at a corner, the boundary half-edge that is the twin of such
-/// a side, or none. If c is the index of the corner, the stored value is 2c for a side and 2c + 1 for a boundary
-/// half-edge.
-#[derive(Clone, Copy, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
-#[repr(transparent)]
-pub(super) struct Outgoing(u32);
-
-impl Outgoing {
-    const NONE: Self = Self(NONE);
-
-    /// Returns the side that starts at corner `c`.
-    pub(super) fn along_side(c: u32) -> Self {
-        Self(2 * c)
-    }
-
-    /// Returns the boundary half-edge that is the twin of the side that starts at corner `c`.
-    pub(super) fn along_boundary(c: u32) -> Self {
-        Self(2 * c + 1)
-    }
-
-    /// Returns the id of the outgoing half-edge. `half_edge_of_corner` has the half-edge of each corner.
-    #[inline]
-    pub(super) fn half_edge(self, half_edge_of_corner: &[HalfEdgeId]) -> HalfEdgeId {
-        if self == Self::NONE {
-            return HalfEdgeId::NONE;
-        }
-        let side = half_edge_of_corner[(self.0 / 2) as usize];
-        if self.0.is_multiple_of(2) {
-            side
-        } else {
-            side.twin()
-        }
-    }
 }
 
 /// The non-manifold vertices and edges of a block of vertices.

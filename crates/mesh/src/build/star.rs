@@ -7,8 +7,8 @@
 //!    v ------- to        before j is the other side of the edge.
 //! ```
 
-use super::pair::Outgoing;
 use super::polygons::{NONE, Polygons, to_id};
+use crate::HalfEdgeId;
 
 /// If a vertex has at most this number of corners, they are matched by comparing all pairs; otherwise, they are sorted.
 const MAX_COMPARED: usize = 32;
@@ -32,6 +32,41 @@ pub(super) struct Star {
     /// vertex, the flag can be false in this star. The flag is then true in the star of the vertex at the other end of
     /// the edge.
     pub(super) has_non_manifold_edge: bool,
+}
+
+/// An outgoing half-edge of a vertex: the side that starts at a corner, the boundary half-edge that is the twin of such
+/// a side, or none. If c is the index of the corner, the stored value is 2c for a side and 2c + 1 for a boundary
+/// half-edge.
+#[derive(Clone, Copy, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(transparent)]
+pub(super) struct Outgoing(u32);
+
+impl Outgoing {
+    pub(super) const NONE: Self = Self(NONE);
+
+    /// Returns the side that starts at corner `c`.
+    pub(super) fn along_side(c: u32) -> Self {
+        Self(2 * c)
+    }
+
+    /// Returns the boundary half-edge that is the twin of the side that starts at corner `c`.
+    pub(super) fn along_boundary(c: u32) -> Self {
+        Self(2 * c + 1)
+    }
+
+    /// Returns the id of the outgoing half-edge. `half_edge_of_corner` has the half-edge of each corner.
+    #[inline]
+    pub(super) fn half_edge(self, half_edge_of_corner: &[HalfEdgeId]) -> HalfEdgeId {
+        if self == Self::NONE {
+            return HalfEdgeId::NONE;
+        }
+        let side = half_edge_of_corner[(self.0 / 2) as usize];
+        if self.0.is_multiple_of(2) {
+            side
+        } else {
+            side.twin()
+        }
+    }
 }
 
 /// A fan: corners at one vertex that are connected through shared edges.

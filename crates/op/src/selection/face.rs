@@ -64,7 +64,7 @@ impl Select for FaceSelection {
                 for &number in numbers {
                     let f = FaceId::new((number as usize).min(u32::MAX as usize - 1));
                     if !mesh.has_face(f) {
-                        return Err(missing_element(number, "face", mesh.n_faces(), Self::WORD));
+                        return Err(missing_element(number, "face", mesh.n_faces()));
                     }
                     mask[f.index()] = true;
                 }

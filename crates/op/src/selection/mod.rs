@@ -471,18 +471,13 @@ fn named_vertex(mesh: &Mesh, index: u32) -> Result<VertexId, OpError> {
     if mesh.has_vertex(v) {
         return Ok(v);
     }
-    Err(missing_element(
-        index,
-        "vertex",
-        mesh.n_vertices(),
-        VertexSelection::WORD,
-    ))
+    Err(missing_element(index, "vertex", mesh.n_vertices()))
 }
 
 /// Returns the refusal for an element id that does not exist in a mesh with `n` elements of this kind.
-fn missing_element(number: u32, singular: &str, n: usize, plural: &str) -> OpError {
-    let noun = if n == 1 { singular } else { plural };
-    let message = format!("{singular} {number} does not exist: the mesh has {n} {noun}");
+fn missing_element(number: u32, noun: &str, n: usize) -> OpError {
+    let n = mesh::counted(n, noun);
+    let message = format!("{noun} {number} does not exist: the mesh has {n}");
     OpError::refused(Refusal::Missing, message)
 }
 

@@ -5,8 +5,6 @@ use std::ops::Range;
 
 use mesh::{DVec3, Mesh, VertexId};
 
-use super::subject::counted;
-
 /// An index of the vertices of a mesh for finding them by position. The list `tree` is a k-d tree. The vertex in the
 /// middle of the list splits the other vertices by one coordinate, the one in which their bounding box is longest. Each
 /// half of the list is split in the same way.
@@ -251,7 +249,7 @@ pub(super) fn check(
     if n != m {
         return Err(format!(
             "the mesh has {}, the other mesh has {m}",
-            counted(n, "vertices")
+            mesh::counted(n, "vertex")
         ));
     }
     let Some(map) = PositionIndex::new(mesh).matching(other, |v| other.position(v), tolerance)

@@ -490,11 +490,6 @@ fn check_exact<T: PartialOrd + Copy + Into<i128>>(
     check_bounds(found, bounds, is_equal, actual, message)
 }
 
-/// Returns the number followed by the noun in the right form, such as "1 vertex" or "2 vertices". `what` is the plural.
-pub(super) fn counted(n: usize, what: &str) -> String {
-    format!("{n} {}", singular_if_one(n as u64, what))
-}
-
 /// Returns `what`, a noun in the plural, or its singular if `n` is 1.
 fn singular_if_one(n: u64, what: &str) -> Cow<'_, str> {
     if n != 1 {

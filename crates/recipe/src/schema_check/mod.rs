@@ -32,6 +32,7 @@ mod variants;
 pub use nearest::{did_you_mean, nearest};
 pub(crate) use shorthand::Checked;
 
+use mesh::counted;
 use ron_tree::{Diagnostic, Span, Value, ValueKind};
 pub(crate) use schema::Schema;
 use serde::de::DeserializeOwned;
@@ -381,12 +382,6 @@ fn opening(value: &Value) -> Span {
         Some((_, span)) => span,
         None => Span::new(value.span.start, value.span.end.min(value.span.start + 1)),
     }
-}
-
-/// Returns a number followed by its noun, such as "1 value" or "2 values". The plural of the noun must end with an
-/// additional "s".
-pub fn counted(count: usize, thing: &str) -> String {
-    format!("{count} {thing}{}", if count == 1 { "" } else { "s" })
 }
 
 /// Returns a list of names in backticks, separated by commas.

@@ -1,6 +1,7 @@
 //! Reads the JSON schemas that `schemars` derives (draft 2020-12).
 
-use super::{counted, listed};
+use super::listed;
+use mesh::counted;
 use serde_json::{Map, Value as Json};
 
 /// A JSON schema, together with the schemas to which it refers.

@@ -2,7 +2,8 @@
 
 use super::fields::short;
 use super::schema::{Choice, Schema};
-use super::{Checker, Place, counted, listed, nearest, selections};
+use super::{Checker, Place, listed, nearest, selections};
+use mesh::counted;
 use ron_tree::{Call, Span, Value, ValueKind};
 
 impl Checker {

@@ -25,12 +25,13 @@ mod values;
 use std::ops::Range;
 use std::path::Path;
 
+use mesh::counted;
 use serde_json::json;
 
 use crate::read::wrong_version;
 use crate::recipe::Parameter;
 use crate::schema;
-use crate::schema_check::{self, check_schema, counted, did_you_mean};
+use crate::schema_check::{self, check_schema, did_you_mean};
 use ron_tree::{Diagnostic, Span, Value, ValueKind};
 
 pub use metric::{Measured, Metric, Statistic};

@@ -5,7 +5,7 @@
 use glam::DVec2;
 
 use super::project::GRID;
-use super::shade::{Shader, TriangleData, surface_index};
+use super::shade::{Shader, TriangleData};
 use super::tile::{OFFSETS, SAMPLES, mask_of};
 use crate::View;
 use crate::color::whole;
@@ -39,7 +39,7 @@ impl<'a> Shader<'a> {
     pub(super) fn coverage(&self, id: u32) -> Coverage<'a> {
         let (index, triangle) = self.locate(id);
         let part = &self.drawing.parts[index];
-        let surface_index = surface_index(part, triangle);
+        let surface_index = part.surface_index(triangle);
         let Some(surface) = part.materials.get(surface_index) else {
             return Coverage::Same(u16::MAX);
         };

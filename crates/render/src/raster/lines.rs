@@ -13,7 +13,7 @@ use glam::{DVec2, DVec3};
 use super::TILE;
 use super::project::GRID;
 use super::shade::Shader;
-use super::tile::{NO_TRIANGLE, OFFSETS, Tile};
+use super::tile::{NO_TRIANGLE, OFFSETS, Planes, Tile};
 use crate::View;
 use crate::color::whole_u32;
 use crate::drawing::{Drawing, Line};
@@ -153,9 +153,6 @@ pub(super) fn draw(tile: &mut Tile, number: u32, projected: &ProjectedLine, shad
         }
     }
 }
-
-/// A cache of the planes of triangles. Each entry has the triangle, its face, a point of the plane and the normal.
-pub(super) type Planes = Vec<Option<(u32, (u32, DVec3, DVec3))>>;
 
 impl ProjectedLine {
     /// Whether the point of the line at parameter `t` is in front of the triangle that is visible at a sample. The

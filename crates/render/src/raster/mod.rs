@@ -31,7 +31,7 @@ use rayon::prelude::*;
 use crate::color::{byte, narrow, to_srgb, whole_u32};
 use crate::drawing::Drawing;
 use crate::image::{Image, checked_size};
-use crate::style::Shading;
+use crate::style::Look;
 use crate::work::Work;
 use crate::{PictureError, View};
 use coverage::Coverage;
@@ -41,24 +41,6 @@ use tile::{NO_TRIANGLE, OFFSETS, SAMPLES, Tile};
 
 /// The width and height of a tile in pixels.
 const TILE: u32 = 32;
-
-/// The settings of a style that the rasterizer uses.
-#[derive(Clone, Copy, Debug)]
-pub struct Look {
-    /// The lighting of surfaces.
-    pub shading: Shading,
-    /// The strength of ambient occlusion, from 0 (none) to 1.
-    pub occlusion: f32,
-    /// Linear red, green, blue and alpha of the background.
-    pub background: [f32; 4],
-}
-
-impl Look {
-    /// Whether ambient occlusion is computed.
-    fn has_occlusion(&self) -> bool {
-        self.occlusion > 0.0 && self.shading != Shading::Plain
-    }
-}
 
 /// A rendered drawing.
 #[derive(Clone, Debug, PartialEq)]

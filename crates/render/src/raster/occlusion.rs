@@ -10,7 +10,6 @@ use std::borrow::Cow;
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-use super::shade::surface_index;
 use crate::PictureError;
 use crate::drawing::{Drawing, Part, Surface};
 
@@ -175,7 +174,7 @@ fn triangles_to_draw<'a>(part: &'a Part, length: f64) -> (Cow<'a, [[u32; 3]]>, b
     let has_transparent = part.materials.iter().any(Surface::is_transparent);
     let is_drawn = |&i: &usize| {
         if has_transparent {
-            let surface = part.materials.get(surface_index(part, i));
+            let surface = part.materials.get(part.surface_index(i));
             return !surface.is_some_and(Surface::is_transparent);
         }
         let [a, b, c] = part.corners_at(i);

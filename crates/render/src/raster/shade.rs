@@ -5,11 +5,10 @@
 
 use glam::{DVec2, DVec3};
 
-use super::Look;
 use super::occlusion::Occlusion;
 use crate::color::{mix, narrow};
 use crate::drawing::{Drawing, Part, Surface};
-use crate::style::Shading;
+use crate::style::{Look, Shading};
 use crate::{PictureError, View};
 
 /// The direction to the key light: right, upwards, towards the camera. The vector is not a unit vector.
@@ -260,7 +259,7 @@ impl<'a> Shader<'a> {
         at: DVec2,
     ) -> ([f32; 3], Option<&'a Surface>) {
         let triangle = data.triangle;
-        let surface = part.materials.get(surface_index(part, triangle));
+        let surface = part.materials.get(part.surface_index(triangle));
         let mut color = part.colors.at(part, triangle, point.weights);
         if let Some(s) = surface {
             color = std::array::from_fn(|i| color[i] * s.color[i]);
@@ -358,12 +357,6 @@ fn matcap(color: [f32; 3], n: DVec3, openness: f32) -> [f32; 3] {
         let shade = openness + (1.0 - openness) * color[i] * tint[i] * 0.5;
         (color[i] * broad + border * (0.35 + 0.65 * color[i])) * shade + high
     })
-}
-
-/// Returns the index of the surface of a triangle in [`Part::materials`].
-pub(super) fn surface_index(part: &Part, triangle: usize) -> usize {
-    let material = part.material_of_face.get(part.face(triangle));
-    material.map_or(0, |&m| m as usize)
 }
 
 /// Returns the unit vector in the direction of the cross product, or zero. Scales the vectors first, so that the

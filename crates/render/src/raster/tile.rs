@@ -7,9 +7,10 @@
 
 use std::ops::{Add, BitOr, Mul, Sub};
 
+use glam::DVec3;
+
 use crate::color::narrow;
 
-use super::lines::Planes;
 use super::project::{GRID, GRID_BITS, GridPoint, ProjectedTriangle};
 use super::{Frame, TILE};
 
@@ -53,6 +54,9 @@ pub(super) struct Tile {
     /// Cached planes of triangles.
     pub(super) planes: Planes,
 }
+
+/// A cache of the planes of triangles. Each entry has the triangle, its face, a point of the plane and the normal.
+pub(super) type Planes = Vec<Option<(u32, (u32, DVec3, DVec3))>>;
 
 impl Tile {
     pub(super) fn new() -> Self {

@@ -22,7 +22,6 @@ use progress::{Cancelled, Meter};
 use super::builder::ConnectivityBuilder;
 use super::closure::{Cut, Cuts};
 use super::sides;
-use super::smoothed::SmoothedElements;
 use crate::parallel::BLOCK;
 use crate::topology::{Place, Topology};
 
@@ -41,6 +40,28 @@ pub(super) struct Pieces<'a> {
     inside: PartTable<FaceId>,
     /// The new faces.
     faces: PartTable<FaceId>,
+}
+
+/// The vertices and edges that are smoothed, because all their faces are chosen.
+pub(super) struct SmoothedElements {
+    /// For each vertex, whether all its faces are chosen.
+    vertices: Vec<bool>,
+    /// For each edge, whether all its faces are chosen.
+    edges: Vec<bool>,
+}
+
+impl SmoothedElements {
+    pub(super) fn of(mesh: &Mesh, chosen: &[bool]) -> Self {
+        let mut vertices = vec![true; mesh.n_vertices()];
+        let mut edges = vec![true; mesh.n_edges()];
+        for f in mesh.faces().filter(|f| !chosen[f.index()]) {
+            for h in mesh.face_half_edges(f) {
+                vertices[mesh.origin(h).index()] = false;
+                edges[h.edge().index()] = false;
+            }
+        }
+        Self { vertices, edges }
+    }
 }
 
 /// The ids of the parts into which elements of one kind are cut, in order of the elements.

@@ -1,34 +1,12 @@
-//! Smoothing in local refinement: which elements follow the masks of the scheme.
+//! Smoothing in local refinement: the masks of the elements.
 
-use mesh::{DVec3, Mesh};
+use mesh::DVec3;
 use progress::{Cancelled, Meter};
 
 use super::pieces::Pieces;
 use crate::masks::AnyMasks;
 use crate::parallel::fill;
 use crate::topology::Topology;
-
-/// The vertices and edges that are smoothed, because all their faces are chosen.
-pub(super) struct SmoothedElements {
-    /// For each vertex, whether all its faces are chosen.
-    pub(super) vertices: Vec<bool>,
-    /// For each edge, whether all its faces are chosen.
-    pub(super) edges: Vec<bool>,
-}
-
-impl SmoothedElements {
-    pub(super) fn of(mesh: &Mesh, chosen: &[bool]) -> Self {
-        let mut vertices = vec![true; mesh.n_vertices()];
-        let mut edges = vec![true; mesh.n_edges()];
-        for f in mesh.faces().filter(|f| !chosen[f.index()]) {
-            for h in mesh.face_half_edges(f) {
-                vertices[mesh.origin(h).index()] = false;
-                edges[h.edge().index()] = false;
-            }
-        }
-        Self { vertices, edges }
-    }
-}
 
 /// The masks of local refinement. Smoothed elements follow the masks of the scheme. Old vertices that are not smoothed
 /// stay in place. New vertices on edges that are not smoothed lie in the middle of these edges.

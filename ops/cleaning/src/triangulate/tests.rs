@@ -28,11 +28,7 @@ fn joined(mesh: &Mesh, v: usize, w: usize) -> bool {
 
 fn planned(operation: &Triangulate, mesh: &Mesh) -> MeshPlan {
     let files = Files::default();
-    let cx = PlanContext {
-        files: &files,
-        on: None,
-        budget: u64::MAX,
-    };
+    let cx = PlanContext::new(&files);
     let mut plan = MeshPlan::of(mesh);
     assert_eq!(MeshOperation::plan(operation, &mut plan, &cx), []);
     plan
@@ -362,11 +358,7 @@ fn the_plan_of_faces_of_one_degree_is_exact() {
     let mut unknown = MeshPlan::unknown();
     unknown.edges = Range::at_most(100);
     let files = Files::default();
-    let cx = PlanContext {
-        files: &files,
-        on: None,
-        budget: u64::MAX,
-    };
+    let cx = PlanContext::new(&files);
     MeshOperation::plan(&all(), &mut unknown, &cx);
     assert_eq!(unknown.edges, Range::at_most(300));
 }

@@ -84,11 +84,7 @@ fn a_crossed_seam_is_counted() {
 #[test]
 fn the_plan_reports_a_mesh_without_triangles() {
     let files = Files::default();
-    let cx = PlanContext {
-        files: &files,
-        on: None,
-        budget: u64::MAX,
-    };
+    let cx = PlanContext::new(&files);
     let plan = |operation: &FlipEdges, mesh: &Mesh| {
         MeshOperation::plan(operation, &mut MeshPlan::of(mesh), &cx)
     };

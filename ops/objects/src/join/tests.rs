@@ -208,11 +208,7 @@ fn invalid_lists_are_errors_in_plan_and_apply_and_nothing_changes() {
         ])
     };
     let files = op::Files::default();
-    let cx = PlanContext {
-        files: &files,
-        on: None,
-        budget: u64::MAX,
-    };
+    let cx = PlanContext::new(&files);
     for (text, field) in [
         (r#"(objects: [], name: "all")"#, "objects"),
         (r#"(objects: ["a", "b", "a"], name: "all")"#, "objects.2"),
@@ -258,11 +254,7 @@ fn the_plan_agrees_with_the_result() {
     ]);
     let mut plan = planned(&scene);
     let files = op::Files::default();
-    let cx = PlanContext {
-        files: &files,
-        on: None,
-        budget: u64::MAX,
-    };
+    let cx = PlanContext::new(&files);
     let step = step(r#"(objects: ["a", "b"], name: "all")"#);
     assert_eq!(step.plan(&mut plan, &cx), []);
     op::test::run(&step, &mut scene).unwrap();

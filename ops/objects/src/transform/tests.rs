@@ -193,11 +193,7 @@ fn a_curve_rotates_and_moves_in_its_plane() {
 #[test]
 fn a_curve_must_not_leave_its_plane() {
     let files = op::Files::default();
-    let cx = PlanContext {
-        files: &files,
-        on: None,
-        budget: u64::MAX,
-    };
+    let cx = PlanContext::new(&files);
     for (text, certain) in [
         ("(move: (0, 0, 1))", true),
         ("(scale: (1, 1, 2), about: Point(0, 0, 3))", true),

@@ -71,11 +71,7 @@ fn apply(step: &Step, mesh: &Mesh) -> Result<(Mesh, Report), OpError> {
 
 fn problems(step: &Step, mesh: &Mesh) -> Vec<String> {
     let files = Files::default();
-    let cx = PlanContext {
-        files: &files,
-        on: None,
-        budget: u64::MAX,
-    };
+    let cx = PlanContext::new(&files);
     let found = step.plan("Test", &mut MeshPlan::of(mesh), &cx);
     found
         .into_iter()
@@ -226,11 +222,7 @@ fn distorted_seams_and_lost_values_are_reported() {
 #[test]
 fn planned_counts_are_exact_for_every_scheme_on_every_fixture() {
     let files = Files::default();
-    let cx = PlanContext {
-        files: &files,
-        on: None,
-        budget: u64::MAX,
-    };
+    let cx = PlanContext::new(&files);
     for (name, mut mesh) in fixtures() {
         mesh.set(UV, vec![DVec2::X; mesh.n_half_edges()]);
         mesh.set(CREASE, vec![1.5; mesh.n_edges()]);

@@ -1,6 +1,6 @@
 //! Computes vertex normals: first a vector for each face, then a weighted sum around each vertex.
 
-use mesh::{DVec3, FaceId, Mesh, VertexId, angle_between, parallel};
+use mesh::{DVec3, FaceId, Mesh, VertexId, angle_between, area_vector, parallel};
 
 use crate::vertex_normals::Weight;
 
@@ -16,7 +16,8 @@ const CANCELLED: f64 = 1e-14;
 pub fn normals(mesh: &Mesh, weight: Weight) -> (Vec<DVec3>, usize) {
     let scale = scale(mesh);
     let face_vectors: Vec<DVec3> = parallel::collect(mesh.n_faces(), |f| {
-        let area = area_vector(mesh, FaceId::new(f), scale);
+        let corners = mesh.face_vertices(FaceId::new(f));
+        let area = area_vector(corners.map(|v| scale * mesh.position(v)));
         match weight {
             Weight::Area => area,
             Weight::Angle | Weight::Uniform => area.normalize_or_zero(),
@@ -80,21 +81,6 @@ fn summed_by_angle(mesh: &Mesh, v: VertexId, face_vectors: &[DVec3], scale: f64)
             (sum, along)
         });
     sum.direction()
-}
-
-/// Returns the [`Mesh::area_vector`] of a face of the mesh scaled by `scale`.
-fn area_vector(mesh: &Mesh, f: FaceId, scale: f64) -> DVec3 {
-    let mut corners = mesh.face_vertices(f).map(|v| scale * mesh.position(v));
-    let Some(first) = corners.next() else {
-        return DVec3::ZERO;
-    };
-    let mut sum = DVec3::ZERO;
-    let mut last = DVec3::ZERO;
-    for p in corners.map(|p| p - first) {
-        sum += last.cross(p);
-        last = p;
-    }
-    0.5 * sum
 }
 
 /// Returns a power of two that scales the extent of the mesh to about 1. Multiplying by a power of two is exact, so the

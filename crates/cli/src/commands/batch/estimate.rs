@@ -10,9 +10,9 @@
 //! (`--threads 1`) needs this memory.
 
 use anyhow::ensure;
+use mesh::counted;
 use op::readable_bytes;
 use recipe::Forecast;
-use recipe::schema_check::counted;
 use serde::Serialize;
 
 use super::plan::Batch;

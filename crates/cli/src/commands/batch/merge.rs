@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use anyhow::{bail, ensure};
-use recipe::schema_check::counted;
+use mesh::counted;
 
 use super::row::{Header, Report, Row, State};
 use crate::args::BatchArgs;

@@ -30,9 +30,9 @@ use std::path::Path;
 
 use anyhow::ensure;
 use engine::Engine;
+use mesh::counted;
 use recipe::{
     Diagnostic, Grid, Measured, Metric, OtherMesh, Setting, Severity, Source, Sweep, read_sweep,
-    schema_check::counted,
 };
 use scene::Scene;
 use serde_json::{Value as Json, json};

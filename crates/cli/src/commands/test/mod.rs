@@ -32,7 +32,8 @@ use std::time::{Duration, Instant};
 use ::cache::Cache;
 use anyhow::ensure;
 use engine::{Engine, Loaded, Run};
-use recipe::{Diagnostic, JobLimits, schema_check::counted};
+use mesh::counted;
+use recipe::{Diagnostic, JobLimits};
 use serde_json::{Value as Json, json};
 
 use super::test_update::update_recorded_values;

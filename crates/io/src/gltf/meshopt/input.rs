@@ -1,6 +1,7 @@
 //! Reads the bytes of a compressed stream.
 
-use crate::fault::{Fault, counted};
+use crate::fault::Fault;
+use mesh::counted;
 
 /// Reads a stream between its header and its tail.
 pub(super) struct Input<'a> {

@@ -1,0 +1,19 @@
+//! Parses the parts of a scene that are stored as JSON text.
+
+use serde_json::Value;
+
+use crate::error::Unwritable;
+
+/// Parses a part of the scene as JSON.
+pub(super) fn parsed(text: &str) -> Result<Value, Unwritable> {
+    serde_json::from_str(text).map_err(|why| {
+        Unwritable::scene(format!(
+            "expected JSON as extras or as a part of a node: {why}"
+        ))
+    })
+}
+
+/// Parses an optional part. The result is null if the part is missing.
+pub(super) fn optional_json(text: Option<&str>) -> Result<Value, Unwritable> {
+    text.map_or(Ok(Value::Null), parsed)
+}

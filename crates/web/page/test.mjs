@@ -407,6 +407,18 @@ const tests = {
             return image.decode().then(() => image.naturalWidth > 0);
         }));
         await reference.evaluate(() => document.querySelector("#flipedges").scrollIntoView());
+        // The words of a search are in the name or in the summary.
+        const entries = () => reference.locator("body > ul:first-of-type > li:visible a").allInnerTexts();
+        const all = (await entries()).length;
+        assert.equal(await text(reference, "#found"), `${all} of ${all} operations`);
+        await reference.locator("#search").fill("SPLIT smooth");
+        assert.deepEqual((await entries()).slice(0, 2), ["LoopSubdivide", "CatmullClark"]);
+        assert.equal(await reference.locator("#loopsubdivide").isVisible(), true);
+        assert.equal(await reference.locator("#flipedges").isVisible(), false);
+        assert.equal(await reference.locator("h2:visible").count(), (await entries()).length);
+        await screenshot(reference, "search");
+        await reference.evaluate(() => (location.hash = "#flipedges"));
+        await reference.waitForSelector("#flipedges:visible");
         await screenshot(reference, "operations");
         await page.keyboard.press("Escape");
         assert.equal(await page.locator("#help").isVisible(), false);

@@ -74,7 +74,7 @@ export class Editor {
             bracketMatching(), closeBrackets(), highlightSelectionMatches(), indentUnit.of("    "), ron,
             syntaxHighlighting(colors), autocompletion({ override: [complete] }), messages, tooltips(describe),
             EditorView.cspNonce.of(STYLE_NONCE),
-            matchMedia("(max-width: 800px)").matches ? EditorView.lineWrapping : [],
+            EditorView.lineWrapping,
             EditorView.contentAttributes.of({ "aria-label": "Recipe. Press Escape, then Tab to leave the editor.",
                 spellcheck: "false" }),
             EditorView.updateListener.of((update) => update.docChanged && onChange()),

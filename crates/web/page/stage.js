@@ -168,7 +168,8 @@ export class Stage {
         });
         byId("compare-share").addEventListener("input", ({ target }) => this.view.compare(target.valueAsNumber / 100));
         byId("color-by").addEventListener("change", () => this.#color());
-        byId("fit").addEventListener("click", () => this.view.fit());
+        byId("fit").addEventListener("click", () => this.view.refit());
+        byId("fit").addEventListener("dblclick", () => this.view.fit());
         byId("save-picture").addEventListener("click", async () => {
             const rendered = !byId("picture").hidden;
             try {

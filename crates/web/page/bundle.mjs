@@ -46,7 +46,7 @@ if (existsSync(join(threaded, "core.js"))) {
         copyFileSync(join(threaded, name), join(out, "threads", name));
     }
 }
-for (const name of ["download.js", "style.css", "operations.css", "icon.svg"]) {
+for (const name of ["download.js", "style.css", "operations.css", "operations.js", "icon.svg"]) {
     copyFileSync(join(here, name), join(out, name));
 }
 writeFileSync(join(out, "index.html"), readFileSync(join(here, "index.html"), "utf8").replace("STYLE_NONCE", nonce));

@@ -2,6 +2,10 @@
 import { snippetCompletion, startCompletion } from "@codemirror/autocomplete";
 import { around } from "./ron.js";
 
+/// Operations on whole meshes whose examples work for any mesh.
+const ON_MESHES = ["Transform", "Triangulate", "FillHoles", "Reverse", "Symmetrize", "Simplify", "Remesh", "Smooth", "Displace", "Bend",
+    "Twist", "Taper"];
+
 /// Finds what can be written at a position of a recipe, from the schema of recipes.
 export class Completions {
     #schema;
@@ -153,9 +157,24 @@ export class Completions {
         const reference = `#/$defs/${kind}Selection`;
         return [...this.#examples.values()].flatMap(({ name, example, summary }) => {
             const properties = this.#schema.$defs[name]?.properties ?? {};
-            const field = Object.keys(properties).find((key) => properties[key].$ref === reference);
+            const takes = (node) => node.$ref === reference;
+            const field = Object.keys(properties).find((key) => takes(properties[key]) || properties[key].anyOf?.some(takes));
             return field ? [{ name, summary, text: withField(example, field, selection) }] : [];
         });
+    }
+
+    /// Returns the operations that subdivide whole meshes, as examples of steps.
+    subdivisions() {
+        return this.#steps(({ name }) => this.#schema.$defs[name]?.properties?.levels);
+    }
+
+    /// Returns the operations that are most often used on whole meshes, as examples of steps.
+    onMeshes() {
+        return this.#steps(({ name }) => ON_MESHES.includes(name));
+    }
+
+    #steps(isOffered) {
+        return [...this.#examples.values()].filter(isOffered).map(({ name, summary, example }) => ({ name, summary, text: example }));
     }
 }
 

@@ -11,7 +11,7 @@ import {
 } from "@codemirror/view";
 import { tags } from "@lezer/highlight";
 import { element } from "./dom.js";
-import { endOfSteps, ron } from "./ron.js";
+import { endOfSteps, outline, ron } from "./ron.js";
 
 const colors = HighlightStyle.define([
     { tag: tags.comment, color: "var(--code-comment)", fontStyle: "italic" },
@@ -74,7 +74,7 @@ export class Editor {
             bracketMatching(), closeBrackets(), highlightSelectionMatches(), indentUnit.of("    "), ron,
             syntaxHighlighting(colors), autocompletion({ override: [complete] }), messages, tooltips(describe),
             EditorView.cspNonce.of(STYLE_NONCE),
-            matchMedia("(max-width: 800px)").matches ? EditorView.lineWrapping : [],
+            EditorView.lineWrapping,
             EditorView.contentAttributes.of({ "aria-label": "Recipe. Press Escape, then Tab to leave the editor.",
                 spellcheck: "false" }),
             EditorView.updateListener.of((update) => update.docChanged && onChange()),
@@ -98,14 +98,15 @@ export class Editor {
         this.#view.scrollDOM.scrollTop = 0;
     }
 
-    /// Undoes the last change of the text. Returns false if there is none.
-    undo() {
-        return undo(this.#view);
-    }
-
-    /// Redoes the change that was undone last. Returns false if there is none.
-    redo() {
-        return redo(this.#view);
+    /// Undoes or redoes a change for a key that no text field gets. Returns whether the text has changed.
+    undoOutside(event) {
+        const key = (event.ctrlKey || event.metaKey) && !event.altKey ? event.key.toLowerCase() : "";
+        if (!["y", "z"].includes(key) || event.defaultPrevented ||
+            event.target.closest?.("input, textarea, select, dialog, .cm-editor")) {
+            return false;
+        }
+        event.preventDefault();
+        return (key === "y" || event.shiftKey ? redo : undo)(this.#view);
     }
 
     /// Puts a text in place of the selection.
@@ -128,6 +129,27 @@ export class Editor {
         const anchor = place.end + insert.length;
         this.#view.dispatch({ changes: { from: place.end, insert }, selection: { anchor }, scrollIntoView: true });
         return true;
+    }
+
+    /// Adds a step after the first `count` steps as written. Returns false if there are fewer steps.
+    insertStep(step, count) {
+        const place = outline(this.text).steps[count - 1];
+        if (!place) {
+            return false;
+        }
+        const line = this.#view.state.doc.lineAt(place[0]);
+        const indent = line.text.match(/^ */)[0] + (/\bsteps\s*:/.test(line.text) ? "    " : "");
+        const insert = `,\n${indent}${step}`;
+        this.#view.dispatch({ changes: { from: place[1], insert }, selection: { anchor: place[1] + insert.length },
+            scrollIntoView: true });
+        return true;
+    }
+
+    /// Moves the cursor to the start of a line, counted from 1, without moving the focus.
+    moveTo(line) {
+        const { doc } = this.#view.state;
+        const anchor = doc.line(Math.min(Math.max(line, 1), doc.lines)).from;
+        this.#view.dispatch({ selection: { anchor }, effects: EditorView.scrollIntoView(anchor, { y: "nearest", yMargin: 40 }) });
     }
 
     /// Selects a range or the start of a line, counted from 1, and moves the focus there.

@@ -1,4 +1,5 @@
 // The engine in its worker. The page keeps the files, so that a new worker can replace one that was canceled or has failed.
+import { cut, outline } from "./ron.js";
 
 /// The maximum number of threads. More threads would need much memory and save little time.
 const MAX_THREADS = 16;
@@ -164,6 +165,19 @@ export class Engine {
 
     run(recipe, set) {
         return this.#call("run", recipe, set);
+    }
+
+    /// Runs a recipe up to a step of the list that `check` returns, counted from 1. The steps that the engine has the
+    /// results of do not run again. Returns the result, and the number of steps of the text that have run: a `Call`,
+    /// `Repeat` or `If` is one step of the text, and stands for several steps of the list or for none.
+    async runTo(number, recipe, set) {
+        let [written, most] = [1, outline(recipe).steps.length];
+        while (written < most) {
+            const middle = Math.floor((written + most) / 2);
+            const { steps } = await this.check(cut(recipe, middle), set);
+            [written, most] = steps.length >= number ? [written, middle] : [middle + 1, most];
+        }
+        return { result: await this.run(cut(recipe, written), set), written };
     }
 
     /// Returns the colors of a quantity of the meshes of the last run.

@@ -143,6 +143,14 @@ export class Files {
             "Steps such as Save(path: \"a.obj\") write files, which can be downloaded here.")]);
     }
 
+    /// Disables the downloads while the engine has only the results up to a step.
+    lock() {
+        for (const button of byId("outputs").querySelectorAll("button")) {
+            button.disabled = true;
+            button.title = "Show the last step to download the outputs";
+        }
+    }
+
     #listen() {
         const drop = byId("drop");
         const isFiles = (event) => event.dataTransfer?.types.includes("Files");

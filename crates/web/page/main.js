@@ -1,5 +1,6 @@
 // The page: a recipe is checked while it is typed, and run in the worker of the engine.
 import { Completions } from "./completion.js";
+import { prepareDialogs, showLink } from "./dialogs.js";
 import { byId, debounced, download, notify } from "./dom.js";
 import { Editor } from "./editor.js";
 import { Ended, Engine } from "./engine.js";
@@ -7,9 +8,10 @@ import { Files } from "./files.js";
 import { namedFiles, prepareGallery } from "./gallery.js";
 import { Parameters } from "./parameters.js";
 import { Steps, showProblems } from "./results.js";
-import { LinkError, link, shared } from "./share.js";
+import { LinkError, shared } from "./share.js";
 import { Stage } from "./stage.js";
 import { CUBE, STARTER } from "./starter.js";
+import { isUnfinished, remember, remembered, runBegins, runEnds } from "./visit.js";
 
 const engine = new Engine();
 const loaded = engine.load(globalThis.download);
@@ -19,8 +21,13 @@ let running = true;
 /// Whether the text or a value has changed since the last check or run began.
 let checkAgain = false;
 let runAgain = false;
-/// Whether the visitor has run the recipe. A shared recipe is only checked until then.
+/// Whether changes run the recipe. A recipe whose last run has not ended is only checked until the visitor runs it.
 let trusted = true;
+/// The step whose meshes are shown: `{ number, total, label, written }`, where `written` is the number of steps of the
+/// text that have run; `null` for the last step.
+let shown = null;
+/// Whether the engine runs the recipe only up to a step. The list of steps then keeps the results of the last run.
+let showing = false;
 /// Whether the last run was a run of the same recipe, so that the view keeps its camera.
 let sameRecipe = false;
 /// The axis that points upwards: "y", "z" or "auto".
@@ -45,11 +52,11 @@ const reveal = (range, line) => {
         editor.reveal(range, line);
     }
 };
-const steps = new Steps(reveal);
+const steps = new Steps(reveal, chooseStep);
 const parameters = new Parameters(() => (trusted ? runSoon() : checkSoon()), choosePreset);
-/// Adds a step, and runs the recipe if it is trusted.
+/// Adds a step after the step whose meshes are shown, and runs the recipe if it is trusted.
 function addStep(step) {
-    if (!editor.addStep(step)) {
+    if (!(shown ? editor.insertStep(step, shown.written) : editor.addStep(step))) {
         notify("The recipe has no list of steps.");
     } else if (trusted) {
         run();
@@ -58,7 +65,7 @@ function addStep(step) {
 
 const stage = new Stage(engine, editor, addStep);
 const files = new Files(engine, {
-    openRecipe: (text, name) => openRecipe(text, { title: name, trust: true }),
+    openRecipe: (text, name) => openRecipe(text, { title: name }),
     addStep,
     changed: () => { lastRun = undefined; check(true); },
 });
@@ -69,7 +76,7 @@ engine.onLost = () => {
     files.outputs([]);
 };
 engine.onEvent = (event) => {
-    const text = steps.event(event);
+    const text = showing ? null : steps.event(event);
     if (text) {
         byId("status").textContent = text;
     }
@@ -119,10 +126,6 @@ async function run() {
         return false;
     }
     setRunning(true);
-    if (!trusted) {
-        // Closes the message that the recipe comes from a link.
-        byId("notice").hidden = true;
-    }
     trusted = true;
     await arriving;
     await checkText();
@@ -130,21 +133,31 @@ async function run() {
     steps.begin();
     let result;
     try {
+        runBegins(lastRun);
         result = await engine.run(editor.text, parameters.values);
+        runEnds();
         editor.show(result.problems, true);
         showProblems(result.problems, reveal);
         files.outputs(result.files);
         byId("status").textContent = result.succeeded ? "Done" : result.digest ? "The run failed" : "The recipe has errors";
         if (result.digest) {
+            shown = null;
             await stage.show(result, sameRecipe, up);
             sameRecipe = result.objects.length > 0;
         } else {
-            stage.keep();
+            const { message } = result.problems.find(({ severity }) => severity === "error") ?? {};
+            stage.keep(`The recipe has errors, so it was not run: ${message}`);
         }
     } catch (error) {
         report(error);
     }
     steps.end(result);
+    ended();
+    return Boolean(result?.succeeded);
+}
+
+/// Starts the run or the check that was requested while the engine was busy.
+function ended() {
     setRunning(false);
     if (runAgain) {
         runAgain = checkAgain = false;
@@ -153,7 +166,44 @@ async function run() {
         checkAgain = false;
         check();
     }
-    return Boolean(result?.succeeded);
+}
+
+/// Shows the meshes after a step of the list, counted from 1, and moves the cursor to its line.
+async function chooseStep(number, line) {
+    if (line) {
+        editor.moveTo(line);
+    }
+    if (running) {
+        return;
+    }
+    showTab("view");
+    await (number === steps.total && lastRun === current() ? shown && run() : showStep(number));
+}
+
+/// Runs the recipe up to a step, and shows the meshes after this step. The engine still has the results of these steps.
+async function showStep(number) {
+    setRunning(true);
+    showing = true;
+    const { total } = steps;
+    byId("status").textContent = `Running up to step ${number}`;
+    try {
+        const { result, written } = await engine.runTo(number, editor.text, parameters.values);
+        if (result.steps.length) {
+            const { label } = result.steps.at(-1);
+            shown = { number: result.steps.length, total, label, written };
+            await stage.show(result, sameRecipe, up, shown);
+            sameRecipe = result.objects.length > 0;
+            files.lock();
+            steps.mark(shown.number);
+            byId("status").textContent = `Step ${shown.number} of ${total} is shown`;
+        } else {
+            notify("There are no meshes to show, because this step or a step before it has an error.");
+        }
+    } catch (error) {
+        report(error);
+    }
+    showing = false;
+    ended();
 }
 
 /// Sets the parameters to the values of a preset.
@@ -196,15 +246,16 @@ function report(error) {
     }
 }
 
-/// Replaces the recipe. If `trust` is false, the recipe is only checked until the visitor runs it.
-function openRecipe(text, { title, trust, set = {}, axis = "auto" }) {
+/// Replaces the recipe. If `own` is false, the text is not kept for the next visit.
+function openRecipe(text, { title, own = true, set = {}, axis = "auto" }) {
     sameRecipe = false;
-    trusted = trust;
+    trusted = true;
     up = axis;
     parameters.values = set;
-    foreign = !trust;
+    foreign = !own;
     editor.text = text;
     foreign = false;
+    shown = null;
     steps.list([]);
     byId("notice").hidden = true;
     byId("status").textContent = title;
@@ -220,15 +271,33 @@ function write(needed) {
     files.show();
 }
 
-/// Opens the recipe of the URL. Returns whether there is one.
+/// Runs the recipe that was just opened. If its last run has not ended, the recipe may be one that exhausts the memory,
+/// so it is only checked.
+function runOpened() {
+    trusted = !isUnfinished(current());
+    if (trusted) {
+        return run();
+    }
+    stage.keep("The last run of this recipe did not end: it was canceled, the memory was exhausted, or the page was closed. " +
+        "Press Run to run the recipe again.");
+    return check();
+}
+
+/// Opens and runs the recipe of the URL. Returns whether there is one.
 async function openShared() {
     try {
         const found = await shared(location.hash);
         if (found) {
             arriving = writeNamed(found.recipe);
-            await openRecipe(found.recipe, { title: "Shared recipe", trust: false, set: found.set });
-            notify("This recipe comes from a link. Press Run to see its meshes.",
-                { "Back to your recipe": () => openRecipe(remembered() ?? STARTER, { title: "Your recipe", trust: true }) });
+            await openRecipe(found.recipe, { title: "Shared recipe", own: false, set: found.set });
+            notify("This recipe comes from a link.", { "Back to your recipe": () => {
+                if (running && !byId("run").disabled) {
+                    cancel();
+                }
+                openRecipe(remembered() ?? STARTER, { title: "Your recipe" });
+                runOpened();
+            } });
+            runOpened();
         }
         return Boolean(found);
     } catch (error) {
@@ -250,25 +319,6 @@ async function writeNamed(recipe) {
     }
 }
 
-async function share() {
-    try {
-        const url = await link(editor.text, parameters.values);
-        history.replaceState(null, "", url);
-        byId("link").value = url;
-        byId("link-dialog").showModal();
-        byId("link").select();
-    } catch (error) {
-        notify(error.message);
-    }
-}
-
-function copy(text, button) {
-    navigator.clipboard.writeText(text).then(() => {
-        button.textContent = "Copied";
-        setTimeout(() => (button.textContent = "Copy"), 1500);
-    }, () => notify("The browser does not allow copying. Select the text and copy it yourself."));
-}
-
 /// Keeps the text for the next visit, if the browser allows it. The recipe of a link is kept only once it is edited.
 function edited() {
     if (foreign) {
@@ -280,19 +330,7 @@ function edited() {
     if (location.hash) {
         history.replaceState(null, "", location.pathname + location.search);
     }
-    try {
-        localStorage.setItem("recipe", editor.text);
-    } catch {
-        // If the browser does not allow it, the text is lost when the page is closed.
-    }
-}
-
-function remembered() {
-    try {
-        return localStorage.getItem("recipe");
-    } catch {
-        return null;
-    }
+    remember(editor.text);
 }
 
 function showTab(tab) {
@@ -306,21 +344,16 @@ function listen() {
     // On a narrow screen, the tabs hide the view.
     byId("run").addEventListener("click", async () => await run() && showTab("view"));
     byId("cancel").addEventListener("click", cancel);
-    byId("share").addEventListener("click", share);
+    byId("show-end").addEventListener("click", run);
+    byId("share").addEventListener("click", () => showLink(editor.text, parameters.values));
     byId("open-gallery").addEventListener("click", () => byId("gallery").showModal());
     byId("start-cube").addEventListener("click", () => {
         byId("gallery").close();
-        openRecipe(CUBE, { title: "Cube", trust: true });
+        openRecipe(CUBE, { title: "Cube" });
         run();
     });
     byId("open-help").addEventListener("click", () => byId("help").showModal());
-    for (const dialog of document.querySelectorAll("dialog")) {
-        dialog.querySelector(".heading button").addEventListener("click", () => dialog.close());
-        // A click beside the dialog closes it.
-        dialog.addEventListener("click", (event) => event.target === dialog && dialog.close());
-    }
-    byId("copy-link").addEventListener("click", ({ target }) => copy(byId("link").value, target));
-    byId("copy-digest").addEventListener("click", ({ target }) => copy(byId("digest").textContent, target));
+    prepareDialogs();
     byId("save-recipe").addEventListener("click", () => download("recipe.ron", editor.text, "text/plain"));
     document.querySelector("nav").addEventListener("click", ({ target }) => target.dataset.tab && showTab(target.dataset.tab));
     addEventListener("hashchange", openShared);
@@ -329,25 +362,13 @@ function listen() {
             event.preventDefault();
             run();
         }
-        undoOutside(event);
+        if (editor.undoOutside(event) && trusted) {
+            run();
+        }
     });
 }
 
-/// Undoes or redoes a change of the recipe, and runs it if it is trusted, for a key that no text field gets.
-function undoOutside(event) {
-    const key = (event.ctrlKey || event.metaKey) && !event.altKey ? event.key.toLowerCase() : "";
-    if (!["y", "z"].includes(key) || event.defaultPrevented ||
-        event.target.closest?.("input, textarea, select, dialog, .cm-editor")) {
-        return;
-    }
-    event.preventDefault();
-    const changed = key === "y" || event.shiftKey ? editor.redo() : editor.undo();
-    if (changed && trusted) {
-        run();
-    }
-}
-
-/// Shows the first text while the engine is loading, then runs or checks it.
+/// Shows the first text while the engine is loading, then runs it.
 async function start() {
     listen();
     files.outputs([]);
@@ -364,15 +385,15 @@ async function start() {
     }
     byId("status").textContent = isShared ? "Shared recipe" : "Ready";
     byId("run").disabled = running = false;
-    // A recipe of an earlier visit may be one that exhausts the memory, so it is only checked, unless Run was pressed already.
-    trusted = runAgain || (!isShared && editor.text === STARTER);
+    // If Run was pressed already, the recipe runs in any case.
+    const runs = runAgain;
     runAgain = checkAgain = false;
-    await (trusted ? run() : check());
+    await (runs ? run() : runOpened());
     stage.completions = completions = new Completions(await engine.describe());
     // The gallery is loaded last, because nothing else needs it.
     prepareGallery(({ name, recipe, up: axis, files: needed }) => {
         write(needed);
-        openRecipe(recipe, { title: name, trust: true, axis });
+        openRecipe(recipe, { title: name, axis });
         run();
     });
     // For tests, and for the console of the browser.

@@ -29,6 +29,17 @@ export function numbered(mesh, kind, number) {
     return number < count ? { kind, number, vertices: kind === "edge" ? ends(mesh, number) : [number] } : null;
 }
 
+/// Returns the edge between two vertices, in the form that `nearest` returns; `null` if the mesh has no such edge.
+export function joining(mesh, vertices) {
+    for (let number = 0; number < mesh.edges.length / 2; number += 1) {
+        const found = ends(mesh, number);
+        if (vertices.every((vertex) => found.includes(vertex))) {
+            return { kind: "edge", number, vertices: found };
+        }
+    }
+    return null;
+}
+
 /// Returns the triangles of a face, as indices. These indices are consecutive.
 export function faceTriangles(mesh, face, inside = mesh.faces.indexOf(face)) {
     let first = inside;

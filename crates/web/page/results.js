@@ -26,16 +26,28 @@ export class Steps {
     #steps = [];
     #begin = 0;
 
-    constructor(reveal) {
+    /// `reveal` moves to a place of the recipe. `choose` is called with the number and the line of a step that is clicked.
+    constructor(reveal, choose) {
         this.reveal = reveal;
+        this.choose = choose;
+    }
+
+    /// The number of steps.
+    get total() {
+        return this.#steps.length;
+    }
+
+    /// Marks the step whose meshes are shown.
+    mark(number) {
+        this.#rows.forEach((row, i) => row.classList.toggle("shown", i === number - 1));
     }
 
     /// Shows steps that have not run, and the forecast of their memory in bytes if it is known.
     list(steps, bytes) {
         this.#steps = steps;
         this.#rows = steps.map(({ label, operation, line }, i) => {
-            const show = () => line && this.reveal(null, line);
-            const name = element("button", { type: "button", title: line ? `${label}, line ${line}` : label, onclick: show },
+            const title = `Show the meshes after ${label}${line ? `, line ${line}` : ""}`;
+            const name = element("button", { type: "button", title, onclick: () => this.choose(i + 1, line) },
                 element("span", { class: "number" }, String(i + 1)), " ", label,
                 label === operation ? null : element("span", { class: "operation" }, operation));
             const row = element("tr", {}, element("th", { scope: "row" }, name), ...Array.from({ length: 4 }, () => element("td")));

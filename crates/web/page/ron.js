@@ -89,6 +89,51 @@ export function endOfSteps(text) {
     return null;
 }
 
+/// Returns where the steps and the expectations of a recipe are: `steps` has the start and the end of each step, and
+/// `expect` those of the field `expect` with its comma; `null` if there is no such field.
+export function outline(text) {
+    const steps = [];
+    let expect = null;
+    let depth = 0;
+    let field = null;
+    let step = null;
+    let before = null;
+    for (const token of tokens(text)) {
+        const { kind, start, end } = token;
+        if (kind === "comment") {
+            continue;
+        }
+        const outside = depth;
+        depth += "([{".includes(kind) ? 1 : ")]}".includes(kind) ? -1 : 0;
+        const ends = kind === "," || depth < outside;
+        if (outside === 1 && kind === ":") {
+            field = { name: before?.text, start: before?.start };
+        } else if (outside === 1 && ends) {
+            if (field?.name === "expect") {
+                expect = [field.start, kind === "," ? end : start];
+            }
+            field = null;
+        } else if (field?.name === "steps" && outside >= 2) {
+            if (outside > 2 || !ends) {
+                step ??= [start, end];
+                step[1] = end;
+            } else if (step) {
+                steps.push(step);
+                step = null;
+            }
+        }
+        before = token;
+    }
+    return { steps, expect };
+}
+
+/// Returns the recipe with only its first `count` steps as written, and without expectations.
+export function cut(text, count) {
+    const { steps, expect } = outline(text);
+    const removed = [[steps[count - 1][1], steps.at(-1)[1]], expect].filter(Boolean).sort((a, b) => b[0] - a[0]);
+    return removed.reduce((left, [start, end]) => left.slice(0, start) + left.slice(end), text);
+}
+
 /// Returns a text as a string of a recipe.
 export function quoted(text) {
     return `"${text.replace(/[\\"]/g, "\\$&").replace(/[\u0000-\u001f]/g, "")}"`;

@@ -2,7 +2,7 @@
 import { showLegend } from "./colors.js";
 import { byId, download, element, notify } from "./dom.js";
 import { Ended } from "./engine.js";
-import { numbered, selection } from "./pick.js";
+import { joining, numbered, selection } from "./pick.js";
 import { quoted } from "./ron.js";
 import { MAX_INSTANCES, View } from "./view.js";
 
@@ -17,8 +17,9 @@ export class Stage {
     /// Whether the visitor has switched the edges of this recipe on or off.
     #choseEdges = false;
     #meshes = [];
-    /// Finds the operations that take a selection. Set once the schema is known.
-    completions = null;
+    #completions = null;
+    /// The numbers of the step whose meshes are shown and of all steps; `null` for the meshes after the last step.
+    #shown = null;
     /// `null` if the browser has no WebGL.
     view = null;
 
@@ -39,9 +40,19 @@ export class Stage {
         this.#listen();
     }
 
-    /// Shows the scene of a run. The camera stays if `keep` is true. `up` is the axis that points upwards: "y", "z" or "auto".
-    async show({ meshes, objects, quantities }, keep, up) {
+    /// Offers steps, once the schema is known.
+    set completions(completions) {
+        this.#completions = completions;
+        this.#offerSteps();
+    }
+
+    /// Shows the scene of a run. The camera and the picked elements stay if `keep` is true. `up` is the axis that points
+    /// upwards: "y", "z" or "auto". `step` is `{ number, total, label }` if the scene is that of an earlier step.
+    async show({ meshes, objects, quantities }, keep, up, step = null) {
         this.#enable(true);
+        this.#shown = step;
+        byId("step-shown").hidden = !step;
+        byId("step-text").textContent = step ? `After step ${step.number} of ${step.total}: ${step.label}` : "";
         this.#meshes = meshes;
         this.#offer(meshes.length ? quantities : []);
         const faces = objects.reduce((sum, object) => sum + (object.faces ?? 0), 0);
@@ -56,7 +67,7 @@ export class Stage {
         } else if (!keep) {
             this.#press("up", up === "z");
         }
-        this.#select([]);
+        this.#select(keep ? this.#kept() : []);
         byId("number-label").hidden = meshes.length !== 1;
         const rendered = objects.length > 0 && (!this.view || meshes.length === 0);
         for (const id of ["canvas", "kinds", "pick", "color-part"]) {
@@ -123,11 +134,21 @@ export class Stage {
         }
     }
 
-    /// Shows a note that the picture is from an earlier run.
-    keep() {
+    /// Shows a note why there is no picture, or why it is from an earlier run.
+    keep(reason) {
         this.detach();
-        byId("stage-note").textContent = "This is the scene of the last run without errors in the recipe.";
-        byId("stage-note").hidden = this.#meshes.length === 0;
+        byId("stage-note").textContent = (this.#meshes.length ? "This is the scene of an earlier run. " : "") + reason;
+        byId("stage-note").hidden = false;
+    }
+
+    /// Returns those picked elements that the meshes still have. An edge is the same edge if it has the same vertices,
+    /// because recipes refer to edges by their vertices.
+    #kept() {
+        return this.#picks.flatMap((pick) => {
+            const mesh = this.#meshes.find(({ name }) => name === pick.mesh.name);
+            const found = mesh && (pick.kind === "edge" ? joining(mesh, pick.vertices) : numbered(mesh, pick.kind, pick.number));
+            return found ? [{ mesh, ...found }] : [];
+        });
     }
 
     /// The arrays of the meshes that are shown.
@@ -168,7 +189,8 @@ export class Stage {
         });
         byId("compare-share").addEventListener("input", ({ target }) => this.view.compare(target.valueAsNumber / 100));
         byId("color-by").addEventListener("change", () => this.#color());
-        byId("fit").addEventListener("click", () => this.view.fit());
+        byId("fit").addEventListener("click", () => this.view.refit());
+        byId("fit").addEventListener("dblclick", () => this.view.fit());
         byId("save-picture").addEventListener("click", async () => {
             const rendered = !byId("picture").hidden;
             try {
@@ -193,8 +215,9 @@ export class Stage {
         });
         byId("insert").addEventListener("click", () => this.#editor.insert(selection(this.#picks)));
         byId("add-step").addEventListener("change", ({ target }) => {
-            this.#addStep(target.value);
+            const step = target.value;
             target.value = "";
+            this.#addStep(step);
         });
     }
 
@@ -213,30 +236,42 @@ export class Stage {
     #select(picks, typed = false) {
         this.#picks = picks;
         this.view?.mark(picks);
-        byId("insert").hidden = byId("add-step").hidden = picks.length === 0;
+        byId("insert").hidden = picks.length === 0;
         if (!typed) {
             byId("number").value = picks.length === 1 ? picks[0].number : "";
         }
         byId("picked").textContent = picks.length ? this.#described(picks)
             : "Click an element of a mesh to pick it.";
-        byId("picked").title = byId("picked").textContent;
-        if (!picks.length) {
-            return;
+        byId("insert").title = picks.length ? `Insert ${selection(picks)} at the cursor of the recipe` : "";
+        this.#offerSteps();
+    }
+
+    /// Offers steps for the picked elements, and for whole meshes.
+    #offerSteps() {
+        const picks = this.#picks;
+        const several = this.#meshes.length > 1;
+        const on = (step) => (several && picks.length ? `(on: [${quoted(picks[0].mesh.name)}], run: ${step})` : step);
+        const group = (label, steps = []) => element("optgroup", { label },
+            ...steps.map(({ name, summary, text }) => element("option", { value: on(text), title: summary }, name)));
+        const groups = [];
+        if (picks.length) {
+            const { kind } = picks[0];
+            const steps = this.#completions?.stepsWith(kind[0].toUpperCase() + kind.slice(1), selection(picks));
+            groups.push(group(`Picked ${picks.length > 1 ? plural(kind) : kind}`, steps));
         }
-        const text = selection(picks);
-        byId("insert").textContent = `Insert ${text.length > 30 ? "selection" : text}`;
-        const kind = picks[0].kind[0].toUpperCase() + picks[0].kind.slice(1);
-        const steps = this.completions?.stepsWith(kind, text) ?? [];
-        const on = (step) => (this.#meshes.length > 1 ? `(on: [${quoted(picks[0].mesh.name)}], run: ${step})` : step);
-        byId("add-step").replaceChildren(element("option", { value: "" }, "Add a step"),
-            ...steps.map(({ name, summary, text: step }) => element("option", { value: on(step), title: summary }, name)));
+        groups.push(group(several && !picks.length ? "Subdivide the meshes" : "Subdivide the mesh", this.#completions?.subdivisions()));
+        if (!picks.length) {
+            groups.push(group(several ? "Whole meshes" : "Whole mesh", this.#completions?.onMeshes()));
+        }
+        const title = this.#shown ? `Add after step ${this.#shown.number}` : "Add a step";
+        byId("add-step").replaceChildren(element("option", { value: "" }, title), ...groups);
     }
 
     #described(picks) {
         const { mesh, kind, number, vertices } = picks[0];
         const place = this.#meshes.length > 1 ? ` of ${mesh.name}` : "";
         if (picks.length > 1) {
-            return `${picks.length} ${kind === "vertex" ? "vertices" : `${kind}s`}${place}`;
+            return `${picks.length} ${plural(kind)}${place}`;
         }
         const at = (v) => Array.from(mesh.positions.subarray(3 * v, 3 * v + 3), (x, k) => x + mesh.center[k]);
         const number6 = (x) => String(Number(x.toPrecision(6)));
@@ -247,6 +282,10 @@ export class Stage {
         return kind === "face" ? `Face ${number}${place}: vertices ${vertices.join(", ")}`
             : `Vertex ${number}${place}: ${at(number).map(number6).join(", ")}`;
     }
+}
+
+function plural(kind) {
+    return kind === "vertex" ? "vertices" : `${kind}s`;
 }
 
 function pressed(id) {

@@ -253,8 +253,7 @@ const tests = {
         assert.match(url, /p\.levels=1/);
         const other = await open({ fragment: url.slice(url.indexOf("#")) });
         await ready(other);
-        assert.equal(await other.locator("#digest-part").isVisible(), false);
-        assert.equal(await run(other), digest);
+        assert.equal(await text(other, "#digest"), digest);
         await close(other);
         await page.locator("#close-link").click();
         await page.locator("#reset").click();
@@ -408,6 +407,18 @@ const tests = {
         }));
         await reference.evaluate(() => document.querySelector("#flipedges").scrollIntoView());
         await screenshot(reference, "operations");
+        // The words of a search are in the name or in the summary.
+        const entries = () => reference.locator("body > ul:first-of-type > li:visible a").allInnerTexts();
+        const all = (await entries()).length;
+        assert.equal(await text(reference, "#found"), `${all} of ${all} operations`);
+        await reference.locator("#search").fill("SPLIT smooth");
+        assert.deepEqual((await entries()).slice(0, 2), ["LoopSubdivide", "CatmullClark"]);
+        assert.equal(await reference.locator("#loopsubdivide").isVisible(), true);
+        assert.equal(await reference.locator("#flipedges").isVisible(), false);
+        assert.equal(await reference.locator("h2:visible").count(), (await entries()).length);
+        await screenshot(reference, "search");
+        await reference.evaluate(() => (location.hash = "#flipedges"));
+        await reference.waitForSelector("#flipedges:visible");
         await page.keyboard.press("Escape");
         assert.equal(await page.locator("#help").isVisible(), false);
     },
@@ -606,31 +617,36 @@ const tests = {
             await page.reload();
             await ready(page);
             assert.equal(await page.evaluate(() => meshwright.editor.text), recipe);
-            assert.match(await run(page), /^[0-9a-f]{32}$/, `${name}:\n${recipe}`);
+            // It runs at once.
+            assert.match(await text(page, "#digest"), /^[0-9a-f]{32}$/, `${name}:\n${recipe}`);
         }
     },
 
-    async "hostile links give a message or a recipe that is only checked"(page) {
+    async "hostile links give a message or a recipe that does no harm"(page) {
         await ready(page);
         const link = (content) => `#r=${deflateRawSync(content).toString("base64url")}`;
         const cases = [
             [link("<img src=x onerror=alert(1)><script>alert(2)</script>"), /comes from a link/],
-            [link("(recipe: 1, steps: [Cube(name: \"<img src=x onerror=alert(1)>\")])"), /comes from a link/],
+            [link("(recipe: 1, steps: [Cube(name: \"<img src=x onerror=alert(1)>\")])"), /comes from a link/, 1],
             ["#r=%%%", /damaged/], ["#r=AAAA", /damaged/], ["#r=", /damaged/],
             [link(Buffer.alloc(10_000_000)), /larger than 1 MB/],
             [`#r=${"A".repeat(100_000)}`, /too long/],
-            [link("(recipe: 1, steps: [Cube(name: \"a\")])") + "&p.__proto__=1&p.x=<b>", /comes from a link/],
+            [link("(recipe: 1, steps: [Cube(name: \"a\")])") + "&p.__proto__=1&p.x=<b>", /comes from a link/, 1],
+            [link("(recipe: 1, steps: [Load(path: \"absent.obj\")])"), /comes from a link/],
         ];
-        for (const [fragment, expected] of cases) {
+        for (const [fragment, expected, count = 0] of cases) {
             await page.evaluate((fragment) => {
                 document.querySelector("#notice").replaceChildren();
+                document.querySelector("#steps").replaceChildren();
                 location.hash = fragment;
             }, fragment);
             await page.waitForSelector("#notice [role=status]");
             assert.match(await text(page, "#notice"), expected);
             await page.waitForTimeout(150);
-            assert.equal(await page.locator("#steps tr.done").count(), 0, "it does not run");
+            await page.waitForSelector("#run:visible");
+            assert.equal(await page.locator("#steps tr.done").count(), count, fragment.slice(0, 99));
         }
+        assert.match(await text(page, "#stage-note"), /it was not run: absent.obj/);
         assert.equal(await page.locator("main img[onerror], main script, main b").count(), 0);
         // Links do not replace the visitor's own text, as long as they are not edited.
         await page.goto(`${origin}/?again`);
@@ -638,16 +654,170 @@ const tests = {
         assert.match(await page.evaluate(() => meshwright.editor.text), /jack/);
     },
 
-    async "the text is kept for the next visit, which only checks it"(page) {
+    async "the text is kept for the next visit, which runs it unless its last run did not end"(page) {
         await ready(page);
         await write(page, "(recipe: 1, steps: [Cube(name: \"kept\")])");
         await page.reload();
         await ready(page);
         assert.match(await page.evaluate(() => meshwright.editor.text), /kept/);
-        assert.equal(await page.locator("#steps tr.done").count(), 0);
+        assert.match(await text(page, "#digest"), /^[0-9a-f]{32}$/);
         await page.locator(".cm-line").getByText("Cube").hover();
         await page.waitForSelector(".tip");
         assert.match(await text(page, ".tip"), /Create a cube/);
+        await write(page, "(recipe: 1, steps: [Cube(name: \"a\"), Triangulate(), LoopSubdivide(levels: 9)])");
+        await page.locator("#run").click();
+        await page.waitForSelector("#steps tr:nth-child(5).running");
+        await page.reload();
+        await ready(page);
+        assert.equal(await page.locator("#steps tr.done").count(), 0);
+        assert.match(await text(page, "#stage-note"), /did not end.*Press Run/);
+        await page.locator("#run").click();
+        await page.waitForSelector("#steps tr.running");
+        await page.locator("#cancel").click();
+    },
+
+    async "a click on a step shows the meshes after it, and a step can be added there"(page) {
+        await ready(page);
+        await write(page, `(recipe: 1, params: { "n": Int(default: 2) }, steps: [
+            Cube(name: "a"), // a cube
+            Repeat(times: arg("n"), steps: [CatmullClark(levels: 1)]),
+            (id: "last", run: Save(path: "a.obj"))
+        ], expect: [(after: "last", that: Faces(eq: 96))])`);
+        const digest = await run(page);
+        const recipe = await page.evaluate(() => meshwright.editor.text);
+        const step = (number) => page.locator("#steps th button").nth(number - 1).click();
+        const faces = () => page.evaluate(() => new Set(meshwright.stage.meshes[0].faces).size);
+        const shown = (expected) => page.waitForFunction((expected) =>
+            document.querySelector("#step-text").textContent === expected && document.querySelector("#run").checkVisibility(), expected);
+        await step(1);
+        await shown("After step 1 of 4: Cube");
+        assert.equal(await faces(), 6);
+        assert.equal(await page.locator("#steps tr.shown").count(), 1);
+        // The cube is larger than the meshes at the end, and in the view.
+        assert.equal(await page.evaluate(outside), 0);
+        await screenshot(page, "step");
+        // The recipe and the results of the run stay.
+        assert.equal(await page.evaluate(() => meshwright.editor.text), recipe);
+        assert.equal(await text(page, "#digest"), digest);
+        assert.equal(await page.locator("#problem-list li").count(), 0);
+        assert.equal(await page.getByRole("button", { name: "Download a.obj" }).isDisabled(), true);
+        // The second step repeats, so the meshes after all repetitions are shown.
+        await step(2);
+        await shown("After step 3 of 4: CatmullClark#2");
+        assert.equal(await faces(), 96);
+        await step(1);
+        await shown("After step 1 of 4: Cube");
+        await page.locator("#show-end").click();
+        await page.waitForSelector("#step-shown", { state: "hidden" });
+        await page.waitForSelector("#run:visible");
+        assert.equal(await faces(), 96);
+        assert.equal(await text(page, "#digest"), digest);
+        assert.equal(await page.getByRole("button", { name: "Download a.obj" }).isDisabled(), false);
+        await step(1);
+        await shown("After step 1 of 4: Cube");
+        await page.locator("#number").fill("0");
+        assert.equal(await page.locator("#add-step option").first().innerText(), "Add after step 1");
+        await page.locator("#add-step").selectOption({ label: "PokeFaces" });
+        await page.waitForFunction(() => /PokeFaces\s*9/.test(document.querySelector("#steps").textContent));
+        assert.match(await page.evaluate(() => meshwright.editor.text), /Cube\(name: "a"\),\n {12}PokeFaces\(faces: Faces\(\[0\]\)\), \/\/ a cube\n/);
+    },
+
+    async "subdivision is offered for picked faces and for the whole mesh, and picked elements stay picked"(page) {
+        await ready(page);
+        await page.locator("#open-gallery").click();
+        await page.getByRole("button", { name: "Start from a cube" }).click();
+        await page.waitForSelector("#digest-part:visible");
+        const offered = (group) => page.locator(`#add-step optgroup[label="${group}"] option`).allInnerTexts();
+        const done = (pattern) => page.waitForFunction((pattern) => document.querySelector("#run").checkVisibility()
+            && new RegExp(pattern).test(document.querySelector("#steps").textContent), pattern);
+        assert.deepEqual((await offered("Subdivide the mesh")).slice(0, 2), ["LoopSubdivide", "CatmullClark"]);
+        assert((await offered("Whole mesh")).includes("Smooth"));
+        await page.locator("#number").fill("3");
+        assert((await offered("Picked face")).includes("ExtrudeFaces"));
+        assert.equal(await page.locator("#add-step option", { hasText: "CatmullClark" }).first().getAttribute("value"),
+            "CatmullClark(faces: Faces([3]), levels: 2)");
+        assert((await offered("Subdivide the mesh")).includes("CatmullClark"));
+        await page.locator("#add-step").selectOption({ label: "ExtrudeFaces" });
+        await done("ExtrudeFaces\\s*12");
+        assert.match(await text(page, "#picked"), /^Face 3: vertices/);
+        assert.equal(await page.locator("#number").inputValue(), "3");
+        // An edge keeps its vertices, whatever its number is. The two halves of a split edge are other edges.
+        await page.getByLabel("Edge", { exact: true }).check();
+        await page.locator("#number").fill("0");
+        const vertices = (await text(page, "#picked")).match(/vertices \d+ and \d+/)[0];
+        await page.locator("#add-step").selectOption({ label: "TagEdges" });
+        await done("TagEdges");
+        assert((await text(page, "#picked")).includes(vertices));
+        await page.locator("#add-step").selectOption({ label: "SplitEdges" });
+        await done("SplitEdges");
+        assert.equal(await text(page, "#picked"), "Click an element of a mesh to pick it.");
+        await page.locator("#add-step").selectOption({ label: "CatmullClark" });
+        await done("CatmullClark");
+    },
+
+    async "Fit keeps the direction of the view, and a double click resets it"(page) {
+        await ready(page);
+        const place = () => page.evaluate(() => [0, 7].flatMap((v) => meshwright.stage.view.project(meshwright.stage.meshes[0], v)).map(Math.round));
+        const first = await place();
+        await page.locator("#canvas").focus();
+        await page.keyboard.press("ArrowLeft");
+        await page.locator("#fit").click();
+        const turned = await place();
+        assert.notDeepEqual(turned, first);
+        await page.locator("#canvas").focus();
+        for (let i = 0; i < 9; i += 1) {
+            await page.keyboard.press("+");
+        }
+        assert.notEqual(await page.evaluate(outside), 0);
+        await page.locator("#fit").click();
+        assert.deepEqual(await place(), turned);
+        await page.locator("#fit").dblclick();
+        assert.deepEqual(await place(), first);
+    },
+
+    async "messages name no commands of the program"(page) {
+        await ready(page);
+        const helps = {
+            "steps: [Xyzzy()]": "the reference, linked below the recipe, lists all operations",
+            "steps: [Cube(), FlipEdges(edges: Xyzzy)]": "Ctrl+Space lists all selections",
+            "steps: [Cube()], expect: [Xyzzy]": "Ctrl+Space lists all expectations",
+        };
+        for (const [content, help] of Object.entries(helps)) {
+            await write(page, `(recipe: 1, ${content})`);
+            await page.waitForFunction((help) => document.querySelector("#problem-list .help")?.textContent === help, help);
+            await run(page);
+            assert((await text(page, ".line-message")).includes(help));
+        }
+        const [reference] = await Promise.all([page.context().waitForEvent("page"), page.locator("#problems a").click()]);
+        await reference.waitForSelector("#flipedges");
+    },
+
+    async "the layout shows the digest, long steps and picked elements"(page) {
+        await ready(page);
+        const isInside = (selector) => page.evaluate((selector) => {
+            const { left, right, top, bottom } = document.querySelector(selector).getBoundingClientRect();
+            return left >= 0 && top >= 0 && right <= innerWidth && bottom <= innerHeight;
+        }, selector);
+        assert(await isInside("#copy-digest"));
+        await page.evaluate(() => {
+            const faces = Array.from({ length: 60 }, (_, i) => i).join(", ");
+            meshwright.editor.addStep(`ExtrudeFaces(faces: Faces([${faces}]), by: Distance(0.01))`);
+        });
+        assert.notEqual(await run(page), "");
+        assert(await isInside("#digest"));
+        for (const selector of ["html", "body", "main", ".cm-scroller"]) {
+            assert(await page.evaluate((selector) => {
+                const { scrollLeft, scrollWidth, clientWidth } = document.querySelector(selector);
+                return scrollLeft === 0 && scrollWidth <= clientWidth;
+            }, selector), `${selector} does not scroll sideways`);
+        }
+        for (const kind of ["Edge", "Vertex", "Face"]) {
+            await page.getByLabel(kind, { exact: true }).check();
+            await page.locator("#number").fill("1234");
+            assert.match(await text(page, "#picked"), new RegExp(`^${kind} 1234: `));
+            assert(await page.locator("#picked").evaluate((part) => part.scrollWidth <= part.clientWidth && part.scrollHeight <= part.clientHeight), kind);
+            assert(await isInside("#add-step"));
+        }
     },
 
     async "the view turns with keys, and a selection has several elements"(page) {
@@ -775,6 +945,7 @@ await styled.context().close();
 // The page on a phone, in the dark.
 const phone = await open({ size: [390, 844], scheme: "dark" });
 await ready(phone);
+await phone.evaluate(() => meshwright.editor.addStep("TagFaces(name: \"some\", faces: And([Facing(direction: (0, 0, 1), within: 45), All]))"));
 await run(phone);
 await phone.waitForFunction(() => document.body.dataset.tab === "view");
 for (const tab of ["recipe", "view", "results"]) {
@@ -782,10 +953,17 @@ for (const tab of ["recipe", "view", "results"]) {
     await phone.waitForTimeout(300);
     if (tab === "view") {
         assert.equal(await phone.evaluate(outside), 0, "the meshes fit the pane");
+        await phone.getByLabel("Edge", { exact: true }).check();
+        await phone.locator("#number").fill("1234");
+        assert(await phone.locator("#picked").evaluate((part) => part.scrollWidth <= part.clientWidth && part.scrollHeight <= part.clientHeight));
     }
     await screenshot(phone, `phone-${tab}`);
     assert.equal(await phone.evaluate(() => document.documentElement.scrollWidth), 390, "the page is not wider than the phone");
 }
+assert(await phone.evaluate(() => document.querySelector("#digest").getBoundingClientRect().bottom <= innerHeight));
+await phone.locator("#steps th button").first().click();
+await phone.waitForSelector("#step-shown:visible");
+await screenshot(phone, "phone-step");
 await phone.locator("#open-help").click();
 await screenshot(phone, "phone-help");
 await close(phone);

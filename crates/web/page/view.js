@@ -21,9 +21,9 @@ export class View {
     #controls;
     #scene = new THREE.Scene();
     #content = new THREE.Group();
-    /// The meshes of the previous run.
+    /// The meshes that were shown before.
     #earlier = new THREE.Group();
-    /// The fraction of the width that shows the meshes of the previous run, from 0 to 1.
+    /// The fraction of the width that shows the meshes that were shown before, from 0 to 1.
     #split = 0;
     #marks = new Marks();
     #center = new THREE.Vector3();
@@ -97,7 +97,7 @@ export class View {
             this.#style.up = up !== "auto" ? up : stands(box, center.toArray()) ? "z" : "y";
             this.fit();
         } else if (this.#radius > 2 * before || this.#radius < before / 2) {
-            this.#refit();
+            this.refit();
         } else {
             this.#keepAll(sawAll);
         }
@@ -105,12 +105,12 @@ export class View {
         return this.#style.up;
     }
 
-    /// Whether there are meshes of the previous run, which `compare` shows.
+    /// Whether there are meshes that were shown before, which `compare` shows.
     get hasEarlier() {
         return this.#earlier.children.length > 0;
     }
 
-    /// Shows the meshes of the previous run on the left, on this fraction of the width.
+    /// Shows the meshes that were shown before on the left, on this fraction of the width.
     compare(fraction) {
         this.#split = fraction;
         this.#draw();
@@ -189,7 +189,7 @@ export class View {
     }
 
     /// Moves the camera so that all meshes fit the view, without turning it.
-    #refit() {
+    refit() {
         this.fit(this.#camera.position.clone().sub(this.#controls.target));
     }
 
@@ -197,20 +197,32 @@ export class View {
     /// now.
     #keepAll(sawAll) {
         if (sawAll && !this.#seesAll()) {
-            this.#refit();
+            this.refit();
         }
     }
 
-    /// Whether the bounding box of the meshes is in the view.
+    /// Whether all vertices are in the view.
     #seesAll() {
-        const { min, max } = this.box ?? new THREE.Box3();
-        const ends = [min, max];
         this.#camera.updateMatrixWorld();
-        const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((i) => new THREE.Vector3(ends[i & 1].x, ends[(i >> 1) & 1].y, ends[i >> 2].z));
-        return corners.every((corner) => {
-            const { x, y } = corner.project(this.#camera);
-            return Math.abs(x) <= 1 && Math.abs(y) <= 1;
-        });
+        for (const point of this.#points(3e4)) {
+            const { x, y } = point.project(this.#camera);
+            if (Math.abs(x) > 1 || Math.abs(y) > 1) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    /// Yields the vertices, as one vector that changes. If there are more than `most` vertices, it is enough to use some
+    /// of them.
+    *#points(most) {
+        const point = new THREE.Vector3();
+        for (const { matrixWorld, userData: { mesh: { positions } } } of this.#content.children) {
+            const stride = 3 * Math.ceil((positions.length * this.#content.children.length) / (3 * most));
+            for (let k = 0; k < positions.length; k += stride) {
+                yield point.fromArray(positions, k).applyMatrix4(matrixWorld);
+            }
+        }
     }
 
     /// Returns the least distance of the camera from which all vertices are visible, with a margin.
@@ -218,22 +230,16 @@ export class View {
         const right = new THREE.Vector3().crossVectors(up, front).normalize();
         const upwards = new THREE.Vector3().crossVectors(front, right);
         const tangent = Math.tan(THREE.MathUtils.degToRad(ANGLE) / 2) * 0.9;
-        const point = new THREE.Vector3();
         let distance = this.#radius;
-        for (const { matrixWorld, userData: { mesh: { positions } } } of this.#content.children) {
-            // If there are many vertices, it is enough to use some of them.
-            const stride = 3 * Math.ceil((positions.length * this.#content.children.length) / 3e5);
-            for (let k = 0; k < positions.length; k += stride) {
-                point.fromArray(positions, k).applyMatrix4(matrixWorld).sub(center);
-                const across = Math.max(Math.abs(point.dot(right)) / this.#camera.aspect, Math.abs(point.dot(upwards)));
-                distance = Math.max(distance, point.dot(front) + across / tangent);
-            }
+        for (const point of this.#points(1e5)) {
+            point.sub(center);
+            const across = Math.max(Math.abs(point.dot(right)) / this.#camera.aspect, Math.abs(point.dot(upwards)));
+            distance = Math.max(distance, point.dot(front) + across / tangent);
         }
         return distance;
     }
 
-    /// Makes the current meshes the meshes of the previous run, and moves them by `move`. If `keep` is false, drops
-    /// them.
+    /// Makes the current meshes those that were shown before, and moves them by `move`. If `keep` is false, drops them.
     #retire(keep, move) {
         for (const child of this.#earlier.children.flatMap((object) => object.children)) {
             child.geometry.dispose();

@@ -1,6 +1,7 @@
 // Owns the engine. The page sends `{ id, call, args }` and receives `{ id, value }` or `{ id, error, fatal }`, and
 // `{ event }` during a run. The first message has the compiled engine and the files.
 import { Session } from "meshwright";
+import { inPage } from "./messages.js";
 
 let session;
 
@@ -14,11 +15,14 @@ export const calls = {
     write: (path, bytes) => session.write(path, bytes),
     read: (path) => session.read(path),
     remove: (path) => session.remove(path),
-    check: (recipe, set, preset) => session.check(recipe, { set, preset }),
+    check(recipe, set, preset) {
+        const checked = session.check(recipe, { set, preset });
+        return { ...checked, problems: inPage(checked.problems) };
+    },
     run(recipe, set) {
         const result = session.run(recipe, { set, onEvent: (event) => postMessage({ event }) });
         const meshes = result.objects.filter((object) => object.kind === "mesh");
-        return { ...result, quantities: session.quantities(), meshes: meshes.map(({ name }) => ({ name, placements: session.placements(name), ...session.mesh(name) })) };
+        return { ...result, problems: inPage(result.problems), quantities: session.quantities(), meshes: meshes.map(({ name }) => ({ name, placements: session.placements(name), ...session.mesh(name) })) };
     },
     colors: (quantity) => session.colors(quantity),
     picture: (options) => session.picture(options),

@@ -1,0 +1,43 @@
+// What the browser keeps between visits: the text of the recipe, and which run has not ended.
+
+/// Keeps the text for the next visit.
+export function remember(text) {
+    keep("recipe", text);
+}
+
+/// Returns the text of the last visit; `null` if there is none.
+export function remembered() {
+    return kept("recipe");
+}
+
+/// Notes that a run of this text with these values has begun.
+export function runBegins(run) {
+    keep("unfinished", run);
+}
+
+/// Notes that the run has ended.
+export function runEnds() {
+    keep("unfinished", "");
+}
+
+/// Returns whether the last run was a run of this text with these values, and has not ended. This happens if the run
+/// was canceled, if it exhausted the memory, or if the page was closed meanwhile.
+export function isUnfinished(run) {
+    return kept("unfinished") === run;
+}
+
+function keep(key, text) {
+    try {
+        localStorage.setItem(key, text);
+    } catch {
+        // If the browser does not allow it, the text is lost when the page is closed.
+    }
+}
+
+function kept(key) {
+    try {
+        return localStorage.getItem(key);
+    } catch {
+        return null;
+    }
+}

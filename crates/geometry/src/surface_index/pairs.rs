@@ -8,7 +8,8 @@ use super::SurfaceIndex;
 /// The search is divided into about this number of tasks.
 const TASKS: usize = 1024;
 
-/// Two subtrees whose triangles are compared. If both are the same subtree, each pair of triangles is visited once.
+/// Two subtrees whose triangles are compared. If both subtrees are the same subtree of the same index, each pair of
+/// triangles is visited once.
 type Task = (usize, usize);
 
 impl SurfaceIndex {
@@ -24,7 +25,38 @@ impl SurfaceIndex {
         keep: impl Fn(u32, u32) -> bool + Sync,
         progress: &dyn Progress,
     ) -> Result<Vec<[u32; 2]>, Cancelled> {
-        let pairs = Pairs { index: self, keep };
+        self.search(self, true, &keep, progress)
+    }
+
+    /// Returns all pairs of a triangle of this index and a triangle of another index whose bounding boxes overlap or
+    /// touch, and for which `keep` returns true, in ascending order. Runs in parallel; only the pairs that are kept
+    /// take memory.
+    ///
+    /// # Errors
+    ///
+    /// Returns [`Cancelled`] if `progress` asks to stop.
+    pub fn pairs_with(
+        &self,
+        other: &Self,
+        keep: impl Fn(u32, u32) -> bool + Sync,
+        progress: &dyn Progress,
+    ) -> Result<Vec<[u32; 2]>, Cancelled> {
+        self.search(other, false, &keep, progress)
+    }
+
+    fn search(
+        &self,
+        other: &Self,
+        is_self: bool,
+        keep: &(impl Fn(u32, u32) -> bool + Sync),
+        progress: &dyn Progress,
+    ) -> Result<Vec<[u32; 2]>, Cancelled> {
+        let pairs = Pairs {
+            one: self,
+            two: other,
+            is_self,
+            keep,
+        };
         let mut tasks = vec![(0, 0)];
         while tasks.len() < TASKS {
             let mut parts = Vec::with_capacity(4 * tasks.len());
@@ -55,8 +87,10 @@ impl SurfaceIndex {
 }
 
 struct Pairs<'a, K> {
-    index: &'a SurfaceIndex,
-    keep: K,
+    one: &'a SurfaceIndex,
+    two: &'a SurfaceIndex,
+    is_self: bool,
+    keep: &'a K,
 }
 
 impl<K: Fn(u32, u32) -> bool> Pairs<'_, K> {
@@ -64,8 +98,8 @@ impl<K: Fn(u32, u32) -> bool> Pairs<'_, K> {
     /// itself becomes the three pairs of its children. Returns `None` if both nodes are leaves. Pairs of nodes whose
     /// boxes do not overlap are left out.
     fn parts(&self, (i, j): Task) -> Option<[Option<Task>; 3]> {
-        let (a, b) = (&self.index.nodes[i], &self.index.nodes[j]);
-        if i == j {
+        let (a, b) = (&self.one.nodes[i], &self.two.nodes[j]);
+        if self.is_self && i == j {
             let right = a.right as usize;
             let across = self.overlap((i + 1, right));
             return (right != 0).then_some([Some((i + 1, i + 1)), across, Some((right, right))]);
@@ -89,7 +123,7 @@ impl<K: Fn(u32, u32) -> bool> Pairs<'_, K> {
     }
 
     fn overlap(&self, (i, j): Task) -> Option<Task> {
-        let (a, b) = (self.index.nodes.get(i)?, self.index.nodes.get(j)?);
+        let (a, b) = (self.one.nodes.get(i)?, self.two.nodes.get(j)?);
         touch([a.min, a.max], [b.min, b.max]).then_some((i, j))
     }
 
@@ -110,17 +144,20 @@ impl<K: Fn(u32, u32) -> bool> Pairs<'_, K> {
             if n_leaves.is_multiple_of(1 << 14) {
                 ask()?;
             }
-            let SurfaceIndex {
-                nodes, positions, ..
-            } = self.index;
-            let (a, b) = (&nodes[task.0], &nodes[task.1]);
+            let (a, b) = (&self.one.nodes[task.0], &self.two.nodes[task.1]);
             for s in a.first..a.last {
-                let around = bounds(&positions[s as usize]);
-                let is_same_leaf = task.0 == task.1;
+                let around = bounds(&self.one.positions[s as usize]);
+                let is_same_leaf = self.is_self && task.0 == task.1;
                 for t in if is_same_leaf { s + 1 } else { b.first }..b.last {
-                    let (first, second) = (s.min(t), s.max(t));
-                    if touch(around, bounds(&positions[t as usize])) && (self.keep)(first, second) {
-                        found.push([first, second]);
+                    if touch(around, bounds(&self.two.positions[t as usize])) {
+                        let pair = if self.is_self {
+                            [s.min(t), s.max(t)]
+                        } else {
+                            [s, t]
+                        };
+                        if (self.keep)(pair[0], pair[1]) {
+                            found.push(pair);
+                        }
                     }
                 }
             }

@@ -185,19 +185,27 @@ fn the_intersecting_faces_of_random_soups_are_those_of_all_pairs() {
 #[test]
 fn pairs_are_those_of_all_boxes_and_the_same_for_any_number_of_threads() {
     let mut random = Random(5);
-    let mesh = soup(400, || random.lattice_point() + 0.5 * random.point());
-    let index = SurfaceIndex::new(&mesh).unwrap();
+    let [a, b] = [400, 300].map(|n| {
+        let mesh = soup(n, || random.lattice_point() + 0.5 * random.point());
+        SurfaceIndex::new(&mesh).unwrap()
+    });
     let bounds = |t: &[DVec3; 3]| [t[0].min(t[1]).min(t[2]), t[0].max(t[1]).max(t[2])];
     let touch = |s, t| {
         let ([min, max], [low, high]) = (bounds(s), bounds(t));
         (0..3).all(|i| min[i] <= high[i] && low[i] <= max[i])
     };
-    let mut expected = Vec::new();
-    for (i, s) in (0..).zip(&index.positions) {
-        expected.extend(
+    let (mut own, mut cross) = (Vec::new(), Vec::new());
+    for (i, s) in (0..).zip(&a.positions) {
+        own.extend(
             (0..)
-                .zip(&index.positions)
+                .zip(&a.positions)
                 .filter(|(j, t)| i < *j && touch(s, t))
+                .map(|(j, _)| [i, j]),
+        );
+        cross.extend(
+            (0..)
+                .zip(&b.positions)
+                .filter(|(_, t)| touch(s, t))
                 .map(|(j, _)| [i, j]),
         );
     }
@@ -207,8 +215,9 @@ fn pairs_are_those_of_all_boxes_and_the_same_for_any_number_of_threads() {
             .build()
             .unwrap();
         pool.install(|| {
-            assert_eq!(index.pairs(|_, _| true, &NoProgress).unwrap(), expected);
-            assert!(index.pairs(|_, _| false, &NoProgress).unwrap().is_empty());
+            assert_eq!(a.pairs(|_, _| true, &NoProgress).unwrap(), own);
+            assert_eq!(a.pairs_with(&b, |_, _| true, &NoProgress).unwrap(), cross);
+            assert!(a.pairs(|_, _| false, &NoProgress).unwrap().is_empty());
         });
     }
 }

@@ -137,7 +137,7 @@ impl Pictures {
             let n = drawn.further;
             let failures = counted(n, "failure");
             print_error(&format!(
-                "warning: {failures} after the first {MAX_PICTURES} not drawn\n"
+                "warning: only the first {MAX_PICTURES} failures are drawn, not the {failures} after them\n"
             ));
         }
     }

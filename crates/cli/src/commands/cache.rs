@@ -26,11 +26,15 @@ pub(crate) fn run(args: &CacheCommandArgs) -> anyhow::Result<bool> {
         }))?;
         return Ok(true);
     }
-    let [steps, blobs] = [size.steps, size.blobs].map(group_digits);
+    let steps = group_digits(size.steps);
     let s = if size.steps == 1 { "" } else { "s" };
+    let blobs = match size.blobs {
+        1 => "1 array or file".to_owned(),
+        n => format!("{} arrays and files", group_digits(n)),
+    };
     let bytes = readable_bytes(size.bytes);
     print(&format!(
-        "folder  {shown}\n{word}  {bytes}: {steps} step{s}, {blobs} arrays and files\n"
+        "folder  {shown}\n{word}  {bytes}: {steps} step{s}, {blobs}\n"
     ))?;
     Ok(true)
 }

@@ -347,7 +347,9 @@ fn at_most_20_failures_of_a_run_are_drawn() {
     folder
         .run("run r.ron --picture-errors=e")
         .with_code(1)
-        .complains(&["warning: 10 failures after the first 20 not drawn\n"]);
+        .complains(&[
+            "warning: only the first 20 failures are drawn, not the 10 failures after them\n",
+        ]);
 
     assert_eq!(folder.entries("e").len(), 20);
 }

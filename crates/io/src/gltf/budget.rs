@@ -57,9 +57,11 @@ impl Budget {
 
     /// Takes bytes from the budget. The budget limits memory even if many parts of a file refer to the same bytes.
     ///
+    /// `pointer` is the location that needs the memory.
+    ///
     /// # Errors
     ///
-    /// Returns an error if the budget is used up. `pointer` is the location that needs the memory.
+    /// Returns an error if the budget is used up.
     pub(super) fn spend(&self, bytes: u64, pointer: &str) -> Result<(), Fault> {
         let left = self.left.get().checked_sub(bytes).ok_or_else(|| {
             let message = format!(
@@ -75,9 +77,11 @@ impl Budget {
     /// Takes the decoded size of a compressed view from the budget, and returns it as a `usize`. A stream of zeros can
     /// be compressed to a thousandth of its decoded size, but real files do not consist of zeros.
     ///
+    /// `pointer` is the location that needs the memory.
+    ///
     /// # Errors
     ///
-    /// Returns an error if the budget is used up. `pointer` is the location that needs the memory.
+    /// Returns an error if the budget is used up.
     pub(super) fn inflate(&self, bytes: u64, pointer: &str) -> Result<usize, Fault> {
         self.spend(bytes, pointer)?;
         let left = self.inflation.get().checked_sub(bytes);

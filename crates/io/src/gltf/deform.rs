@@ -38,10 +38,11 @@ impl Repairs {
 
 /// Reads the weights of all joints that the primitive uses, into one column of `n` values for each joint.
 ///
+/// `here` is the location of the primitive.
+///
 /// # Errors
 ///
-/// Returns an error if an accessor is invalid, or refers to a joint that the skin does not have. `here` is the location
-/// of the primitive.
+/// Returns an error if an accessor is invalid, or refers to a joint that the skin does not have.
 pub(super) fn joints(
     reader: &Reader,
     primitive: &Primitive,
@@ -159,9 +160,11 @@ fn index(joint: f64) -> usize {
 
 /// Reads the deltas of the morph targets, into one column of `n` values for each target of the mesh.
 ///
+/// `here` is the location of the primitive.
+///
 /// # Errors
 ///
-/// Returns an error if an accessor is invalid. `here` is the location of the primitive.
+/// Returns an error if an accessor is invalid.
 pub(super) fn morphs(
     reader: &Reader,
     primitive: &Primitive,
@@ -264,9 +267,11 @@ impl Directions {
     /// target. `own` are the directions of the primitive. Each direction has three or more numbers, of which morph
     /// targets change the first three. If the primitive has no directions, the columns are zero.
     ///
+    /// `here` is the location of the primitive.
+    ///
     /// # Errors
     ///
-    /// Returns an error if an accessor is invalid. `here` is the location of the primitive.
+    /// Returns an error if an accessor is invalid.
     pub(super) fn read<T: Value + Pod>(
         &self,
         reader: &Reader,

@@ -278,7 +278,7 @@ function runOpened() {
     if (trusted) {
         return run();
     }
-    stage.keep("The last run of this recipe did not end: it was canceled, the memory was exhausted, or the page was closed. " +
+    stage.keep("The last run of this recipe did not end: it was canceled, the memory was exhausted, or the browser ended the page. " +
         "Press Run to run the recipe again.");
     return check();
 }
@@ -354,6 +354,8 @@ function listen() {
     });
     byId("open-help").addEventListener("click", () => byId("help").showModal());
     prepareDialogs();
+    // The visitor leaves the page, so it was not the run that ended it.
+    addEventListener("pagehide", () => running && runEnds());
     byId("save-recipe").addEventListener("click", () => download("recipe.ron", editor.text, "text/plain"));
     document.querySelector("nav").addEventListener("click", ({ target }) => target.dataset.tab && showTab(target.dataset.tab));
     addEventListener("hashchange", openShared);

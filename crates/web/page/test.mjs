@@ -667,6 +667,11 @@ const tests = {
         await write(page, "(recipe: 1, steps: [Cube(name: \"a\"), Triangulate(), LoopSubdivide(levels: 9)])");
         await page.locator("#run").click();
         await page.waitForSelector("#steps tr:nth-child(5).running");
+        // A run that the visitor leaves runs again.
+        await page.reload();
+        await page.waitForSelector("#steps tr:nth-child(5).running");
+        await page.locator("#cancel").click();
+        await page.waitForSelector("#run:visible");
         await page.reload();
         await ready(page);
         assert.equal(await page.locator("#steps tr.done").count(), 0);

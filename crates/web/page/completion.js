@@ -163,6 +163,24 @@ export class Completions {
         });
     }
 
+    /// Returns the fields of an operation that may have inputs. `type` is `number`, `boolean`, `choice` or `other`, `names`
+    /// also has the other names of the field, and `standard` is its default.
+    inputs(operation) {
+        const properties = this.#examples.has(operation) ? this.#schema.$defs[operation]?.properties ?? {} : {};
+        const fields = Object.entries(properties).filter(([, node]) => !JSON.stringify(node).includes("Selection\""));
+        return fields.map(([name, node]) => {
+            const all = this.#alternatives(node);
+            const types = all.flatMap((choice) => choice.type ?? []).filter((type) => type !== "null");
+            const of = all.flatMap((choice) => choice.const ?? choice.enum ?? null);
+            const type = ["number", "integer"].includes(types[0]) && all.length === 1 ? "number"
+                : types[0] === "boolean" && all.length === 1 ? "boolean"
+                    : of.every((choice) => typeof choice === "string") && of.includes(node.default) ? "choice" : "other";
+            const { minimum: min, maximum: max } = all[0] ?? {};
+            return { name, names: [name, ...node.aliases ?? []], type, of, min, max, whole: types[0] === "integer",
+                standard: node.default, info: this.#description(node) };
+        });
+    }
+
     /// Returns the operations that subdivide whole meshes, as examples of steps.
     subdivisions() {
         return this.#steps(({ name }) => this.#schema.$defs[name]?.properties?.levels);

@@ -65,9 +65,9 @@ function tooltips(describe) {
 export class Editor {
     #view;
 
-    /// Creates the editor. `onChange` is called after each change of the text, `complete` finds completions, and
+    /// Creates the editor. `onChange` is called after each change of the text, `onMove` after the cursor has moved, `complete` finds completions, and
     /// `describe(text, position, word)` returns the description of a word or `null`.
-    constructor(parent, { onChange, complete, describe, run }) {
+    constructor(parent, { onChange, onMove, complete, describe, run }) {
         const extensions = [
             keymap.of([{ key: "Mod-Enter", run: () => { run(); return true; } }]),
             lineNumbers(), highlightActiveLine(), highlightActiveLineGutter(), lintGutter(), history(), drawSelection(),
@@ -77,7 +77,14 @@ export class Editor {
             EditorView.lineWrapping,
             EditorView.contentAttributes.of({ "aria-label": "Recipe. Press Escape, then Tab to leave the editor.",
                 spellcheck: "false" }),
-            EditorView.updateListener.of((update) => update.docChanged && onChange()),
+            EditorView.updateListener.of((update) => {
+                if (update.docChanged) {
+                    onChange();
+                }
+                if (update.docChanged || update.selectionSet) {
+                    onMove();
+                }
+            }),
             keymap.of([...closeBracketsKeymap, ...defaultKeymap, ...searchKeymap, ...historyKeymap, ...completionKeymap,
                 ...lintKeymap, indentWithTab]),
         ];
@@ -86,6 +93,16 @@ export class Editor {
 
     get text() {
         return this.#view.state.doc.toString();
+    }
+
+    /// The position of the cursor.
+    get cursor() {
+        return this.#view.state.selection.main.head;
+    }
+
+    /// Replaces a part of the text.
+    replace(from, to, insert) {
+        this.#view.dispatch({ changes: { from, to, insert } });
     }
 
     /// Replaces the whole text, as one change, and puts the cursor after the last step. The change can be undone, except for

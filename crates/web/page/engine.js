@@ -163,6 +163,13 @@ export class Engine {
         return this.#call("check", recipe, set, preset);
     }
 
+    /// Returns the values that a preset of a recipe changes.
+    async presetValues(recipe, preset) {
+        const [plain, chosen] = await Promise.all([this.check(recipe, {}), this.check(recipe, {}, preset)]);
+        const changed = chosen.parameters.filter(({ value }, i) => value !== plain.parameters[i].value);
+        return Object.fromEntries(changed.map(({ name, value }) => [name, value]));
+    }
+
     run(recipe, set) {
         return this.#call("run", recipe, set);
     }

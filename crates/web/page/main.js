@@ -8,6 +8,7 @@ import { Files } from "./files.js";
 import { namedFiles, prepareGallery } from "./gallery.js";
 import { Parameters } from "./parameters.js";
 import { Steps, showProblems } from "./results.js";
+import { StepForm } from "./step_form.js";
 import { LinkError, shared } from "./share.js";
 import { Stage } from "./stage.js";
 import { CUBE, STARTER } from "./starter.js";
@@ -42,6 +43,7 @@ let completions;
 
 const editor = new Editor(byId("editor"), {
     onChange: () => { edited(); checkSoon(); },
+    onMove: () => showForm(),
     complete: (context) => completions?.source(context) ?? null,
     describe: (...place) => completions?.describe(...place) ?? null,
     run,
@@ -53,12 +55,20 @@ const reveal = (range, line) => {
     }
 };
 const steps = new Steps(reveal, chooseStep);
-const parameters = new Parameters(() => (trusted ? runSoon() : checkSoon()), choosePreset);
+const inputChanged = () => (trusted ? runSoon() : checkSoon());
+const parameters = new Parameters(inputChanged, (preset) =>
+    engine.presetValues(editor.text, preset).then((values) => parameters.setAll(values), report));
+const form = new StepForm(editor, inputChanged);
+const showForm = debounced(50, () => form.show());
 /// Adds a step after the step whose meshes are shown, and runs the recipe if it is trusted.
 function addStep(step) {
     if (!(shown ? editor.insertStep(step, shown.written) : editor.addStep(step))) {
         notify("The recipe has no list of steps.");
-    } else if (trusted) {
+        return;
+    }
+    form.show();
+    byId("step-part").scrollIntoView({ block: "nearest" });
+    if (trusted) {
         run();
     }
 }
@@ -173,11 +183,10 @@ async function chooseStep(number, line) {
     if (line) {
         editor.moveTo(line);
     }
-    if (running) {
-        return;
+    if (!running) {
+        showTab("view");
+        await (number === steps.total && lastRun === current() ? shown && run() : showStep(number));
     }
-    showTab("view");
-    await (number === steps.total && lastRun === current() ? shown && run() : showStep(number));
 }
 
 /// Runs the recipe up to a step, and shows the meshes after this step. The engine still has the results of these steps.
@@ -204,18 +213,6 @@ async function showStep(number) {
     }
     showing = false;
     ended();
-}
-
-/// Sets the parameters to the values of a preset.
-async function choosePreset(name) {
-    try {
-        const text = editor.text;
-        const [plain, chosen] = await Promise.all([engine.check(text, {}), engine.check(text, {}, name)]);
-        const changed = chosen.parameters.filter(({ value }, i) => value !== plain.parameters[i].value);
-        parameters.setAll(Object.fromEntries(changed.map(({ name, value }) => [name, value])));
-    } catch (error) {
-        report(error);
-    }
 }
 
 /// Returns the text and the values as one key.
@@ -278,7 +275,7 @@ function runOpened() {
     if (trusted) {
         return run();
     }
-    stage.keep("The last run of this recipe did not end: it was canceled, the memory was exhausted, or the page was closed. " +
+    stage.keep("The last run of this recipe did not end: it was canceled, the memory was exhausted, or the browser ended the page. " +
         "Press Run to run the recipe again.");
     return check();
 }
@@ -357,6 +354,8 @@ function listen() {
     byId("save-recipe").addEventListener("click", () => download("recipe.ron", editor.text, "text/plain"));
     document.querySelector("nav").addEventListener("click", ({ target }) => target.dataset.tab && showTab(target.dataset.tab));
     addEventListener("hashchange", openShared);
+    // The visitor leaves the page, so it was not the run that ended it.
+    addEventListener("pagehide", () => running && runEnds());
     addEventListener("keydown", (event) => {
         if (event.key === "Enter" && (event.ctrlKey || event.metaKey) && !event.defaultPrevented) {
             event.preventDefault();
@@ -389,7 +388,8 @@ async function start() {
     const runs = runAgain;
     runAgain = checkAgain = false;
     await (runs ? run() : runOpened());
-    stage.completions = completions = new Completions(await engine.describe());
+    form.completions = stage.completions = completions = new Completions(await engine.describe());
+    form.show();
     // The gallery is loaded last, because nothing else needs it.
     prepareGallery(({ name, recipe, up: axis, files: needed }) => {
         write(needed);

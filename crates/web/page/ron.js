@@ -134,6 +134,48 @@ export function cut(text, count) {
     return removed.reduce((left, [start, end]) => left.slice(0, start) + left.slice(end), text);
 }
 
+/// Returns the index of the step at a position: the last step that starts before the position or on its line, and does
+/// not end before it; `null` if there is none.
+export function stepAt(text, position) {
+    const { steps } = outline(text);
+    const line = text.lastIndexOf("\n", position - 1) + 1;
+    const lineEnd = `${text}\n`.indexOf("\n", position);
+    // The comma after a step belongs to the step.
+    const near = steps.filter(([start, end]) => start <= lineEnd && end + 1 >= position && (start <= position || start >= line));
+    const found = near.findLast(([start]) => start <= position) ?? near[0];
+    return found ? steps.indexOf(found) : null;
+}
+
+/// Returns the operation of a step, `{ name, fields, next }`: `fields` has the tokens of the value of each field, and
+/// `next` says where another field can be written, and what comes before it. Returns `null` if the text is incomplete.
+export function written(text, [begin, finish]) {
+    const all = [...tokens(text.slice(begin, finish))].filter(({ kind }) => kind !== "comment")
+        .map((token) => ({ ...token, start: token.start + begin, end: token.end + begin }));
+    const first = all[0].kind === "(" ? all.findIndex(({ kind }, i) => kind === ":" && all[i - 1]?.text === "run") + 1 : 0;
+    if (all[first]?.kind !== "word" || all[first + 1]?.kind !== "(") {
+        return null;
+    }
+    const fields = new Map();
+    let depth = 1;
+    let value = null;
+    for (let i = first + 2; i < all.length; i += 1) {
+        const { kind, text: word } = all[i];
+        depth += "([{".includes(kind) ? 1 : ")]}".includes(kind) ? -1 : 0;
+        if (depth === 0) {
+            const last = all[i - 1];
+            return { name: all[first].text, fields, next: { from: last.end, to: last.end, before: "(,".includes(last.kind) ? "" : ", " } };
+        }
+        if (depth === 1 && kind === "word" && all[i + 1]?.kind === ":") {
+            value = [];
+            fields.set(word, value);
+            i += 1;
+        } else if (!(depth === 1 && kind === ",")) {
+            value?.push(all[i]);
+        }
+    }
+    return null;
+}
+
 /// Returns a text as a string of a recipe.
 export function quoted(text) {
     return `"${text.replace(/[\\"]/g, "\\$&").replace(/[\u0000-\u001f]/g, "")}"`;

@@ -216,7 +216,12 @@ export class Stage {
         byId("insert").addEventListener("click", () => this.#editor.insert(selection(this.#picks)));
         byId("add-step").addEventListener("change", ({ target }) => {
             const step = target.value;
+            const isForPicked = target.selectedOptions[0].parentElement.label.startsWith("Picked");
             target.value = "";
+            if (!isForPicked) {
+                // A step for the whole mesh often gives the numbers to other elements.
+                this.#select([]);
+            }
             this.#addStep(step);
         });
     }

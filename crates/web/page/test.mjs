@@ -667,6 +667,11 @@ const tests = {
         await write(page, "(recipe: 1, steps: [Cube(name: \"a\"), Triangulate(), LoopSubdivide(levels: 9)])");
         await page.locator("#run").click();
         await page.waitForSelector("#steps tr:nth-child(5).running");
+        // A run that the visitor leaves runs again.
+        await page.reload();
+        await page.waitForSelector("#steps tr:nth-child(5).running");
+        await page.locator("#cancel").click();
+        await page.waitForSelector("#run:visible");
         await page.reload();
         await ready(page);
         assert.equal(await page.locator("#steps tr.done").count(), 0);
@@ -751,8 +756,46 @@ const tests = {
         await page.locator("#add-step").selectOption({ label: "SplitEdges" });
         await done("SplitEdges");
         assert.equal(await text(page, "#picked"), "Click an element of a mesh to pick it.");
-        await page.locator("#add-step").selectOption({ label: "CatmullClark" });
+        // A step for the whole mesh gives the numbers to other elements.
+        await page.locator("#number").fill("0");
+        await page.locator("#add-step").selectOption("CatmullClark(levels: 2)");
         await done("CatmullClark");
+        assert.equal(await text(page, "#picked"), "Click an element of a mesh to pick it.");
+    },
+
+    async "a form changes the numbers of the step at the cursor"(page) {
+        await ready(page);
+        await write(page, "(recipe: 1, steps: [\n    Cube(name: \"a\"),\n])");
+        await run(page);
+        await page.locator("#number").fill("0");
+        await page.locator("#add-step").selectOption({ label: "ExtrudeFaces" });
+        await page.waitForFunction(() => document.querySelector("#step-title").textContent === "Step: ExtrudeFaces");
+        const step = async (pattern) => {
+            await page.waitForFunction((pattern) => new RegExp(pattern).test(meshwright.editor.text), pattern);
+            await page.waitForFunction(() => document.querySelector("#status").textContent === "Done");
+        };
+        const top = () => page.evaluate(() => Math.max(...meshwright.stage.meshes[0].positions) - Math.min(...meshwright.stage.meshes[0].positions));
+        await page.getByLabel("by: Distance").fill("3");
+        await step("ExtrudeFaces\\(faces: Faces\\(\\[0\\]\\), by: Distance\\(3\\)\\),");
+        assert.equal(await top(), 5);
+        // A field that is not written has its default as a placeholder.
+        assert.equal(await page.getByLabel("scale").getAttribute("placeholder"), "1");
+        await page.getByLabel("scale").fill("0.5");
+        await step("by: Distance\\(3\\), scale: 0.5\\),");
+        await page.locator("#add-step").selectOption({ label: "CatmullClark" });
+        await page.getByLabel("levels").fill("1");
+        await step("CatmullClark\\(faces: Faces\\(\\[0\\]\\), levels: 1\\),");
+        await page.getByLabel("boundary").selectOption("EdgesAndCorners");
+        await step("levels: 1, boundary: EdgesAndCorners\\),");
+        await page.locator("#add-step").selectOption("CatmullClark(levels: 2)");
+        await page.waitForFunction(() => document.querySelector("#step-fields input").value === "2");
+        await page.getByLabel("to_limit").check();
+        await step("CatmullClark\\(levels: 2, to_limit: true\\),");
+        await screenshot(page, "form");
+        // A click on a step moves the cursor there.
+        await page.locator("#steps th button").nth(1).click();
+        await page.waitForFunction(() => document.querySelector("#step-title").textContent === "Step: ExtrudeFaces");
+        assert.equal(await page.getByLabel("by: Distance").inputValue(), "3");
     },
 
     async "Fit keeps the direction of the view, and a double click resets it"(page) {

@@ -15,13 +15,13 @@ export function runBegins(run) {
     keep("unfinished", run);
 }
 
-/// Notes that the run has ended.
+/// Notes that the run has ended, or that the visitor has left the page.
 export function runEnds() {
     keep("unfinished", "");
 }
 
 /// Returns whether the last run was a run of this text with these values, and has not ended. This happens if the run
-/// was canceled, if it exhausted the memory, or if the page was closed meanwhile.
+/// was canceled, if it exhausted the memory, or if the browser ended the page.
 export function isUnfinished(run) {
     return kept("unfinished") === run;
 }

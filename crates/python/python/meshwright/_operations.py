@@ -876,10 +876,11 @@ class SceneOperations:
 
         Edges are flipped in order of their ids. Each flip is checked against the mesh as edited so far. A flip is
         refused if the edge is on the boundary, or if a face beside it is not a triangle. A flip is also refused if the
-        two corners opposite to the edge are the same vertex or are already joined by an edge. At a seam, a flip is
-        refused unless ``seams`` is ``Drop``. All elements keep their ids, and no vertex moves. Vertices, edges and
-        faces keep their values. Each triangle gets one new corner. The new corner of a triangle gets its values from
-        the corner of the other triangle at the same vertex. All other corners keep their values.
+        two corners opposite to the edge are the same vertex or are already joined by an edge, or if an end of the edge
+        has only two edges. At a seam, a flip is refused unless ``seams`` is ``Drop``. All elements keep their ids, and
+        no vertex moves. Vertices, edges and faces keep their values. Each triangle gets one new corner. The new corner
+        of a triangle gets its values from the corner of the other triangle at the same vertex. All other corners keep
+        their values.
 
         With ``until="Delaunay"`` or ``until="Valence"``, an edge is flipped only if the flip improves the mesh. Edges
         are checked again, pass after pass, until a pass flips no edge or ``passes`` is reached. Flips with
@@ -3345,10 +3346,11 @@ class MeshOperations:
 
         Edges are flipped in order of their ids. Each flip is checked against the mesh as edited so far. A flip is
         refused if the edge is on the boundary, or if a face beside it is not a triangle. A flip is also refused if the
-        two corners opposite to the edge are the same vertex or are already joined by an edge. At a seam, a flip is
-        refused unless ``seams`` is ``Drop``. All elements keep their ids, and no vertex moves. Vertices, edges and
-        faces keep their values. Each triangle gets one new corner. The new corner of a triangle gets its values from
-        the corner of the other triangle at the same vertex. All other corners keep their values.
+        two corners opposite to the edge are the same vertex or are already joined by an edge, or if an end of the edge
+        has only two edges. At a seam, a flip is refused unless ``seams`` is ``Drop``. All elements keep their ids, and
+        no vertex moves. Vertices, edges and faces keep their values. Each triangle gets one new corner. The new corner
+        of a triangle gets its values from the corner of the other triangle at the same vertex. All other corners keep
+        their values.
 
         With ``until="Delaunay"`` or ``until="Valence"``, an edge is flipped only if the flip improves the mesh. Edges
         are checked again, pass after pass, until a pass flips no edge or ``passes`` is reached. Flips with

@@ -5,11 +5,8 @@ use geometry::distance::vertex_distances_with;
 use geometry::sparse::SolveError;
 use geometry::surface_index::{SurfaceIndex, Winding};
 use mesh::{Domain, FaceId, VertexId, parallel};
-use op::Refusal;
 use op::prelude::*;
-use op::{Operation, named_object};
-
-use crate::Measure;
+use op::{Refusal, named_object};
 
 /// A quantity that is computed for each vertex or for each face.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -269,8 +266,7 @@ fn other_mesh<'s>(scene: &'s Scene, name: &str) -> Result<&'s Mesh, OpError> {
     let kind = object.geometry.kind();
     let wrong = || {
         OpError::Object(format!(
-            "{} needs a mesh, but the type of \"{name}\" is {kind}",
-            Measure::NAME
+            "Measure needs a mesh, but the type of \"{name}\" is {kind}"
         ))
     };
     object.as_mesh().map(AsRef::as_ref).ok_or_else(wrong)

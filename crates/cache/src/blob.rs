@@ -4,7 +4,7 @@ use std::fs::{self, File};
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
-use scene::{ArraySource, Scene};
+use scene::{ArraySource, DecodeError, Scene};
 use serde::{Deserialize, Serialize};
 
 use crate::folder::{
@@ -71,12 +71,13 @@ impl ArraySource for StoredArrays<'_> {
         self.remaining.first().map(|blob| blob.len)
     }
 
-    fn read(&mut self, bytes: &mut [u8]) -> Result<(), String> {
-        let (blob, remaining) = self.remaining.split_first().ok_or("an array is missing")?;
+    fn read(&mut self, bytes: &mut [u8]) -> Result<(), DecodeError> {
+        let next = self.remaining.split_first();
+        let (blob, remaining) = next.ok_or(DecodeError::Array("an array is missing"))?;
         self.remaining = remaining;
         load_bytes(self.folder, blob, bytes).map_err(|why| {
             self.failed = Some(why);
-            "an array cannot be read".to_owned()
+            DecodeError::Array("an array cannot be read")
         })
     }
 }

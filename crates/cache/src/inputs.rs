@@ -1,7 +1,6 @@
 //! The files that steps read: their state when they were read, and whether they have changed since then.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::io;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
@@ -51,9 +50,8 @@ impl Inputs {
 #[derive(Debug)]
 pub(crate) struct FileChecker {
     run_start: SystemTime,
-    /// The digests of the files that were read. If a path is not a regular file, `None` takes the place of the digest.
-    /// If a file cannot be read, an error takes the place of the digest.
-    known: BTreeMap<PathBuf, Result<Option<Hash>, String>>,
+    /// The states of the files that were read: `Content` or `Missing`; `None` if a file cannot be read.
+    known: BTreeMap<PathBuf, Option<PathState>>,
 }
 
 impl FileChecker {
@@ -64,12 +62,12 @@ impl FileChecker {
         }
     }
 
-    fn content(&mut self, path: &Path) -> Result<Option<Hash>, String> {
+    fn content(&mut self, path: &Path) -> Option<PathState> {
         if let Some(known) = self.known.get(path) {
-            return known.clone();
+            return *known;
         }
-        let found = digest_of(path).map_err(|error| error.to_string());
-        self.known.insert(path.to_owned(), found.clone());
+        let found = content_of(path);
+        self.known.insert(path.to_owned(), found);
         found
     }
 
@@ -84,7 +82,7 @@ impl FileChecker {
             let change = match file.state {
                 PathState::Missing if exists => FileChange::Appeared,
                 PathState::Content(_) | PathState::Exists if !exists => FileChange::Gone,
-                PathState::Content(before) if self.content(&file.path) != Ok(Some(before)) => {
+                PathState::Content(_) if self.content(&file.path) != Some(file.state) => {
                     FileChange::Changed
                 }
                 _ => return None,
@@ -119,12 +117,11 @@ impl FileChecker {
             // The file may have changed since its digest was computed.
             self.known.remove(*path);
             let state = match self.content(path) {
-                Ok(Some(_)) if self.is_new(path) => {
+                Some(PathState::Content(_)) if self.is_new(path) => {
                     return Err(((*path).clone(), "the file changed during the run"));
                 }
-                Ok(Some(hash)) => PathState::Content(hash),
-                Ok(None) => PathState::Missing,
-                Err(_) => return Err(((*path).clone(), "the file cannot be read")),
+                Some(state) => state,
+                None => return Err(((*path).clone(), "the file cannot be read")),
             };
             let path = (*path).clone();
             files.push(FileState { path, state });
@@ -149,14 +146,17 @@ impl FileChecker {
     }
 }
 
-/// Returns the digest of a regular file, or `None` if the path is not a regular file.
-fn digest_of(path: &Path) -> io::Result<Option<Hash>> {
+/// Reads a path, and returns its state: `Content` or `Missing`. Returns `None` if the file cannot be read.
+fn content_of(path: &Path) -> Option<PathState> {
     if !path.is_file() {
-        return Ok(None);
+        return Some(PathState::Missing);
     }
     match open(path) {
-        Ok((mut file, _)) => hash_rest(&mut file).map(|(hash, _)| Some(hash)),
-        Err(Unusable::Missing) => Ok(None),
-        Err(Unusable::Damaged(why)) => Err(io::Error::other(why)),
+        Ok((mut file, _)) => {
+            let (hash, _) = hash_rest(&mut file).ok()?;
+            Some(PathState::Content(hash))
+        }
+        Err(Unusable::Missing) => Some(PathState::Missing),
+        Err(Unusable::Damaged(_)) => None,
     }
 }

@@ -134,7 +134,7 @@ impl CachedRun for Session<'_> {
             }
             Err((path, why)) => {
                 self.notes.push(format!(
-                    "the result of step {number} {label} is not stored, because its input files cannot be determined ({}: {why})",
+                    "the result of step {number} {label} is not stored, because the input files of the step cannot be determined ({}: {why})",
                     path.display()
                 ));
                 // Later steps can still be cached, because the identity of the scene after this step is computed from

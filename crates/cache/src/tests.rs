@@ -16,7 +16,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tempfile::TempDir;
 
-use recipe::{Outcome, Reader, RerunReason, Settings, Silent};
+use recipe::{Outcome, Reader, RerunReason, Settings, Silent, Violation};
 
 use self::operations::{registry, steps};
 use crate::{Cache, Caching};
@@ -25,10 +25,10 @@ use crate::{Cache, Caching};
 struct GridReader;
 
 impl Reader for GridReader {
-    fn scene(&self, path: &Path, files: &Files) -> Result<Scene, String> {
+    fn scene(&self, path: &Path, files: &Files) -> Result<Scene, Violation> {
         files.has_read(path);
         let text = fs::read_to_string(path).map_err(|error| error.to_string())?;
-        let n = text.trim().parse().map_err(|_| "no number".to_owned())?;
+        let n = text.trim().parse().map_err(|_| "no number")?;
         let mut scene = Scene::new();
         let object = Object::mesh("file", geometry::shapes::grid(n, 1));
         scene.insert(object).map_err(|error| error.to_string())?;
@@ -40,8 +40,8 @@ impl Reader for GridReader {
         _: (&Path, &[u8]),
         _: (&Path, &[u8]),
         _: u8,
-    ) -> Result<Option<String>, String> {
-        Err("these tests compare no pictures".to_owned())
+    ) -> Result<Option<String>, Violation> {
+        Err("these tests compare no pictures".into())
     }
 }
 

@@ -40,7 +40,8 @@ mod text;
 pub use curve::{ControlPoint, control_points, pick_control_point};
 pub use document::{Conflict, Document, FileChange, SaveError};
 pub use edit::{
-    Command, CommandError, Editor, Movement, OpenError, SelectionText, Settings, Update, View,
+    Command, CommandError, Editor, Movement, OpenError, PickError, SelectionText, Settings, Update,
+    View,
 };
 pub use half_edge::{AttributeInfo, HalfEdgeInfo, Walk, of_element, walk};
 pub use journal::{Recovery, recoverable};

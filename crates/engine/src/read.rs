@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use op::Files;
-use recipe::Reader;
+use recipe::{Reader, Violation};
 use render::PictureError;
 use scene::Scene;
 
@@ -12,7 +12,7 @@ use scene::Scene;
 pub struct FileReader;
 
 impl Reader for FileReader {
-    fn scene(&self, path: &Path, files: &Files) -> Result<Scene, String> {
+    fn scene(&self, path: &Path, files: &Files) -> Result<Scene, Violation> {
         let options = mesh_io::ReadOptions::default();
         let loaded =
             mesh_io::read(&*files.store, path, &options).map_err(|error| error.to_string())?;
@@ -30,7 +30,7 @@ impl Reader for FileReader {
         found: (&Path, &[u8]),
         expected: (&Path, &[u8]),
         tolerance: u8,
-    ) -> Result<Option<String>, String> {
+    ) -> Result<Option<String>, Violation> {
         let message = |error| match error {
             PictureError::Unreadable { file, why } => {
                 let path = [found.0, expected.0][file];
@@ -38,6 +38,6 @@ impl Reader for FileReader {
             }
             error => error.to_string(),
         };
-        render::compare(found.1, expected.1, tolerance).map_err(message)
+        Ok(render::compare(found.1, expected.1, tolerance).map_err(message)?)
     }
 }

@@ -109,7 +109,7 @@ pub use format::{Format, Rows};
 pub use images::Images;
 pub use loss::Loss;
 pub use note::{Note, NoteKind};
-pub use packing::{Bits, Compression, PackingReport, Quantization};
+pub use packing::{BadBits, Bits, Compression, PackingReport, Quantization};
 pub use peek::{Peek, PeekGeometry, PeekMesh, PeekObject, PeekRanges};
 pub use policy::{CleanupPolicy, NonManifold, Orientation, Placements, Policies};
 pub use polygons::Polygons;

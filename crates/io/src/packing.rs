@@ -85,14 +85,19 @@ impl From<Bits> for u32 {
     }
 }
 
-impl TryFrom<u32> for Bits {
-    type Error = String;
+/// A number of bits that is not from 8 to 16.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("expected 8 to 16 bits, found {0}")]
+pub struct BadBits(u32);
 
-    fn try_from(bits: u32) -> Result<Self, String> {
+impl TryFrom<u32> for Bits {
+    type Error = BadBits;
+
+    fn try_from(bits: u32) -> Result<Self, BadBits> {
         if (8..=16).contains(&bits) {
             Ok(Self(bits))
         } else {
-            Err(format!("expected 8 to 16 bits, found {bits}"))
+            Err(BadBits(bits))
         }
     }
 }

@@ -39,7 +39,7 @@ pub use describe::{
     FieldDoc, TypeDoc, VariantDoc, expectations, fields, fields_in, refusals, selections, types,
 };
 pub use diagnostic::render;
-pub use expect::{ActualValue, Expectation, OtherMesh, Reader};
+pub use expect::{ActualValue, Expectation, OtherMesh, Reader, Violation};
 pub use jobs::{InOrder, JobEnd, JobLimits, Jobs, JobsError};
 pub use params::{Param, ParamError, Rebase};
 pub use read::{Reading, VERSION, Values, read, read_by};

@@ -14,7 +14,7 @@ use op::Files;
 use scene::{Graph, Object, Scene};
 
 use self::operations::{registry, steps};
-use crate::{Diagnostic, Forecast, Outcome, Reader, Reading, Settings, Silent};
+use crate::{Diagnostic, Forecast, Outcome, Reader, Reading, Settings, Silent, Violation};
 
 /// A reader that reads objects with a function and cannot compare pictures.
 pub(crate) struct Objects<F>(F);
@@ -28,10 +28,11 @@ where
 }
 
 impl<F: Fn(&Path, &Files) -> Result<Vec<Object>, String> + Sync> Reader for Objects<F> {
-    fn scene(&self, path: &Path, files: &Files) -> Result<Scene, String> {
+    fn scene(&self, path: &Path, files: &Files) -> Result<Scene, Violation> {
         let mut scene = Scene::new();
         let appended = scene.append((self.0)(path, files)?, Graph::default());
-        appended.map(|_| scene).map_err(|error| error.to_string())
+        appended.map_err(|error| error.to_string())?;
+        Ok(scene)
     }
 
     fn compare_pictures(
@@ -39,8 +40,8 @@ impl<F: Fn(&Path, &Files) -> Result<Vec<Object>, String> + Sync> Reader for Obje
         _: (&Path, &[u8]),
         _: (&Path, &[u8]),
         _: u8,
-    ) -> Result<Option<String>, String> {
-        Err("these tests compare no pictures".to_owned())
+    ) -> Result<Option<String>, Violation> {
+        Err("these tests compare no pictures".into())
     }
 }
 

@@ -9,8 +9,8 @@ use glam::DVec2;
 use rayon::prelude::*;
 use scene::{Filter, Sampler, TextureTransform, Wrap};
 
-use crate::Image;
 use crate::color::{byte, mix, narrow, to_linear, to_srgb, whole};
+use crate::{Image, PictureError};
 
 /// An image that is mapped to a surface.
 #[derive(Clone, Debug)]
@@ -109,14 +109,14 @@ impl Texture {
     ///
     /// # Errors
     ///
-    /// A message that says why the bytes cannot be read as an image.
+    /// The errors of [`Image::decode`].
     pub fn decode(
         bytes: &[u8],
         sampler: Sampler,
         transform: TextureTransform,
         alpha: Alpha,
-    ) -> Result<Self, String> {
-        let image = Image::decode(bytes).map_err(|error| error.to_string())?;
+    ) -> Result<Self, PictureError> {
+        let image = Image::decode(bytes)?;
         let first = Level {
             width: image.width as usize,
             height: image.height as usize,

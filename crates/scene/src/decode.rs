@@ -23,8 +23,8 @@ pub trait ArraySource {
     ///
     /// # Errors
     ///
-    /// A message that says why the array cannot be read.
-    fn read(&mut self, bytes: &mut [u8]) -> Result<(), String>;
+    /// [`DecodeError::Array`] with the reason why the array cannot be read.
+    fn read(&mut self, bytes: &mut [u8]) -> Result<(), DecodeError>;
 }
 
 /// A source without arrays, for a canonical form that contains all arrays.
@@ -36,8 +36,8 @@ impl ArraySource for NoArrays {
         None
     }
 
-    fn read(&mut self, _: &mut [u8]) -> Result<(), String> {
-        Err("no separate arrays exist".to_owned())
+    fn read(&mut self, _: &mut [u8]) -> Result<(), DecodeError> {
+        Err(DecodeError::Array("no separate arrays exist"))
     }
 }
 
@@ -55,7 +55,7 @@ pub enum DecodeError {
     Expected(&'static str),
     /// A long array cannot be read.
     #[error("{0}")]
-    Array(String),
+    Array(&'static str),
     /// The arrays do not form a valid mesh.
     #[error("the arrays do not form a valid mesh: {0}")]
     Mesh(#[from] Defect),
@@ -172,7 +172,7 @@ impl<'a> Decoder<'a> {
             }
             values = mesh::zeroed(n);
             let bytes = bytemuck::cast_slice_mut(&mut values);
-            self.arrays.read(bytes).map_err(DecodeError::Array)?;
+            self.arrays.read(bytes)?;
         }
         if cfg!(target_endian = "big") {
             let bytes: &mut [u8] = bytemuck::cast_slice_mut(&mut values);

@@ -89,7 +89,7 @@ impl Store for Disk {
         // If the removal fails, it is tried a second time in a way that needs fewer file descriptors.
         fs::remove_dir_all(folder)
             .or_else(|_| remove_all(folder))
-            .map_err(|error| StoreError::new("write", folder, error))
+            .map_err(|error| StoreError::new("remove the folder", folder, error))
     }
 
     fn remove_empty_folder(&self, folder: &Path) -> Result<(), StoreError> {

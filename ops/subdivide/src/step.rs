@@ -92,7 +92,7 @@ impl Step<'_> {
         if scheme.needs_triangles() {
             if plan.degrees.min > 3 && plan.faces.max > 0 {
                 let message = format!(
-                    "{name} needs triangles, but the faces have at least {} corners",
+                    "{name} needs triangles, but every face has at least {} corners",
                     plan.degrees.min
                 );
                 let help = match scheme {

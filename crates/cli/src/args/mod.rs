@@ -13,7 +13,7 @@ use std::path::PathBuf;
 
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
-use mesh_io::{Compression, Images, Quantization, Rows};
+use mesh_io::{Bits, Compression, Images, Quantization, Rows};
 
 pub(crate) use cache::{CacheAction, CacheArgs, CacheCommandArgs, CacheFolder};
 pub(crate) use look::{DiffArgs, Kind, SelectArgs};
@@ -247,7 +247,7 @@ fn bits(text: &str) -> Result<Quantization, String> {
         let number: u32 = number
             .parse()
             .map_err(|_| format!("expected a number of bits, found `{number}`"))?;
-        *place = number.try_into()?;
+        *place = Bits::try_from(number).map_err(|error| error.to_string())?;
     }
     Ok(bits)
 }

@@ -27,6 +27,7 @@ use picks::Proposals;
 
 pub use command::{Command, CommandError, SelectionText};
 pub use moves::Movement;
+pub use picks::PickError;
 
 /// The settings of an editor.
 #[derive(Clone, Debug)]

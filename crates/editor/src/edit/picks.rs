@@ -25,6 +25,20 @@ pub(super) enum Proposals {
     Known(Vec<Proposal>),
 }
 
+/// Why a typed selection picks no elements.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum PickError {
+    /// The scene has no mesh.
+    #[error("the scene has no mesh whose elements can be picked")]
+    NoMesh,
+    /// The text is not a selection, or the selection is refused.
+    #[error("{0}")]
+    Selection(String),
+    /// The selection selects no elements.
+    #[error("no elements match the selection")]
+    NoElements,
+}
+
 impl Editor {
     /// Returns the picked elements. All picked elements exist in the scene that the view shows. Returns `None` if a
     /// preview is shown whose scene does not have all picked elements.
@@ -130,15 +144,16 @@ impl Editor {
     ///
     /// # Errors
     ///
-    /// Returns a message if the text is not a selection, if the selection is refused, or if it selects no elements.
-    pub fn pick_by_text(&mut self, text: &str, kind: ElementKind) -> Result<(), String> {
+    /// [`PickError`] if the scene has no mesh, if the text is not a selection, if the selection is refused, or if it
+    /// selects no elements.
+    pub fn pick_by_text(&mut self, text: &str, kind: ElementKind) -> Result<(), PickError> {
         let kind = self.picked.as_ref().map_or(kind, Picked::kind);
         let object = if let Some(picked) = &self.picked {
             picked.object.clone()
         } else {
             let mut objects = self.shown.objects().iter();
             let first = objects.find(|object| object.as_mesh().is_some());
-            let first = first.ok_or("the scene has no mesh whose elements can be picked")?;
+            let first = first.ok_or(PickError::NoMesh)?;
             first.name.clone()
         };
         let read = |kind| Picked::by_text(&self.shown, &object, text, Some(kind));
@@ -147,11 +162,11 @@ impl Editor {
             others.find_map(|kind| read(kind).ok()).ok_or(errors)
         });
         let mut picked = found.map_err(|errors| match errors.into_iter().next() {
-            Some(error) => error.message,
-            None => "this is not a selection".to_owned(),
+            Some(error) => PickError::Selection(error.message),
+            None => PickError::Selection("this is not a selection".to_owned()),
         })?;
         if picked.is_empty() {
-            return Err("no elements match the selection".to_owned());
+            return Err(PickError::NoElements);
         }
         let half_edge = self.picked.as_ref().and_then(|picked| picked.half_edge);
         picked.half_edge = half_edge.filter(|&h| picked.contains(Element::HalfEdge(h)));

@@ -83,7 +83,7 @@ pub struct Simplified {
 pub enum Blocked {
     /// The surface could move further than the allowed error.
     Error,
-    /// The ends are on different lines, or both ends must keep their positions.
+    /// The collapse would merge preserved lines, or move a pinned vertex or the end of a preserved line.
     Lines,
     /// The ends have different tags, whole numbers or sharpness.
     Labels,

@@ -36,7 +36,8 @@ impl Repairs {
     }
 }
 
-/// Reads the weights of all joints that the primitive uses, into one column of `n` values for each joint.
+/// Reads the weights of all joints that the primitive uses, into one column of `n` values for each joint. `here` is the
+/// location of the primitive, for errors.
 ///
 /// `here` is the location of the primitive.
 ///
@@ -158,7 +159,8 @@ fn index(joint: f64) -> usize {
     joint as usize
 }
 
-/// Reads the deltas of the morph targets, into one column of `n` values for each target of the mesh.
+/// Reads the deltas of the morph targets, into one column of `n` values for each target of the mesh. `here` is the
+/// location of the primitive, for errors.
 ///
 /// `here` is the location of the primitive.
 ///
@@ -265,7 +267,8 @@ impl Directions {
 
     /// Reads the directions that each morph target gives with the weight 1, into one column of `n` values for each
     /// target. `own` are the directions of the primitive. Each direction has three or more numbers, of which morph
-    /// targets change the first three. If the primitive has no directions, the columns are zero.
+    /// targets change the first three. If the primitive has no directions, the columns are zero. `here` is the location
+    /// of the primitive, for errors.
     ///
     /// `here` is the location of the primitive.
     ///
@@ -318,9 +321,11 @@ impl Directions {
     }
 }
 
+/// Checks that an accessor has `n` elements, one for each position. `at` is the location of the accessor.
+///
 /// # Errors
 ///
-/// Returns an error if an accessor does not have an element for each position.
+/// Returns an error if the accessor has `found` elements, and `found` is not `n`.
 pub(super) fn expect_len(found: usize, n: usize, at: &str) -> Result<(), Fault> {
     if found == n {
         return Ok(());

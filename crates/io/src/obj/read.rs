@@ -184,7 +184,9 @@ fn set_tags(polygons: &mut Polygons, file: &ObjFile, notes: &mut Notes) {
     let objects = file.object_names.len();
     let n = objects + file.group_names.len();
     let n_columns = n.min(most_tags(n_faces));
-    let what = "groups and objects left out: too many for a mesh of this size";
+    let what = format!(
+        "groups and objects left out: a mesh with this number of faces can have tags for at most {n_columns} groups and objects"
+    );
     notes.left_out("too-many-names", n - n_columns, None, what);
     let mut columns: Vec<Vec<bool>> = vec![vec![false; n_faces]; n_columns];
     // Tags of objects come before tags of groups, so if some tags must be left out, tags of groups are left out first.

@@ -133,7 +133,9 @@ fn set_tags(polygons: &mut Polygons, solids: &[(String, Range<usize>)], notes: &
         None,
         "solids without facets left out",
     );
-    let what = "names of solids left out: too many for a mesh of this size";
+    let what = format!(
+        "names of solids left out: a mesh with this number of faces can have tags for at most {room} solids"
+    );
     notes.left_out("too-many-names", too_many, None, what);
 }
 

@@ -126,7 +126,7 @@ pub enum EditError {
     /// The edge was listed twice.
     #[error("{0} was listed twice")]
     EdgeListedTwice(EdgeId),
-    /// The face was listed twice, or two corners at which a vertex is to be split both belong to the face.
+    /// The face was listed twice.
     #[error("{0} was listed twice")]
     FaceListedTwice(FaceId),
     /// The boundary loop has fewer than three edges.

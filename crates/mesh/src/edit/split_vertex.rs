@@ -35,7 +35,7 @@ impl Mesh {
     /// # Errors
     ///
     /// Returns [`EditError::WrongCorner`] if `y` does not leave the origin of `x`, [`EditError::Adjacent`] if `x` is
-    /// `y`, [`EditError::FaceListedTwice`] if both corners belong to the same face, [`EditError::BadNumber`] if a
+    /// `y`, [`EditError::VisitsTwice`] if both corners belong to the same face, [`EditError::BadNumber`] if a
     /// coordinate is not finite, [`EditError::NoSuchHalfEdge`], or [`EditError::Full`]. The mesh is unchanged.
     ///
     /// # Examples
@@ -71,7 +71,7 @@ impl Mesh {
         }
         let (f, g) = (self.face(x), self.face(y));
         if let Some(f) = f.filter(|_| f == g) {
-            return Err(EditError::FaceListedTwice(f));
+            return Err(EditError::VisitsTwice(f, v));
         }
         self.check_room(2)?;
         let (before_x, before_y) = (self.prev(x), self.prev(y));
@@ -360,7 +360,7 @@ mod tests {
         let corners: Vec<_> = around.filter(is_corner).collect();
         let before = mesh.clone();
         let result = mesh.split_vertex(corners[0], corners[1], DVec3::ZERO);
-        assert_eq!(result, Err(EditError::FaceListedTwice(f)));
+        assert_eq!(result, Err(EditError::VisitsTwice(f, VertexId::new(2))));
         assert_eq!(mesh, before);
     }
 }

@@ -275,7 +275,7 @@ fn check_output(
         found.push(Diagnostic::error(span, message).with_help(help));
     }
     match golden(files, beside) {
-        Err(message) => found.push(Diagnostic::error(span, message)),
+        Err(violation) => found.push(Diagnostic::error(span, violation.message)),
         Ok(full) if plan.inputs.contains(&full) => {
             let message =
                 format!("a step reads \"{beside}\", so it cannot be used as the reference file");

@@ -212,7 +212,7 @@ impl Expectation {
             } => {
                 let (_, mesh) = subject.one_mesh()?;
                 let other = subject.other_mesh(r#as)?;
-                same::check(mesh, &other, *tolerance, *connectivity).map_err(Violation::unmet)
+                same::check(mesh, &other, *tolerance, *connectivity)
             }
             Self::DistanceTo { other, below } => {
                 let (_, mesh) = subject.one_mesh()?;

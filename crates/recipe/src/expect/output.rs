@@ -29,20 +29,21 @@ pub(super) fn is_picture(path: &str) -> bool {
 ///
 /// # Errors
 ///
-/// Returns an error if the path leads out of the recipe's folder, directly or through a link. Also returns an error if
-/// the path is a folder, a link or a device.
-pub(crate) fn golden(files: &Files, path: &str) -> Result<PathBuf, String> {
+/// [`Violation`] if the path leads out of the recipe's folder, directly or through a link, or if the path is a folder, a
+/// link or a device.
+pub(crate) fn golden(files: &Files, path: &str) -> Result<PathBuf, Violation> {
     let relative = Path::new(path);
     let is_plain = relative
         .components()
         .all(|c| matches!(c, Component::Normal(_)));
     if !is_plain || path.contains(['\\', ':', '\0']) {
-        return Err(format!(
+        let message = format!(
             "the path \"{path}\" must stay inside the recipe's folder: no \"..\", no absolute path"
-        ));
+        );
+        return Err(message.into());
     }
     if relative.file_name().is_none() || path.ends_with('/') {
-        return Err(format!("the path \"{path}\" does not name a file"));
+        return Err(format!("the path \"{path}\" does not name a file").into());
     }
     let input = if files.input.as_os_str().is_empty() {
         PathBuf::from(".")
@@ -58,8 +59,8 @@ pub(crate) fn golden(files: &Files, path: &str) -> Result<PathBuf, String> {
         .map_err(|_| format!("\"{path}\" leads out of the recipe's folder through a link"))?;
     let full = files.to_read(path);
     match files.store.entry(&full) {
-        _ if files.store.is_link(&full) => Err(format!("\"{path}\" is a link, not a file")),
-        Some(found) if !found.is_file() => Err(format!("\"{path}\" is not a file")),
+        _ if files.store.is_link(&full) => Err(format!("\"{path}\" is a link, not a file").into()),
+        Some(found) if !found.is_file() => Err(format!("\"{path}\" is not a file").into()),
         // A missing file can be created.
         _ => Ok(full),
     }
@@ -179,8 +180,8 @@ fn compare(written: &Path, golden: &Path, subject: Subject) -> Result<(), Violat
         });
     }
     let bytes = |path: &Path| {
-        let bytes = files.store.read(path).map_err(|e| e.to_string())?;
-        Ok::<_, String>(without_stamp(bytes))
+        let bytes = files.store.read(path).map(without_stamp);
+        bytes.map_err(|error| error.to_string())
     };
     let (now, then) = (bytes(written)?, bytes(golden)?);
     if now == then {
@@ -201,7 +202,7 @@ fn compare(written: &Path, golden: &Path, subject: Subject) -> Result<(), Violat
 fn digests(
     (path, scene): (&Path, &Scene),
     (other_path, mut other): (&Path, Scene),
-) -> Result<[Digest; 2], String> {
+) -> Result<[Digest; 2], Violation> {
     let is_of = |name: &str, path: &Path| *store::stem(path) == *name;
     let names =
         |scene: &Scene| -> Vec<String> { scene.objects().iter().map(|o| o.name.clone()).collect() };

@@ -5,6 +5,8 @@ use std::ops::Range;
 
 use mesh::{DVec3, Mesh, VertexId};
 
+use super::subject::Violation;
+
 /// An index of the vertices of a mesh for finding them by position. The list `tree` is a k-d tree. The vertex in the
 /// middle of the list splits the other vertices by one coordinate, the one in which their bounding box is longest. Each
 /// half of the list is split in the same way.
@@ -244,22 +246,23 @@ pub(super) fn check(
     other: &Mesh,
     tolerance: f64,
     connectivity: bool,
-) -> Result<(), String> {
+) -> Result<(), Violation> {
     let (n, m) = (mesh.n_vertices(), other.n_vertices());
     if n != m {
-        return Err(format!(
-            "the mesh has {}, the other mesh has {m}",
-            mesh::counted(n, "vertex")
-        ));
+        let n = mesh::counted(n, "vertex");
+        let message = format!("the mesh has {n}, the other mesh has {m}");
+        return Err(Violation::unmet(message));
     }
     let Some(map) = PositionIndex::new(mesh).matching(other, |v| other.position(v), tolerance)
     else {
-        return Err(format!(
+        return Err(Violation::unmet(format!(
             "the vertices do not match those of the other mesh (tolerance: {tolerance})"
-        ));
+        )));
     };
     if connectivity && !same_faces(mesh, other, &map, false) {
-        return Err("the faces differ from those of the other mesh".to_owned());
+        return Err(Violation::unmet(
+            "the faces differ from those of the other mesh",
+        ));
     }
     Ok(())
 }

@@ -20,25 +20,26 @@ pub trait Reader: Sync {
     ///
     /// # Errors
     ///
-    /// Returns the path and the reason if the file cannot be read.
-    fn scene(&self, path: &Path, files: &Files) -> Result<Scene, String>;
+    /// [`Violation`] if the file cannot be read. Its message gives the path and the reason.
+    fn scene(&self, path: &Path, files: &Files) -> Result<Scene, Violation>;
 
     /// Compares the pixels of two PNG files, each given by its path and bytes. Returns a description of the differences
     /// that are larger than `tolerance` steps of 1/255, or `None` if there are no such differences.
     ///
     /// # Errors
     ///
-    /// Returns the path and the reason if one of the files cannot be read.
+    /// [`Violation`] if one of the files cannot be read. Its message gives the path and the reason.
     fn compare_pictures(
         &self,
         found: (&Path, &[u8]),
         expected: (&Path, &[u8]),
         tolerance: u8,
-    ) -> Result<Option<String>, String>;
+    ) -> Result<Option<String>, Violation>;
 }
 
-/// Why an expectation does not hold.
-#[derive(Clone, Debug, PartialEq)]
+/// Why an expectation does not hold, or why an expectation or a metric cannot be evaluated.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{message}")]
 pub struct Violation {
     /// The expected and the actual value, in one line.
     pub message: String,
@@ -67,6 +68,7 @@ impl Violation {
     }
 }
 
+/// Creates a violation for an expectation or a metric that cannot be evaluated.
 impl From<String> for Violation {
     fn from(message: String) -> Self {
         Self {
@@ -134,39 +136,39 @@ pub struct Subject<'a> {
 }
 
 impl<'a> Subject<'a> {
-    pub(crate) fn objects(&self) -> Result<Vec<&'a Object>, String> {
+    pub(crate) fn objects(&self) -> Result<Vec<&'a Object>, Violation> {
         let Some(on) = self.on else {
             return Ok(self.scene.objects().iter().collect());
         };
-        on.iter()
-            .map(|name| {
-                self.scene
-                    .object(name)
-                    .ok_or(format!("no object is named \"{name}\""))
-            })
-            .collect()
+        on.iter().map(|name| self.object(name)).collect()
     }
 
-    pub(super) fn meshes(&self) -> Result<Vec<(&'a Object, &'a Mesh)>, String> {
+    fn object(&self, name: &str) -> Result<&'a Object, Violation> {
+        let object = self.scene.object(name);
+        object.ok_or_else(|| format!("no object is named \"{name}\"").into())
+    }
+
+    pub(super) fn meshes(&self) -> Result<Vec<(&'a Object, &'a Mesh)>, Violation> {
         let objects = self.objects()?.into_iter();
         Ok(objects
             .filter_map(|o| o.as_mesh().map(|m| (o, m.as_ref())))
             .collect())
     }
 
-    pub(crate) fn one_mesh(&self) -> Result<(&'a Object, &'a Mesh), String> {
+    pub(crate) fn one_mesh(&self) -> Result<(&'a Object, &'a Mesh), Violation> {
         match self.meshes()?[..] {
             [one] => Ok(one),
             ref meshes => {
                 let n = meshes.len();
                 Err(format!(
                     "this expectation needs exactly 1 mesh, found {n}: name the mesh with `on:`"
-                ))
+                )
+                .into())
             }
         }
     }
 
-    pub(crate) fn sum<T: std::iter::Sum>(&self, term: impl Fn(&Mesh) -> T) -> Result<T, String> {
+    pub(crate) fn sum<T: std::iter::Sum>(&self, term: impl Fn(&Mesh) -> T) -> Result<T, Violation> {
         Ok(self.meshes()?.into_iter().map(|(_, mesh)| term(mesh)).sum())
     }
 
@@ -184,7 +186,7 @@ impl<'a> Subject<'a> {
     }
 
     /// Returns all points: vertices of meshes, points of polylines, and control points of patches and curves.
-    pub(crate) fn points(&self) -> Result<Vec<DVec3>, String> {
+    pub(crate) fn points(&self) -> Result<Vec<DVec3>, Violation> {
         let mut points = Vec::new();
         for object in self.objects()? {
             match &object.geometry {
@@ -201,17 +203,11 @@ impl<'a> Subject<'a> {
         Ok(points)
     }
 
-    pub(crate) fn other_mesh(&self, other: &OtherMesh) -> Result<Arc<Mesh>, String> {
+    pub(crate) fn other_mesh(&self, other: &OtherMesh) -> Result<Arc<Mesh>, Violation> {
         match other {
             OtherMesh::Object(name) => {
-                let object = self
-                    .scene
-                    .object(name)
-                    .ok_or(format!("no object is named \"{name}\""))?;
-                object
-                    .as_mesh()
-                    .cloned()
-                    .ok_or(format!("\"{name}\" is not a mesh"))
+                let mesh = self.object(name)?.as_mesh().cloned();
+                mesh.ok_or_else(|| format!("\"{name}\" is not a mesh").into())
             }
             OtherMesh::File(path) => {
                 let scene = self.reader.scene(&self.files.to_read(path), self.files)?;
@@ -221,7 +217,7 @@ impl<'a> Subject<'a> {
                     .find(|i| i.object.as_mesh().is_some());
                 let first = first.map(|instance| instance.placed());
                 let mesh = first.as_ref().and_then(Object::as_mesh).cloned();
-                mesh.ok_or(format!("{path} does not contain a mesh"))
+                mesh.ok_or_else(|| format!("{path} does not contain a mesh").into())
             }
         }
     }
@@ -362,7 +358,7 @@ impl<'a> Subject<'a> {
     }
 
     /// Returns the polylines of the object that has polylines. There must be exactly one such object.
-    pub(super) fn polylines(&self) -> Result<&'a [Vec<DVec3>], String> {
+    pub(super) fn polylines(&self) -> Result<&'a [Vec<DVec3>], Violation> {
         let objects = self.objects()?;
         let lines: Vec<&Vec<Vec<DVec3>>> = objects
             .iter()
@@ -376,9 +372,9 @@ impl<'a> Subject<'a> {
             .collect();
         let [lines] = lines[..] else {
             let n = lines.len();
-            return Err(format!(
-                "this expectation needs exactly 1 object with polylines, found {n}"
-            ));
+            let message =
+                format!("this expectation needs exactly 1 object with polylines, found {n}");
+            return Err(message.into());
         };
         Ok(lines)
     }

@@ -7,7 +7,7 @@ use op::{FaceSelection, Files, Statistics};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::expect::{self, OtherMesh, PlacedSubject, Reader, Subject};
+use crate::expect::{self, OtherMesh, PlacedSubject, Reader, Subject, Violation};
 use crate::run::Outcome;
 use geometry::distance::Distance;
 
@@ -92,13 +92,13 @@ impl Metric {
     ///
     /// # Errors
     ///
-    /// A message in one line, if the metric cannot be measured, for example because an object or a file is missing.
+    /// [`Violation`] if the metric cannot be measured, for example because an object or a file is missing.
     pub fn measure(
         &self,
         outcome: &Outcome,
         files: &Files,
         reader: &dyn Reader,
-    ) -> Result<Measured, String> {
+    ) -> Result<Measured, Violation> {
         let scene = outcome.scene.as_ref();
         let subject = Subject {
             scene: scene.ok_or("the final scene was not loaded from the cache")?,
@@ -108,7 +108,7 @@ impl Metric {
             progress: &op::NoProgress,
         };
         let whole = |n: usize| Measured::Whole(i64::try_from(n).unwrap_or(i64::MAX));
-        let placed = || PlacedSubject::new(subject, None).map_err(|violation| violation.message);
+        let placed = || PlacedSubject::new(subject, None);
         Ok(match self {
             Self::Objects => whole(subject.objects()?.len()),
             Self::Vertices => whole(subject.points()?.len()),
@@ -122,8 +122,8 @@ impl Metric {
             Self::Volume => Measured::Number(placed()?.subject().sum(geometry::volume)?),
             Self::MinAngle => {
                 let placed = placed()?;
-                let smallest = placed.subject().smallest_angle(&FaceSelection::All);
-                Measured::Number(smallest.map_err(|violation| violation.message)?.0)
+                let (smallest, _) = placed.subject().smallest_angle(&FaceSelection::All)?;
+                Measured::Number(smallest)
             }
             Self::DistanceTo { other, on } => {
                 let on = on.as_ref().map(std::slice::from_ref);
@@ -131,8 +131,7 @@ impl Metric {
                     OtherMesh::Object(name) => Some(name.as_str()),
                     OtherMesh::File(_) => None,
                 };
-                let placed = PlacedSubject::new(Subject { on, ..subject }, name);
-                let placed = placed.map_err(|violation| violation.message)?;
+                let placed = PlacedSubject::new(Subject { on, ..subject }, name)?;
                 let (_, mesh) = placed.subject().one_mesh()?;
                 let other = placed.subject().other_mesh(other)?;
                 let distance = Distance::between(mesh, other.as_ref(), None);
@@ -145,8 +144,7 @@ impl Metric {
                 on,
             } => {
                 let on = on.as_ref().map(std::slice::from_ref);
-                let values = expect::values(Subject { on, ..subject }, name, *component);
-                let values = values.map_err(|violation| violation.message)?;
+                let values = expect::values(Subject { on, ..subject }, name, *component)?;
                 let found = Statistics::of(&values).ok_or("no value is finite")?;
                 Measured::Number(match statistic {
                     Statistic::Min => found.min,

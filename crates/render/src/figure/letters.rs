@@ -189,8 +189,9 @@ impl Typeface {
         Self { face, positions }
     }
 
-    /// Returns the glyph of a character in text of this font, and the embedded font that has this glyph. If no font has
-    /// the character, or the first font is a formula font without the character, the glyph is 0.
+    /// Returns the embedded font that draws a character in text of `font`, and the glyph. If `font` does not have the
+    /// character and is not a formula font, all embedded fonts are tried in order. If no font with the character is
+    /// found, returns `font` and the glyph 0.
     fn find(font: Font, c: char) -> (&'static Self, GlyphId) {
         let (first, fallbacks) = match font {
             Font::Plain => (0, &FACES[..]),
@@ -242,8 +243,9 @@ impl Typeface {
     }
 
     /// Returns the offset of an accent on a letter that can already have accents. If the font defines a position for
-    /// the new accent on the last existing accent, the new accent is placed there. Otherwise, the accent is placed on
-    /// the letter.
+    /// the new accent on the last existing accent, the new accent is placed there. Otherwise, if the font defines a
+    /// position on the letter, the new accent is placed on the letter. If the font defines neither position, the new
+    /// accent follows the letter.
     fn mark_offset(&self, letter: &Cluster, mark: GlyphId) -> [i32; 2] {
         let (base, _) = letter.glyphs[0];
         let (last, [x, y]) = letter.glyphs[letter.glyphs.len() - 1];

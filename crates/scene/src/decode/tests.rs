@@ -14,8 +14,8 @@ impl ArraySource for SeparateArrays {
         self.0.front().map(|array| array.len() as u64)
     }
 
-    fn read(&mut self, bytes: &mut [u8]) -> Result<(), String> {
-        let array = self.0.pop_front().ok_or("no array")?;
+    fn read(&mut self, bytes: &mut [u8]) -> Result<(), DecodeError> {
+        let array = self.0.pop_front().ok_or(DecodeError::Array("no array"))?;
         bytes.copy_from_slice(&array);
         Ok(())
     }

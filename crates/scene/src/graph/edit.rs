@@ -147,8 +147,10 @@ impl Graph {
     }
 
     /// Returns a graph for the objects that `is_wanted` accepts. The graph has the nodes that reference these objects,
-    /// the joints of their skins, the roots of these joints, and the ancestors of all these nodes. It also has the
-    /// animations of the nodes that it contains. The parts of the document are kept; cameras and lights are not.
+    /// the joints of their skins, the roots of these joints, and the ancestors of all these nodes. Joints and ancestors
+    /// keep no objects that `is_wanted` refuses, and no skins and morph weights of such objects. The graph also has the
+    /// skins and labels of the accepted objects, and the animations of its nodes, except the animations of morph weights
+    /// of nodes without an object. All arrays and the parts of the document are kept; cameras and lights are not.
     pub(crate) fn only(&self, is_wanted: impl Fn(&str) -> bool) -> Self {
         let mut graph = Self {
             nodes: self.nodes.clone(),

@@ -28,9 +28,8 @@ use goal::Goal;
 /// Vertices, edges and faces keep their values. Each triangle gets one new corner. The new corner of a triangle gets
 /// its values from the corner of the other triangle at the same vertex. All other corners keep their values.
 ///
-/// A mesh without triangles is refused. If a face beside the edge has more than three corners, each end of the edge
-/// moves to the next corner of the polygon that the two faces form. With `until: Delaunay` or `until: Valence`, such an
-/// edge is not flipped.
+/// If a face beside the edge has more than three corners, each end of the edge moves to the next corner of the polygon
+/// that the two faces form. With `until: Delaunay` or `until: Valence`, such an edge is not flipped.
 ///
 /// With `until: Delaunay` or `until: Valence`, an edge is flipped only if the flip improves the mesh. Edges are checked
 /// again, pass after pass, until a pass flips no edge or `passes` is reached. Flips with `until: Delaunay` or

@@ -58,8 +58,6 @@ impl Budget {
     /// Takes bytes from the budget. The budget limits memory even if many parts of a file refer to the same bytes.
     /// `pointer` is the location that needs the memory.
     ///
-    /// `pointer` is the location that needs the memory.
-    ///
     /// # Errors
     ///
     /// Returns an error if the budget is used up.
@@ -78,8 +76,6 @@ impl Budget {
     /// Takes the decoded size of a compressed view from the budget, and returns it as a `usize`. A stream of zeros can
     /// be compressed to a thousandth of its decoded size, but real files do not consist of zeros. `pointer` is the
     /// location that needs the memory.
-    ///
-    /// `pointer` is the location that needs the memory.
     ///
     /// # Errors
     ///

@@ -39,8 +39,6 @@ impl Repairs {
 /// Reads the weights of all joints that the primitive uses, into one column of `n` values for each joint. `here` is the
 /// location of the primitive, for errors.
 ///
-/// `here` is the location of the primitive.
-///
 /// # Errors
 ///
 /// Returns an error if an accessor is invalid, or refers to a joint that the skin does not have.
@@ -162,8 +160,6 @@ fn index(joint: f64) -> usize {
 /// Reads the deltas of the morph targets, into one column of `n` values for each target of the mesh. `here` is the
 /// location of the primitive, for errors.
 ///
-/// `here` is the location of the primitive.
-///
 /// # Errors
 ///
 /// Returns an error if an accessor is invalid.
@@ -269,8 +265,6 @@ impl Directions {
     /// target. `own` are the directions of the primitive. Each direction has three or more numbers, of which morph
     /// targets change the first three. If the primitive has no directions, the columns are zero. `here` is the location
     /// of the primitive, for errors.
-    ///
-    /// `here` is the location of the primitive.
     ///
     /// # Errors
     ///

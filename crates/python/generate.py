@@ -47,6 +47,7 @@ from meshwright._names import (  # noqa: E402
     SELECTIONS,
     code_in_python,
     in_python,
+    module_of,
     others,
     owner,
     python_name,
@@ -187,7 +188,7 @@ def variant_lines(schema: Any, indent: str) -> list[str]:
         name, text = name_of(option), sentence(option.get("description", "")).partition(". ")[0].rstrip(".")
         if name is None or not text:
             continue
-        code = f'"{name}"' if "const" in option else f"choice.{name}(..)"
+        code = f'"{name}"' if "const" in option else f"{module_of(option)}.{name}(..)"
         lines += wrapped(f"``{code}``: {text}.", indent, "    ")
     return lines
 
@@ -453,7 +454,7 @@ def form(option: Any) -> str:
     name = name_of(option)
     fields = resolve(option["properties"][name]).get("properties") if "properties" in option else None
     given = ", ".join(f"{python_name(field)}=.." for field in fields) if fields else "value"
-    return f", as `choice.{name}({given})`" if "properties" in option else ""
+    return f", as `{module_of(option)}.{name}({given})`" if "properties" in option else ""
 
 
 def of_elements(text: str) -> str:

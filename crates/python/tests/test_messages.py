@@ -55,6 +55,7 @@ def test_errors_of_methods_are_written_in_python(ball: mw.Mesh) -> None:
         (lambda: ball.smooth(choice.Taubin(factor=3)), "`factor` is 3, expected less than 1"),
         (lambda: ball.apply("Weld", distnce=1), "unknown field `distnce` in `weld()`; did you mean `distance`?"),
         (lambda: ball.delete_faces(faces=sel.Tagged("x")), "no earlier operation creates"),
+        (lambda: ball.delete_faces(faces="lid"), "`help(meshwright.sel)` lists all selections, such as `sel.Tagged(..)`"),
         (lambda: ball.select("Sharp", "face"), "`sel.FacesBeside(sel.Sharp(..))`"),
     ]
     for call, message in wrong:

@@ -77,6 +77,15 @@ def test_a_failed_run_names_the_step(tmp_path: Path) -> None:
     assert mw.recipe().cube(name="a").save("a.obj").run(out=tmp_path).files == (str(tmp_path / "a.obj"),)
 
 
+def test_expectations_can_be_about_some_objects_after_a_step() -> None:
+    recipe = mw.recipe().cube(name="a", id="first").cube(name="b")
+    with pytest.raises(mw.RecipeError, match="Faces"):
+        recipe.expect(expect.Faces(eq=6)).run()
+    recipe = recipe.expect(expect.Faces(eq=6), "Closed", on="a").expect(expect.Faces(eq=6), after="first")
+    assert '(on: ["a"], that: [Faces(eq: 6), Closed])' in recipe.to_ron()
+    assert recipe.run().checked == 3
+
+
 def test_values_are_written_as_recipes_write_them() -> None:
     text = (
         mw.recipe()

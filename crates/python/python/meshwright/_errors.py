@@ -96,7 +96,9 @@ def of_method(error: Error, operation: str) -> Error:
 
     def text(recipe: str) -> str:
         recipe = re.sub(rf"^{operation}(?= )", f"{snake(operation)}()", recipe)
-        return without_steps(code_in_python(recipe))
+        selections = "`help(meshwright.sel)` lists all selections, such as `sel.Tagged(..)` for a tag"
+        python = without_steps(code_in_python(recipe))
+        return python.replace("`meshwright ops --selections` lists all selections", selections)
 
     if not isinstance(error, RecipeError):
         return type(error)(text(str(error)))

@@ -66,8 +66,12 @@ def call(option: Schema) -> str:
     name = str(name_of(option))
     inner = resolve(option["properties"][name])
     fields = [f"{python_name(field)}=.." for field in inner.get("required", [])]
-    module = "sel" if owner(option) in SELECTIONS else "expect" if owner(option) in EXPECTATIONS else "choice"
-    return f"{module}.{name}({', '.join(fields) if 'properties' in inner else '..'})"
+    return f"{module_of(option)}.{name}({', '.join(fields) if 'properties' in inner else '..'})"
+
+
+def module_of(option: Schema) -> str:
+    """The module that has a variant with parameters."""
+    return "sel" if owner(option) in SELECTIONS else "expect" if owner(option) in EXPECTATIONS else "choice"
 
 
 def word(name: str) -> str:

@@ -37,7 +37,11 @@ class Step:
 
 
 class Outcome(Mapping[str, Mesh]):
-    """The outcome of a run. Like a scene, it is a mapping from the names of objects to meshes."""
+    """The outcome of a run. Like a scene, it is a mapping from the names of objects to meshes.
+
+    Its attributes are `scene`; `digest`, which the program prints too; `steps`, with notes and seconds; `files`, the
+    paths of the files that were written; and `checked`, the number of expectations, which all hold.
+    """
 
     def __init__(self, scene: Scene, about: dict[str, Any]) -> None:
         #: The scene at the end.
@@ -168,11 +172,26 @@ class Recipe(SceneOperations):
         """Adds a step by the name of its operation in recipes."""
         return self._apply(operation, parameters, on, id)
 
-    def expect(self, *expectations: str | Choice | Ron) -> Self:
-        """Adds expectations: words such as ``"Manifold"``, or values of :mod:`meshwright.expect`."""
+    def expect(
+        self,
+        *expectations: str | Choice | Ron,
+        after: str | None = None,
+        on: str | Sequence[str] | None = None,
+    ) -> Self:
+        """Adds expectations: words such as ``"Manifold"``, or values of :mod:`meshwright.expect`.
+
+        :param after: The id of the step after which they must hold. If omitted, they must hold at the end.
+        :param on: The names of the objects that they are about. If omitted, all objects.
+        """
         made = self._copy()
         schema = _ron.definition("Expectation")
-        made._expect = (*self._expect, *(_ron.write(e, schema) for e in expectations))
+        each = [_ron.write(e, schema) for e in expectations]
+        if after is not None or on is not None:
+            names = [on] if isinstance(on, str) else on
+            fields = [f"after: {_ron.quoted(after)}"] if after is not None else []
+            fields += [f"on: [{', '.join(map(_ron.quoted, names))}]"] if names is not None else []
+            each = [f"({', '.join(fields)}, that: [{', '.join(each)}])"]
+        made._expect = (*self._expect, *each)
         return made
 
     def about(self, text: str) -> Self:

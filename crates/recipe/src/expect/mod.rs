@@ -102,7 +102,7 @@ pub enum Expectation {
         /// At most this number.
         max: Option<i64>,
     },
-    /// The sum of the areas of the faces.
+    /// The sum of the areas of the faces of all meshes.
     Area {
         /// The value must equal this number within the tolerance.
         eq: Option<f64>,
@@ -115,7 +115,7 @@ pub enum Expectation {
         #[schemars(range(min = 0.0))]
         tolerance: f64,
     },
-    /// The enclosed volume.
+    /// The enclosed volume, summed over all meshes.
     Volume {
         /// The value must equal this number within the tolerance.
         eq: Option<f64>,

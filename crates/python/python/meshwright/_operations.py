@@ -875,12 +875,15 @@ class SceneOperations:
         """Replaces the edge between two triangles with the other diagonal of the quadrilateral that they form.
 
         Edges are flipped in order of their ids. Each flip is checked against the mesh as edited so far. A flip is
-        refused if the edge is on the boundary, or if a face beside it is not a triangle. A flip is also refused if the
-        two corners opposite to the edge are the same vertex or are already joined by an edge, or if an end of the edge
-        has only two edges. At a seam, a flip is refused unless ``seams`` is ``Drop``. All elements keep their ids, and
-        no vertex moves. Vertices, edges and faces keep their values. Each triangle gets one new corner. The new corner
-        of a triangle gets its values from the corner of the other triangle at the same vertex. All other corners keep
-        their values.
+        refused if the edge is on the boundary, if the same face is on both sides of the edge, or if an end of the edge
+        has only two edges. A flip is also refused if the two corners opposite to the edge are the same vertex or are
+        already joined by an edge. At a seam, a flip is refused unless ``seams`` is ``Drop``. All elements keep their
+        ids, and no vertex moves. Vertices, edges and faces keep their values. Each triangle gets one new corner. The
+        new corner of a triangle gets its values from the corner of the other triangle at the same vertex. All other
+        corners keep their values.
+
+        If a face beside the edge has more than three corners, each end of the edge moves to the next corner of the
+        polygon that the two faces form. With ``until="Delaunay"`` or ``until="Valence"``, such an edge is not flipped.
 
         With ``until="Delaunay"`` or ``until="Valence"``, an edge is flipped only if the flip improves the mesh. Edges
         are checked again, pass after pass, until a pass flips no edge or ``passes`` is reached. Flips with
@@ -3345,12 +3348,15 @@ class MeshOperations:
         """Replaces the edge between two triangles with the other diagonal of the quadrilateral that they form.
 
         Edges are flipped in order of their ids. Each flip is checked against the mesh as edited so far. A flip is
-        refused if the edge is on the boundary, or if a face beside it is not a triangle. A flip is also refused if the
-        two corners opposite to the edge are the same vertex or are already joined by an edge, or if an end of the edge
-        has only two edges. At a seam, a flip is refused unless ``seams`` is ``Drop``. All elements keep their ids, and
-        no vertex moves. Vertices, edges and faces keep their values. Each triangle gets one new corner. The new corner
-        of a triangle gets its values from the corner of the other triangle at the same vertex. All other corners keep
-        their values.
+        refused if the edge is on the boundary, if the same face is on both sides of the edge, or if an end of the edge
+        has only two edges. A flip is also refused if the two corners opposite to the edge are the same vertex or are
+        already joined by an edge. At a seam, a flip is refused unless ``seams`` is ``Drop``. All elements keep their
+        ids, and no vertex moves. Vertices, edges and faces keep their values. Each triangle gets one new corner. The
+        new corner of a triangle gets its values from the corner of the other triangle at the same vertex. All other
+        corners keep their values.
+
+        If a face beside the edge has more than three corners, each end of the edge moves to the next corner of the
+        polygon that the two faces form. With ``until="Delaunay"`` or ``until="Valence"``, such an edge is not flipped.
 
         With ``until="Delaunay"`` or ``until="Valence"``, an edge is flipped only if the flip improves the mesh. Edges
         are checked again, pass after pass, until a pass flips no edge or ``passes`` is reached. Flips with

@@ -21,7 +21,7 @@ def Area(
     max: float | Arg | Ron | None = None,
     tolerance: float | Arg | Ron | None = None,
 ) -> Choice:
-    """The sum of the areas of the faces.
+    """The sum of the areas of the faces of all meshes.
 
     :param eq: The value must equal this number within the tolerance.
     :param min: At least this value.
@@ -169,8 +169,8 @@ def DistanceTo(*, other: Choice | Arg | Ron, below: float | Arg | Ron) -> Choice
     distance is proven to be below the limit ``below``.
 
     :param other: The mesh to compare with.
-        ``choice.Object(..)``: The name of an object of the scene.
-        ``choice.File(..)``: The first mesh in a file.
+        ``expect.Object(..)``: The name of an object of the scene.
+        ``expect.File(..)``: The first mesh in a file.
     :param below: The distance must be below this limit, in scene units.
     """
     return Choice('DistanceTo', other=other, below=below)
@@ -437,8 +437,8 @@ def Same(
     """The mesh has the same vertices and faces as another mesh, in any order.
 
     :param as_: The mesh to compare with.
-        ``choice.Object(..)``: The name of an object of the scene.
-        ``choice.File(..)``: The first mesh in a file.
+        ``expect.Object(..)``: The name of an object of the scene.
+        ``expect.File(..)``: The first mesh in a file.
     :param tolerance: The allowed distance between two matching vertices. Defaults to ``0.0``.
     :param connectivity: Whether the faces must also be the same. Defaults to ``True``.
     """
@@ -591,7 +591,7 @@ def Volume(
     max: float | Arg | Ron | None = None,
     tolerance: float | Arg | Ron | None = None,
 ) -> Choice:
-    """The enclosed volume.
+    """The enclosed volume, summed over all meshes.
 
     :param eq: The value must equal this number within the tolerance.
     :param min: At least this value.

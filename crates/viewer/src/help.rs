@@ -57,21 +57,19 @@ pub(crate) fn ui(ctx: &Context, parts: &mut Parts) {
             // A row is as high as its text. By default, it would be at least as high as a button.
             ui.spacing_mut().interact_size.y = 0.0;
             ui.columns(3, |columns| {
-                let mut lengths = [0; 3];
-                // The keys of each task are added to the column that is shortest so far.
-                let mut add = |task, rows: &[(String, &str)]| {
-                    let shortest = (0..3).min_by_key(|&i| lengths[i]).unwrap_or_default();
-                    lengths[shortest] += rows.len() + 2;
-                    group(&mut columns[shortest], task, rows);
-                };
-                add("Mouse", &MOUSE.map(|(keys, doc)| (keys.to_owned(), doc)));
+                let mouse = MOUSE.map(|(keys, doc)| (keys.to_owned(), doc)).to_vec();
+                let mut groups = vec![("Mouse", mouse)];
                 for (task, actions) in Action::groups() {
                     let rows = actions.map(|action| (parts.keys.of(action).join(", "), action.doc()));
                     let mut rows: Vec<(String, &str)> = rows.collect();
                     if task == LOOK {
                         rows.extend(SIDES.map(|(keys, doc)| (keys.to_owned(), doc)));
                     }
-                    add(task, &rows);
+                    groups.push((task, rows));
+                }
+                let lengths: Vec<usize> = groups.iter().map(|(_, rows)| rows.len() + 2).collect();
+                for ((task, rows), column) in groups.iter().zip(columns_of(&lengths)) {
+                    group(&mut columns[column], task, rows);
                 }
             });
         });
@@ -79,6 +77,20 @@ pub(crate) fn ui(ctx: &Context, parts: &mut Parts) {
     if modal.should_close() || ctx.input(|input| input.key_pressed(Key::Escape)) {
         parts.shows_help = false;
     }
+}
+
+/// Returns the column of each group, so that the three columns are about equally long: the groups are added, the longest
+/// first, to the column that is shortest so far.
+fn columns_of(lengths: &[usize]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..lengths.len()).collect();
+    order.sort_by_key(|&g| std::cmp::Reverse(lengths[g]));
+    let (mut columns, mut filled) = (vec![0; lengths.len()], [0; 3]);
+    for g in order {
+        let shortest = (0..3).min_by_key(|&i| filled[i]).unwrap_or_default();
+        filled[shortest] += lengths[g];
+        columns[g] = shortest;
+    }
+    columns
 }
 
 /// The keys of a task.

@@ -9,7 +9,11 @@ use super::cut::{Chart, Limits, MAX_CREASE, chart, nearest};
 use super::number;
 use super::surface::Surface;
 
-/// Dissolves charts as long as the charts around them remain valid, the charts with the smallest area first.
+/// The work of flattening a face, relative to the work of comparing its normal with the mean normal of a chart.
+const FLATTEN: usize = 64;
+
+/// Dissolves charts as long as the charts around them remain valid, the charts with the smallest area first. The work
+/// grows linearly with the number of faces: on noisy surfaces with very many charts, some of them are not tried.
 pub(super) fn dissolve(
     surface: &Surface,
     smooth: &[DVec3],
@@ -28,7 +32,12 @@ pub(super) fn dissolve(
     let mut order: Vec<usize> = (0..charts.len()).collect();
     order.sort_by(|&a, &b| areas[a].total_cmp(&areas[b]).then(a.cmp(&b)));
     let mut charts: Vec<Option<Chart>> = charts.into_iter().map(Some).collect();
+    // The work that is left.
+    let mut left = FLATTEN * (4 * surface.areas.len() + 20_000);
     for c in order {
+        if left == 0 {
+            break;
+        }
         let Some(faces) = charts[c].as_ref().map(|c| c.part.faces.clone()) else {
             continue;
         };
@@ -39,11 +48,14 @@ pub(super) fn dissolve(
             if grown.is_empty() {
                 break;
             }
+            let n_faces: usize = grown.iter().map(|g| g.1.len()).sum();
+            left = left.saturating_sub(n_faces);
             let steep = grown
                 .iter()
                 .filter(|g| !is_cone(surface, smooth, &g.1, limits));
             let mut failed: Vec<u32> = steep.map(|g| g.0).collect();
             if failed.is_empty() {
+                left = left.saturating_sub(FLATTEN * n_faces);
                 let flat: Result<Vec<_>, Cancelled> = parallel::consume(grown, |_, (d, faces)| {
                     Ok((d, chart(surface, faces, limits, progress)?.ok()))
                 })

@@ -293,6 +293,7 @@ def test_a_save_that_loses_something_warns_once(tmp_path: Path, ball: mw.Mesh) -
         with pytest.warns(mw.LossWarning, match='a.glb.*"top".*"low"') as found:
             save(tmp_path / "a.glb")
         assert len(found) == 1 and found[0].filename == __file__
+        assert "An .mws file stores everything; see help(meshwright.LossWarning)" in str(found[0].message)
     with pytest.warns(mw.LossWarning) as found:
         m.scene().to_bytes("stl")
     assert len(found) == 1 and "position" not in str(found[0].message)

@@ -33,7 +33,7 @@ Measures are properties, or attributes with a value for each vertex or face:
 >>> m.measure(of="MeanCurvature", name="curvature").attributes["curvature"].shape
 (162,)
 
-Pictures and interactive views of notebooks; saved files, with a warning if the format cannot store something:
+Pictures and interactive views of notebooks; saved files, with a `LossWarning` if data are lost:
 
     m.picture("ball.png", color_by="Area");  m.view(color_by="Area");  m.save("ball.glb")
 
@@ -45,7 +45,7 @@ Recipes are lists of steps, which the program `meshwright` runs too. They have t
 
 Functions: `read`, `read_bytes`, `recipe`, `arg`, `run` and `batch`, which runs a recipe on many files.
 Classes: `Mesh`, `Scene`, `Recipe`, `Outcome` and others. Use `help(mw.Mesh)` for one of them.
-Modules: `sel`, `choice`, `expect` (expectations of recipes), `matrices` (sparse matrices of SciPy).
+Modules: `sel`, `choice`, `expect` (expectations of recipes), `matrices` (sparse matrices of SciPy), `errors`.
 
 If you know trimesh:
 
@@ -89,6 +89,7 @@ are positive inside. `m.to_trimesh()` and `mw.Mesh.from_trimesh(mesh)` convert m
 # With `__all__`, `help(meshwright)` would show every method of every class after this text. The imports with `as` tell
 # type checkers that the names are public.
 from . import choice as choice
+from . import errors as errors
 from . import expect as expect
 from . import matrices as matrices
 from . import sel as sel
@@ -97,11 +98,6 @@ from ._batch import Row as Row
 from ._batch import batch as batch
 from ._core import __version__ as __version__
 from ._editor import Editor as Editor
-from ._errors import EditError as EditError
-from ._errors import Error as Error
-from ._errors import LossWarning as LossWarning
-from ._errors import Problem as Problem
-from ._errors import RecipeError as RecipeError
 from ._mesh import Attributes as Attributes
 from ._mesh import HalfEdges as HalfEdges
 from ._mesh import Mesh as Mesh
@@ -118,3 +114,8 @@ from ._ron import Ron as Ron
 from ._scene import Scene as Scene
 from ._scene import read as read
 from ._scene import read_bytes as read_bytes
+from .errors import EditError as EditError
+from .errors import Error as Error
+from .errors import LossWarning as LossWarning
+from .errors import Problem as Problem
+from .errors import RecipeError as RecipeError

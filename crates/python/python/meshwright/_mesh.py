@@ -12,10 +12,10 @@ from numpy.typing import ArrayLike, NDArray
 from . import _core, _ron
 from ._arrays import frozen, indices, numeric, points, view
 from ._convert import MeshConversions
-from ._errors import Error, of_method
 from ._operations import MeshOperations
 from ._progress import Progress
 from ._ron import Choice, Ron
+from .errors import Error, of_method
 
 if TYPE_CHECKING:
     from ._editor import Editor

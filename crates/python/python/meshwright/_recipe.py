@@ -10,12 +10,12 @@ from functools import partial
 from typing import Any, Self, overload
 
 from . import _core, _ron
-from ._errors import Problem
 from ._mesh import Mesh
 from ._operations import SceneOperations
 from ._progress import Progress, callback, numbers
 from ._ron import Arg, Choice, Ron
 from ._scene import Scene, lines_of, whole_step
+from .errors import Problem
 
 
 @dataclass(frozen=True)

@@ -10,10 +10,11 @@ from pathlib import Path
 from typing import Any, Self
 
 from . import _core, _ron
-from ._errors import Error, of_method, warn
 from ._mesh import Mesh
 from ._operations import SceneOperations
 from ._progress import Progress, callback
+from .errors import Error, of_method, warn
+
 
 EXTENSIONS = (".obj", ".gltf", ".glb", ".ply", ".stl", ".off", ".dae", ".mws", ".bez", ".bzc")
 
@@ -254,7 +255,7 @@ def warn_of_losses(path: str, reports: Sequence[Mapping[str, Any]]) -> None:
     """Issues one warning that lists what a file lacks. Rounded positions are not lost."""
     losses = [loss for report in reports for loss in report["losses"] if loss["name"] != "position"]
     if losses:
-        warn(f"{path}: {'; '.join(map(line_of_loss, losses))}")
+        warn(f"{path}: {'; '.join(map(line_of_loss, losses))}. An .mws file stores everything; see help(meshwright.LossWarning)")
 
 
 def is_address(path: str) -> bool:

@@ -279,7 +279,7 @@ class Recipe(SceneOperations):
         ((), ())
 
         :param preset: The name of a preset of the recipe.
-        :param out: The folder for outputs.
+        :param out: The output folder, as for :meth:`run`.
         :param budget: The memory budget for meshes, in bytes. Defaults to 8 GiB.
         :param values: Values of the parameters of the recipe. A parameter named `out` can only be given here.
         :param more: More values: ``check(levels=3)``.
@@ -302,7 +302,8 @@ class Recipe(SceneOperations):
         **more: Any,
     ) -> Outcome:
         """Checks and runs the recipe. Ctrl-C cancels. Files are written only if every step succeeds and every expectation
-        holds.
+        holds. Their paths are relative to the folder `out`. Paths of input files are relative to the folder of the
+        recipe; for a recipe that was built in Python, to the working directory.
 
         >>> import meshwright as mw
         >>> out = mw.recipe().cube(name="box").triangulate().run()
@@ -310,7 +311,8 @@ class Recipe(SceneOperations):
         (12, 'Triangulate')
 
         :param preset: The name of a preset of the recipe.
-        :param out: The folder for outputs.
+        :param out: The output folder, which is created if necessary. It is relative to the working directory, and
+            defaults to the folder ``out`` there: ``save("a.glb")`` writes ``out/a.glb``.
         :param keep_outputs: Whether files are kept after the run.
         :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
             `True` for a bar of tqdm. An exception cancels the run.

@@ -26,7 +26,7 @@ Other parameters with several forms are words, or values of the module `choice`:
 
 >>> m = m.smooth(by=choice.Taubin(), passes=5)
 
-Measures are properties, or attributes with a value for each vertex or face:
+Measures are properties, or attributes with a value for each vertex or face. `m.distance_to(other)` compares surfaces:
 
 >>> round(m.area, 1), m.is_closed, m.bounds.shape
 (6.5, True, (2, 3))
@@ -99,8 +99,10 @@ from ._batch import batch as batch
 from ._core import __version__ as __version__
 from ._editor import Editor as Editor
 from ._mesh import Attributes as Attributes
+from ._mesh import Distance as Distance
 from ._mesh import HalfEdges as HalfEdges
 from ._mesh import Mesh as Mesh
+from ._mesh import OneSided as OneSided
 from ._recipe import Outcome as Outcome
 from ._recipe import Parameter as Parameter
 from ._recipe import Recipe as Recipe

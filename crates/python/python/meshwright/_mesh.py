@@ -46,6 +46,41 @@ class HalfEdges(NamedTuple):
     of_face: NDArray[np.uint32]
 
 
+class OneSided(NamedTuple):
+    """The distances from the points of one surface to another surface, in scene units."""
+
+    #: The largest distance found. If it is not exact, it is too low.
+    largest: float
+    #: An upper bound of the distances of all points.
+    at_most: float
+    #: The mean over the area of the surface, computed from samples.
+    mean: float
+
+
+class Distance(NamedTuple):
+    """The distances between two surfaces, in scene units. See :meth:`Mesh.distance_to`."""
+
+    #: From the points of the first surface to the second.
+    forth: OneSided
+    #: From the points of the second surface to the first.
+    back: OneSided
+
+    @property
+    def largest(self) -> float:
+        """The Hausdorff distance: the larger of the two largest distances. If it is not exact, it is too low."""
+        return max(self.forth.largest, self.back.largest)
+
+    @property
+    def at_most(self) -> float:
+        """An upper bound of the Hausdorff distance."""
+        return max(self.forth.at_most, self.back.at_most)
+
+    @property
+    def mean(self) -> float:
+        """The larger of the two mean distances."""
+        return max(self.forth.mean, self.back.mean)
+
+
 class Attributes(Mapping[str, NDArray[Any]]):
     """The attributes of a mesh by name, as read-only arrays: one row for each vertex, corner, edge or face.
 
@@ -421,6 +456,33 @@ class Mesh(MeshConversions, MeshOperations):
     def n_bytes(self) -> int:
         """The memory of all arrays, in bytes."""
         return self._core.bytes()
+
+    def distance_to(self, other: Mesh, *, tolerance: float | None = None) -> Distance:
+        """Measures the distances between the surfaces of two meshes, in both directions and in scene units. Placements
+        by nodes are left out; ``scene.placed()`` applies them.
+
+        >>> import meshwright as mw
+        >>> ball = mw.Scene().uv_sphere(name="ball").mesh()
+        >>> distance = ball.distance_to(ball.transform(move=(0, 0, 0.5)))
+        >>> round(distance.largest, 3), distance.forth.mean < 0.5
+        (0.5, True)
+
+        The expectation ``expect.DistanceTo(..)`` of a recipe holds if ``distance.at_most`` is below its limit.
+
+        :param tolerance: The largest allowed difference between ``largest`` and ``at_most``, in scene units. Defaults
+            to 0.00001 of the diagonal of the bounding box of both meshes. The search can stop before it reaches a very
+            small tolerance.
+        :raises ValueError: If one of the meshes has no faces.
+        """
+        if not isinstance(other, Mesh):
+            raise TypeError(f"other is of the type {type(other).__name__}, expected Mesh")
+        if tolerance is not None and not tolerance >= 0:
+            raise ValueError(f"the tolerance is {tolerance}, expected at least 0")
+        found = self._core.distance(other._core, tolerance)
+        if found is None:
+            raise ValueError("a distance needs two meshes with faces")
+        forth, back = (OneSided(*numbers) for numbers in found)
+        return Distance(forth, back)
 
     def defects(self) -> list[str]:
         """The broken invariants in words. Empty, unless this package has a bug."""

@@ -37,7 +37,28 @@ Pictures and interactive views of notebooks; saved files, with a `LossWarning` i
 
     m.picture("ball.png", color_by="Area");  m.view(color_by="Area");  m.save("ball.glb")
 
-Recipes are lists of steps, which the program `meshwright` runs too. They have the same methods:
+Methods of a scene act on all of its objects, or on those that `on` names:
+
+>>> scene = mw.Scene().cube(name="box").icosahedron(name="ball", radius=2)
+>>> scene = scene.loop_subdivide(levels=1, on="ball").measure(of=choice.Distance(to="box"), name="gap", on="ball")
+>>> scene["box"].n_faces, scene["ball"].n_faces, scene["ball"].attributes["gap"].shape
+(6, 80, (42,))
+
+The steps that made a mesh or a scene are a recipe. The program `meshwright` runs recipes, too:
+
+>>> print(scene["ball"].recipe())
+(
+    recipe: 1,
+    steps: [
+        Cube(name: "box"),
+        Icosahedron(name: "ball", radius: 2),
+        (run: LoopSubdivide(levels: 1), on: ["ball"]),
+        (run: Measure(of: Distance(to: "box"), name: "gap"), on: ["ball"]),
+        Delete(objects: ["box"]),
+    ],
+)
+
+Recipes can also be built without running them, and have parameters. They have the same methods:
 
 >>> r = mw.recipe().icosahedron(name="ball").loop_subdivide(levels=mw.arg("levels", int, default=1))
 >>> r.run(levels=2).mesh().n_faces

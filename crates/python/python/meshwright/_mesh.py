@@ -12,6 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 from . import _core, _ron
 from ._arrays import frozen, indices, numeric, points, view
 from ._convert import MeshConversions
+from ._history import History
+from ._names import snake
 from ._operations import MeshOperations
 from ._progress import Progress
 from ._ron import Choice, Ron
@@ -19,6 +21,7 @@ from .errors import Error, of_method
 
 if TYPE_CHECKING:
     from ._editor import Editor
+    from ._recipe import Recipe
     from ._scene import Scene
     from ._view import View
 
@@ -156,11 +159,12 @@ class Mesh(MeshConversions, MeshOperations):
     The report of an operation is in the :attr:`notes` of its result.
     """
 
-    def __init__(self, scene: _core.Scene, name: str, notes: tuple[str, ...] = ()) -> None:
+    def __init__(self, scene: _core.Scene, name: str, notes: tuple[str, ...], history: History) -> None:
         self._scene = scene
         self._name = name
         self._core = scene.mesh(name)
         self._notes = notes
+        self._history = history
 
     @classmethod
     def from_arrays(
@@ -204,7 +208,8 @@ class Mesh(MeshConversions, MeshOperations):
         positions = points(vertices)
         starts, corners = polygons(faces, face_starts)
         core, repairs, point_of_vertex, polygon_of_face = _core.from_arrays(positions, starts, corners, repair)
-        mesh = cls(_core.Scene().with_mesh(name, core), name, tuple(repairs))
+        history = History().lost("make a mesh from arrays or from a mesh of another package")
+        mesh = cls(_core.Scene().with_mesh(name, core), name, tuple(repairs), history)
         return mesh, view(point_of_vertex), view(polygon_of_face)
 
     # ---- Arrays
@@ -361,7 +366,8 @@ class Mesh(MeshConversions, MeshOperations):
         if domain is None:
             domain = self._domain_of(len(array), name)
         rule = rule or ("interpolate" if packed.dtype == np.float64 else "copy")
-        return self._with_core(self._core.with_attribute(domain, name, packed.reshape(-1), columns, rule))
+        core = self._core.with_attribute(domain, name, packed.reshape(-1), columns, rule)
+        return self._with_core(core, "with_attribute()")
 
     def _domain_of(self, n: int, name: str) -> Domain:
         counts = dict(zip(DOMAINS, (self.n_vertices, len(self.corners), self.n_edges, self.n_faces), strict=True))
@@ -374,11 +380,12 @@ class Mesh(MeshConversions, MeshOperations):
 
     def without_attribute(self, name: str, domain: Domain | None = None) -> Self:
         """Returns the mesh without an attribute."""
-        return self._with_core(self._core.without_attribute(domain or self.attributes.domain(name), name))
+        core = self._core.without_attribute(domain or self.attributes.domain(name), name)
+        return self._with_core(core, "without_attribute()")
 
     def with_vertices(self, vertices: ArrayLike) -> Self:
         """Returns the mesh with other positions, of shape (n, 3). Normals are removed."""
-        return self._with_core(self._core.with_positions(points(vertices)))
+        return self._with_core(self._core.with_positions(points(vertices)), "with_vertices()")
 
     # ---- Facts
 
@@ -514,7 +521,32 @@ class Mesh(MeshConversions, MeshOperations):
         """Returns the scene that has only this object."""
         from ._scene import Scene
 
-        return Scene(self._scene)
+        return Scene(self._scene, (), self._history)
+
+    def recipe(self) -> Recipe:
+        """Returns the recipe of the steps that made the mesh, from the file or the shape with which it began. A run of
+        the recipe gives a mesh with the same :attr:`digest`.
+
+        >>> import meshwright as mw
+        >>> m = mw.Scene().icosahedron(name="ball").mesh().loop_subdivide(levels=2)
+        >>> print(m.weld(distance=0.001).recipe())
+        (
+            recipe: 1,
+            steps: [
+                Icosahedron(name: "ball"),
+                LoopSubdivide(levels: 2),
+                Weld(distance: 0.001),
+            ],
+        )
+
+        Files that were written, for example by :meth:`save`, are not steps of the mesh. Add them to the recipe:
+        ``m.recipe().save("a.glb").save_recipe("clean.ron")``. Paths of input files stay as they were given. Relative
+        paths in a recipe are relative to the folder of its file, so save the recipe in the working directory.
+
+        :raises ValueError: If the mesh was made from arrays, has another mesh as an argument of an operation, or was
+            changed by :meth:`with_attribute`, :meth:`with_vertices` or :meth:`edit`. The text names the change.
+        """
+        return self.scene().recipe()
 
     def render(self, **options: Any) -> bytes:
         """Draws the mesh and returns the bytes of a PNG file. The options are the parameters of :meth:`picture`."""
@@ -559,14 +591,18 @@ class Mesh(MeshConversions, MeshOperations):
         others: dict[int, tuple[str, Mesh]] = {}
         replaced = {name: self._named(value, others) for name, value in fields.items()}
         only_this = [self._name] if others else None
-        done = Scene(self._with(others))._apply(operation, replaced, only_this, id, progress)
+        history = self._history
+        if others:
+            advice = "Put both objects into one scene, and use the method of the scene with `on`."
+            history = history.lost(f"repeat `{snake(operation)}()` with a mesh as an argument", advice)
+        done = Scene(self._with(others), (), history)._apply(operation, replaced, only_this, id, progress)
         result = done._core.only([n for n in done if n not in [name for name, _ in others.values()]])
         names = result.names()
         if len(names) != 1 or result.kind(names[0]) != "mesh":
             raise TypeError(
                 f"{operation} gives {len(names)} objects; use mesh.scene() and the method of the scene instead"
             )
-        return type(self)(result, names[0], done.notes)
+        return type(self)(result, names[0], done.notes, done._history)
 
     def _named(self, value: Any, others: dict[int, tuple[str, Mesh]]) -> Any:
         """Replaces meshes in the values of parameters by names of objects."""
@@ -592,8 +628,9 @@ class Mesh(MeshConversions, MeshOperations):
             scene = scene.joined(other._scene, {other.name: name})
         return scene
 
-    def _with_core(self, core: _core.Mesh) -> Self:
-        return type(self)(self._scene.with_mesh(self._name, core), self._name, self._notes)
+    def _with_core(self, core: _core.Mesh, method: str) -> Self:
+        scene = self._scene.with_mesh(self._name, core)
+        return type(self)(scene, self._name, self._notes, self._history.lost(f"repeat `{method}`"))
 
     # ---- Python
 

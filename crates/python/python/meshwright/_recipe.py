@@ -10,6 +10,7 @@ from functools import partial
 from typing import Any, Self, overload
 
 from . import _core, _ron
+from ._history import History
 from ._mesh import Mesh
 from ._operations import SceneOperations
 from ._progress import Progress, callback, numbers
@@ -136,6 +137,12 @@ class Recipe(SceneOperations):
         self._about: str | None = None
 
     load = _Load()
+
+    @classmethod
+    def _of(cls, steps: tuple[str, ...]) -> Self:
+        made = cls()
+        made._steps = steps
+        return made
 
     def _copy(self) -> Self:
         if self._text is not None:
@@ -325,7 +332,8 @@ class Recipe(SceneOperations):
         with callback(progress) as show:
             scene, about = core.run(keep_outputs, show)
         assert scene is not None
-        return Outcome(Scene(scene), about)
+        history = History().lost("begin with the result of a recipe", "Add further steps to that recipe.")
+        return Outcome(Scene(scene, (), history), about)
 
     def save_recipe(self, path: str | os.PathLike[str]) -> None:
         """Writes the text of the recipe to a file."""

@@ -335,6 +335,12 @@ RESULTS = {
     **{f"Tag{d}": f"Its ``tag(\"{w}\", name)`` is an array of Booleans." for d, w in TAGGED},
 }
 
+#: What the descriptions of selections say only in Python.
+MORE = {
+    "Where": 'For the 10 % of the vertices with the highest values: ``sel.Where(attribute="curvature", '
+    'above=numpy.quantile(m.attributes["curvature"], 0.9))``.',
+}
+
 HEADER = '''"""{doc}
 
 Generated from the schema of the operations by `generate.py`: do not edit.
@@ -407,7 +413,7 @@ def function(name: str, alternatives: list[Any]) -> list[str]:
     lines = [f"def {name}({', '.join(head)}) -> Choice:"]
     if len(lines[0]) > 118:
         lines = [f"def {name}(", *(f"    {part}," for part in head), ") -> Choice:"]
-    lines += [literal(line) for line in docstring(meaning(alternatives), fields, "    ")]
+    lines += [literal(line) for line in docstring(meaning(alternatives), fields, "    ", MORE.get(name, ""))]
     return [*lines, f"    return Choice({call})", ""]
 
 
@@ -503,7 +509,9 @@ def variants_file(doc: str, found: dict[str, list[Any]]) -> str:
     typing = "TYPE_CHECKING, Any, Literal" if takes_mesh else "Any, Literal"
     lines = [HEADER.format(doc=doc, typing=typing, imports="", own="")]
     lines += ["if TYPE_CHECKING:", "    from ._mesh import Mesh", ""] if takes_mesh else []
-    lines += [""]
+    listed = textwrap.wrap(", ".join(f'"{name}"' for name in sorted(found)), 115)
+    lines += ["", "__all__ = [", *(f"    {line}" for line in listed), "]", ""]
+    lines += ["", "def __dir__() -> list[str]:", "    return __all__", "", ""]
     for name, alternatives in sorted(found.items()):
         made = function(name, alternatives)
         lines += [*([""] if made[0].startswith("def") else []), *made, *([""] if made[0].startswith("def") else [])]

@@ -5,13 +5,13 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use recipe::{Diagnostic, LineIndex, Source};
 
-/// Creates an exception of the class `name` of the Python module `meshwright._errors`.
+/// Creates an exception of the class `name` of the Python module `meshwright.errors`.
 fn exception<'py, A>(py: Python<'py>, name: &str, arguments: A) -> PyErr
 where
     A: pyo3::call::PyCallArgs<'py>,
 {
     let class = py
-        .import("meshwright._errors")
+        .import("meshwright.errors")
         .and_then(|module| module.getattr(name));
     match class.and_then(|class| class.call1(arguments)) {
         Ok(error) => PyErr::from_value(error),

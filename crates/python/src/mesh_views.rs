@@ -2,11 +2,13 @@
 
 use std::sync::Arc;
 
+use geometry::distance::{Distance, OneSided};
 use mesh::{Column, Domain, HalfEdgeId, Id, Mesh as Kernel, Rule, Values};
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
 
 use crate::array::{Array, Part, values_from};
+use crate::errors::error;
 use crate::interrupt::run;
 
 /// A mesh, which never changes. The ids of its elements run from 0 without gaps.
@@ -239,6 +241,22 @@ impl Mesh {
     fn bounds(&self, py: Python<'_>) -> PyResult<Option<[[f64; 3]; 2]>> {
         let bounds = run(py, None, |_| geometry::bounds(&self.0))?;
         Ok(bounds.map(|bounds| bounds.map(|point| point.to_array())))
+    }
+
+    /// The distances from this surface to another surface, and back: each the largest distance, an upper bound of it,
+    /// and the mean distance. `None` if one of the meshes has no faces.
+    fn distance(
+        &self,
+        py: Python<'_>,
+        other: &Self,
+        tolerance: Option<f64>,
+    ) -> PyResult<Option<[[f64; 3]; 2]>> {
+        let found = run(py, None, |monitor| {
+            Distance::between_with(&self.0, &other.0, tolerance, monitor)
+        })?;
+        let found = found.map_err(|cancelled| error(py, &cancelled.to_string()))?;
+        let numbers = |side: &OneSided| [side.largest, side.at_most, side.mean];
+        Ok(found.map(|found| [numbers(&found.forth), numbers(&found.back)]))
     }
 
     /// The Euler characteristic: the number of vertices, minus the number of edges, plus the number of faces.

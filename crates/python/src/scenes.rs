@@ -183,6 +183,18 @@ impl Scene {
         Self(self.0.only(|name| names.iter().any(|n| n == name)))
     }
 
+    /// Whether `only` with these names gives the same scene as the operation Delete with all other names. It does not
+    /// if the scene has cameras, lights or other nodes that `only` leaves out.
+    fn only_is_delete(&self, names: Vec<String>) -> bool {
+        let mut deleted = self.0.clone();
+        for object in self.0.objects() {
+            if !names.contains(&object.name) {
+                deleted.remove(&object.name);
+            }
+        }
+        self.only(names).0.graph() == deleted.graph()
+    }
+
     /// A copy of the scene in which this mesh is the geometry of the object `name`. The object is added if it does not
     /// exist.
     fn with_mesh(&self, name: &str, mesh: &Mesh) -> PyResult<Self> {

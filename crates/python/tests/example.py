@@ -16,6 +16,9 @@ def edit(path: Path) -> mw.Mesh:
     curvature: NDArray[np.float64] = m.attributes["curvature"]
     m = m.with_attribute("bent", np.abs(curvature) > 1.0, "vertex")
     m = m.smooth(choice.Laplacian(), vertices=sel.Tagged("bent"))
+    again: mw.Recipe = mw.read(path).mesh().weld(distance=1e-6).recipe()
+    distance: float = m.distance_to(again.run().mesh()).largest
+    print(distance)
     with m.edit() as e:
         try:
             e.flip(e.edge(*m.edges[0]))

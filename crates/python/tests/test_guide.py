@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import meshwright as mw
-from meshwright import choice, sel
+from meshwright import choice, expect, sel
 
 
 def rows() -> list[tuple[str, str]]:
@@ -48,8 +48,18 @@ def test_the_table_for_users_of_trimesh(theirs: str, ours: str, tmp_path: Path, 
 
 def test_the_help_can_be_read() -> None:
     text = pydoc.render_doc(mw, renderer=pydoc.plaintext)
-    assert len(text.splitlines()) < 600
+    assert len(text.splitlines()) < 160
     for name in ("choice", "sel", "LossWarning", "from_trimesh"):
         assert name in text
+    assert "add_note" not in text and "add_note" in pydoc.render_doc(mw.errors, renderer=pydoc.plaintext)
     for name in ("Mesh", "Scene", "Recipe", "batch", "arg", "Arg", "Ron", "Outcome", "LossWarning"):
         assert hasattr(mw, name)
+
+
+def test_the_modules_list_only_their_values() -> None:
+    for module in (sel, choice, expect):
+        assert dir(module) == sorted(dir(module)) and not {"Any", "Choice", "Literal", "NDArray"} & set(dir(module))
+        for name in dir(module):
+            assert isinstance(getattr(module, name), mw.Choice) or callable(getattr(module, name)), name
+    assert "Sharp" in dir(sel) and "Taubin" in dir(choice) and "Faces" in dir(expect)
+    assert "numpy.quantile" in (sel.Where.__doc__ or "")

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import meshwright as mw
-from meshwright import choice, sel
+from meshwright import choice, expect, sel
 
 SCENES = Path(__file__).resolve().parents[3] / "scenes"
 
@@ -260,6 +260,39 @@ def test_measures(box: mw.Mesh, ball: mw.Mesh) -> None:
         mw.Mesh.from_arrays([], []).bounds
 
 
+def test_distances(ball: mw.Mesh, box: mw.Mesh) -> None:
+    spike = mw.Mesh.from_arrays([[0, 0, 0], [4, 0, 0], [0, 4, 0], [1, 1, 3]], [[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]])
+    flat = mw.Mesh.from_arrays([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+    found = spike.distance_to(flat)
+    assert np.allclose([found.forth.largest, found.back.largest, found.back.mean], [3, 0, 0])
+    assert (found.largest, found.mean) == (found.forth.largest, found.forth.mean) and 0 < found.mean < 3
+    assert found.largest <= found.at_most <= found.largest + 1e-5 * np.linalg.norm([4, 4, 3])
+    assert flat.distance_to(spike) == mw.Distance(found.back, found.forth)
+    recipe = mw.recipe().icosahedron(name="ball").copy("ball", "fine").loop_subdivide(levels=2, on="fine")
+    limit = recipe.run()["ball"].distance_to(recipe.run()["fine"]).at_most
+    for factor, holds in ((1.001, True), (0.999, False)):
+        expectation = expect.DistanceTo(other=expect.Object("fine"), below=factor * limit)
+        problems = []
+        try:
+            recipe.expect(expectation, on="ball").run()
+        except mw.RecipeError as error:
+            problems = list(error.problems)
+        assert (not problems) == holds
+    with pytest.raises(ValueError, match="with faces"):
+        ball.distance_to(mw.Mesh.from_arrays([], []))
+    with pytest.raises(TypeError, match="Scene, expected Mesh"):
+        ball.distance_to(box.scene())  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="tolerance"):
+        ball.distance_to(box, tolerance=-1)
+
+
+def test_simplify_names_the_measured_attributes_that_influence_it() -> None:
+    ball = mw.Scene().icosahedron(name="ball").mesh().loop_subdivide(levels=2)
+    note = "attributes whose changes count as changes of the surface: curvature"
+    assert note in ball.measure(of="MeanCurvature", name="curvature").simplify(faces=100).notes
+    assert ball.simplify(faces=100).notes == ()
+
+
 def test_selections(ball: mw.Mesh) -> None:
     m = ball.with_attribute("top", ball.vertices[:, 1] > 0, "vertex")
     assert (m.select(sel.Tagged("top"), "vertex") == np.flatnonzero(m.tag("vertex", "top"))).all()
@@ -293,6 +326,7 @@ def test_a_save_that_loses_something_warns_once(tmp_path: Path, ball: mw.Mesh) -
         with pytest.warns(mw.LossWarning, match='a.glb.*"top".*"low"') as found:
             save(tmp_path / "a.glb")
         assert len(found) == 1 and found[0].filename == __file__
+        assert "An .mws file stores everything; see help(meshwright.LossWarning)" in str(found[0].message)
     with pytest.warns(mw.LossWarning) as found:
         m.scene().to_bytes("stl")
     assert len(found) == 1 and "position" not in str(found[0].message)

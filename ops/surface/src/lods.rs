@@ -11,7 +11,9 @@ use op::prelude::*;
 use op::{Operation, check_name, named_object};
 use scene::{Geometry, Object};
 
-use crate::simplify::{error, note_overlaps, part, plan_goal, triangles_problem, unreached};
+use crate::simplify::{
+    error, note_overlaps, note_quantities, part, plan_goal, triangles_problem, unreached,
+};
 
 /// Makes levels of detail: simplified copies of an object.
 ///
@@ -101,6 +103,7 @@ impl Operation for Lods {
         let n_faces = original.n_faces() as u64;
         let mut mesh = Arc::clone(original);
         let mut report = Report::changed(self.ratios.len());
+        note_quantities(original, &mut report);
         cx.set_object(scene, &self.from);
         for (i, &ratio) in self.ratios.iter().enumerate() {
             let name = self.name(i + 1);

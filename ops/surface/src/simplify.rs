@@ -10,7 +10,7 @@
 
 use geometry::simplify::{Blocked, Options, SimplifyError, simplify};
 use geometry::uv::overlapping_faces;
-use mesh::{UV, counted};
+use mesh::{Column, Domain, Rule, UV, Values, counted, is_rig_name};
 use op::Refusal;
 use op::prelude::*;
 
@@ -31,6 +31,8 @@ use op::prelude::*;
 /// - Attributes: changes of texture coordinates, normals, colors and other numbers count as changes of the surface
 ///   (Hoppe, 1999), and new vertices get the values that fit best. Values are never mixed across a line, and no
 ///   triangle is turned over in the texture. Normals are kept, so that a simplified mesh is shaded like the original.
+///   The numbers that `Measure` stores also count, and the report lists them. If they must not influence the result,
+///   use `Measure` after this step.
 /// - Vertex tags: vertices with different tags, different sharpness, or different values of a whole-number attribute
 ///   are not merged.
 ///
@@ -60,7 +62,7 @@ pub struct Simplify {
     /// omitted, no additional edges.
     #[serde(default)]
     pub features: Option<EdgeSelection>,
-    /// Vertices that keep their exact positions, for example `Boundary`. If omitted, no vertices.
+    /// Vertices that are never removed and keep their exact positions, for example `Boundary`. If omitted, no vertices.
     #[serde(default)]
     pub pin: Option<VertexSelection>,
     /// Whether the step may create intersections of faces. Such intersections can occur where parts of the surface are
@@ -222,10 +224,27 @@ impl MeshOperation for Simplify {
             ));
         }
         if after < before {
+            note_quantities(mesh, &mut report);
             note_overlaps(mesh, &simplified.mesh, &mut report, cx)?;
             mesh.replace(simplified.mesh);
         }
         Ok(report)
+    }
+}
+
+/// Adds a note with the names of the vertex attributes that hold one number, such as the attributes that `Measure`
+/// stores, because their changes influenced the result. Users do not expect this of a measurement.
+pub(crate) fn note_quantities(mesh: &Mesh, report: &mut Report) {
+    let columns = mesh.attributes().of(Domain::Vertex).iter();
+    let is_quantity = |c: &&Column| {
+        c.rule == Rule::Interpolate && matches!(c.values, Values::Float(_)) && !is_rig_name(&c.name)
+    };
+    let names: Vec<&str> = columns.filter(is_quantity).map(|c| &*c.name).collect();
+    if !names.is_empty() {
+        report.notes.push(format!(
+            "attributes whose changes count as changes of the surface: {}",
+            names.join(", ")
+        ));
     }
 }
 
@@ -318,6 +337,37 @@ mod tests {
             .unwrap_err()
             .to_string();
         assert!(refused.starts_with("only 1 face was reached"), "{refused}");
+    }
+
+    #[test]
+    fn quantities_that_influence_the_result_are_noted() {
+        let mut mesh = shapes::icosahedron();
+        let n = mesh.n_vertices();
+        for (name, rule) in [
+            ("curvature", Rule::Interpolate),
+            (&mesh::joint_name(0), Rule::Interpolate),
+            ("label", Rule::Copy),
+        ] {
+            let values = Values::Float(vec![1.0; n]);
+            let name = name.to_owned();
+            mesh.insert_column(Domain::Vertex, Column { name, rule, values });
+        }
+        let (_, report) = try_applied(&step("(faces: 12)"), mesh.clone()).unwrap();
+        let note = "attributes whose changes count as changes of the surface: curvature";
+        assert_eq!(report.notes, [note]);
+        let (_, report) = try_applied(&step("(faces: 20)"), mesh).unwrap();
+        assert!(!report.notes.contains(&note.to_owned()));
+    }
+
+    #[test]
+    fn pinned_vertices_are_never_removed() {
+        let sphere = shapes::fans(&shapes::uv_sphere(16, 8));
+        let text = "(faces: 0, pin: Vertices([3, 17, 40]), on_refusal: Skip)";
+        let after = applied(&step(text), sphere.clone());
+        assert!(after.n_vertices() < sphere.n_vertices());
+        for i in [3, 17, 40] {
+            assert!(after.positions().contains(&sphere.positions()[i]));
+        }
     }
 
     #[test]

@@ -26,18 +26,39 @@ Other parameters with several forms are words, or values of the module `choice`:
 
 >>> m = m.smooth(by=choice.Taubin(), passes=5)
 
-Measures are properties, or attributes with a value for each vertex or face:
+Measures are properties, or attributes with a value for each vertex or face. `m.distance_to(other)` compares surfaces:
 
 >>> round(m.area, 1), m.is_closed, m.bounds.shape
 (6.5, True, (2, 3))
 >>> m.measure(of="MeanCurvature", name="curvature").attributes["curvature"].shape
 (162,)
 
-Pictures and interactive views of notebooks; saved files, with a warning if the format cannot store something:
+Pictures and interactive views of notebooks; saved files, with a `LossWarning` if data are lost:
 
     m.picture("ball.png", color_by="Area");  m.view(color_by="Area");  m.save("ball.glb")
 
-Recipes are lists of steps, which the program `meshwright` runs too. They have the same methods:
+Methods of a scene act on all of its objects, or on those that `on` names:
+
+>>> scene = mw.Scene().cube(name="box").icosahedron(name="ball", radius=2)
+>>> scene = scene.loop_subdivide(levels=1, on="ball").measure(of=choice.Distance(to="box"), name="gap", on="ball")
+>>> scene["box"].n_faces, scene["ball"].n_faces, scene["ball"].attributes["gap"].shape
+(6, 80, (42,))
+
+The steps that made a mesh or a scene are a recipe. The program `meshwright` runs recipes, too:
+
+>>> print(scene["ball"].recipe())
+(
+    recipe: 1,
+    steps: [
+        Cube(name: "box"),
+        Icosahedron(name: "ball", radius: 2),
+        (run: LoopSubdivide(levels: 1), on: ["ball"]),
+        (run: Measure(of: Distance(to: "box"), name: "gap"), on: ["ball"]),
+        Delete(objects: ["box"]),
+    ],
+)
+
+Recipes can also be built without running them, and have parameters. They have the same methods:
 
 >>> r = mw.recipe().icosahedron(name="ball").loop_subdivide(levels=mw.arg("levels", int, default=1))
 >>> r.run(levels=2).mesh().n_faces
@@ -45,7 +66,7 @@ Recipes are lists of steps, which the program `meshwright` runs too. They have t
 
 Functions: `read`, `read_bytes`, `recipe`, `arg`, `run` and `batch`, which runs a recipe on many files.
 Classes: `Mesh`, `Scene`, `Recipe`, `Outcome` and others. Use `help(mw.Mesh)` for one of them.
-Modules: `sel`, `choice`, `expect` (expectations of recipes), `matrices` (sparse matrices of SciPy).
+Modules: `sel`, `choice`, `expect` (expectations of recipes), `matrices` (sparse matrices of SciPy), `errors`.
 
 If you know trimesh:
 
@@ -89,6 +110,7 @@ are positive inside. `m.to_trimesh()` and `mw.Mesh.from_trimesh(mesh)` convert m
 # With `__all__`, `help(meshwright)` would show every method of every class after this text. The imports with `as` tell
 # type checkers that the names are public.
 from . import choice as choice
+from . import errors as errors
 from . import expect as expect
 from . import matrices as matrices
 from . import sel as sel
@@ -97,14 +119,11 @@ from ._batch import Row as Row
 from ._batch import batch as batch
 from ._core import __version__ as __version__
 from ._editor import Editor as Editor
-from ._errors import EditError as EditError
-from ._errors import Error as Error
-from ._errors import LossWarning as LossWarning
-from ._errors import Problem as Problem
-from ._errors import RecipeError as RecipeError
 from ._mesh import Attributes as Attributes
+from ._mesh import Distance as Distance
 from ._mesh import HalfEdges as HalfEdges
 from ._mesh import Mesh as Mesh
+from ._mesh import OneSided as OneSided
 from ._recipe import Outcome as Outcome
 from ._recipe import Parameter as Parameter
 from ._recipe import Recipe as Recipe
@@ -118,3 +137,8 @@ from ._ron import Ron as Ron
 from ._scene import Scene as Scene
 from ._scene import read as read
 from ._scene import read_bytes as read_bytes
+from .errors import EditError as EditError
+from .errors import Error as Error
+from .errors import LossWarning as LossWarning
+from .errors import Problem as Problem
+from .errors import RecipeError as RecipeError

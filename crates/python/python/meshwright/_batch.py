@@ -14,10 +14,10 @@ from pathlib import Path
 from typing import Any, Literal
 
 from . import _core
-from ._errors import Error
 from ._progress import Progress, callback, numbers
 from ._recipe import Recipe
 from ._scene import fsspec, is_address, write_bytes
+from .errors import Error
 
 #: The number of parts for each thread of a cluster. Files vary in size, so a thread that is done early takes another
 #: part.

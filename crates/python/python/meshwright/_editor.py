@@ -29,12 +29,12 @@ class Editor:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         if kind is None:
-            self._mesh = self._original._with_core(self._core.mesh())
+            self._mesh = self._original._with_core(self._core.mesh(), "edit()")
 
     @property
     def mesh(self) -> Mesh:
         """The edited mesh, after the end of the `with` block; inside it, the mesh as edited so far."""
-        return self._mesh or self._original._with_core(self._core.mesh())
+        return self._mesh or self._original._with_core(self._core.mesh(), "edit()")
 
     def edge(self, v: int, w: int) -> int:
         """Returns the edge between two vertices. Raises `KeyError` if there is none."""

@@ -12,13 +12,16 @@ from numpy.typing import ArrayLike, NDArray
 from . import _core, _ron
 from ._arrays import frozen, indices, numeric, points, view
 from ._convert import MeshConversions
-from ._errors import Error, of_method
+from ._history import History
+from ._names import snake
 from ._operations import MeshOperations
 from ._progress import Progress
 from ._ron import Choice, Ron
+from .errors import Error, of_method
 
 if TYPE_CHECKING:
     from ._editor import Editor
+    from ._recipe import Recipe
     from ._scene import Scene
     from ._view import View
 
@@ -44,6 +47,41 @@ class HalfEdges(NamedTuple):
     of_vertex: NDArray[np.uint32]
     #: For each face, one of its half-edges.
     of_face: NDArray[np.uint32]
+
+
+class OneSided(NamedTuple):
+    """The distances from the points of one surface to another surface, in scene units."""
+
+    #: The largest distance found. If it is not exact, it is too low.
+    largest: float
+    #: An upper bound of the distances of all points.
+    at_most: float
+    #: The mean over the area of the surface, computed from samples.
+    mean: float
+
+
+class Distance(NamedTuple):
+    """The distances between two surfaces, in scene units. See :meth:`Mesh.distance_to`."""
+
+    #: From the points of the first surface to the second.
+    forth: OneSided
+    #: From the points of the second surface to the first.
+    back: OneSided
+
+    @property
+    def largest(self) -> float:
+        """The Hausdorff distance: the larger of the two largest distances. If it is not exact, it is too low."""
+        return max(self.forth.largest, self.back.largest)
+
+    @property
+    def at_most(self) -> float:
+        """An upper bound of the Hausdorff distance."""
+        return max(self.forth.at_most, self.back.at_most)
+
+    @property
+    def mean(self) -> float:
+        """The larger of the two mean distances."""
+        return max(self.forth.mean, self.back.mean)
 
 
 class Attributes(Mapping[str, NDArray[Any]]):
@@ -121,11 +159,12 @@ class Mesh(MeshConversions, MeshOperations):
     The report of an operation is in the :attr:`notes` of its result.
     """
 
-    def __init__(self, scene: _core.Scene, name: str, notes: tuple[str, ...] = ()) -> None:
+    def __init__(self, scene: _core.Scene, name: str, notes: tuple[str, ...], history: History) -> None:
         self._scene = scene
         self._name = name
         self._core = scene.mesh(name)
         self._notes = notes
+        self._history = history
 
     @classmethod
     def from_arrays(
@@ -169,7 +208,8 @@ class Mesh(MeshConversions, MeshOperations):
         positions = points(vertices)
         starts, corners = polygons(faces, face_starts)
         core, repairs, point_of_vertex, polygon_of_face = _core.from_arrays(positions, starts, corners, repair)
-        mesh = cls(_core.Scene().with_mesh(name, core), name, tuple(repairs))
+        history = History().lost("make a mesh from arrays or from a mesh of another package")
+        mesh = cls(_core.Scene().with_mesh(name, core), name, tuple(repairs), history)
         return mesh, view(point_of_vertex), view(polygon_of_face)
 
     # ---- Arrays
@@ -326,7 +366,8 @@ class Mesh(MeshConversions, MeshOperations):
         if domain is None:
             domain = self._domain_of(len(array), name)
         rule = rule or ("interpolate" if packed.dtype == np.float64 else "copy")
-        return self._with_core(self._core.with_attribute(domain, name, packed.reshape(-1), columns, rule))
+        core = self._core.with_attribute(domain, name, packed.reshape(-1), columns, rule)
+        return self._with_core(core, "with_attribute()")
 
     def _domain_of(self, n: int, name: str) -> Domain:
         counts = dict(zip(DOMAINS, (self.n_vertices, len(self.corners), self.n_edges, self.n_faces), strict=True))
@@ -339,11 +380,12 @@ class Mesh(MeshConversions, MeshOperations):
 
     def without_attribute(self, name: str, domain: Domain | None = None) -> Self:
         """Returns the mesh without an attribute."""
-        return self._with_core(self._core.without_attribute(domain or self.attributes.domain(name), name))
+        core = self._core.without_attribute(domain or self.attributes.domain(name), name)
+        return self._with_core(core, "without_attribute()")
 
     def with_vertices(self, vertices: ArrayLike) -> Self:
         """Returns the mesh with other positions, of shape (n, 3). Normals are removed."""
-        return self._with_core(self._core.with_positions(points(vertices)))
+        return self._with_core(self._core.with_positions(points(vertices)), "with_vertices()")
 
     # ---- Facts
 
@@ -422,6 +464,33 @@ class Mesh(MeshConversions, MeshOperations):
         """The memory of all arrays, in bytes."""
         return self._core.bytes()
 
+    def distance_to(self, other: Mesh, *, tolerance: float | None = None) -> Distance:
+        """Measures the distances between the surfaces of two meshes, in both directions and in scene units. Placements
+        by nodes are left out; ``scene.placed()`` applies them.
+
+        >>> import meshwright as mw
+        >>> ball = mw.Scene().uv_sphere(name="ball").mesh()
+        >>> distance = ball.distance_to(ball.transform(move=(0, 0, 0.5)))
+        >>> round(distance.largest, 3), distance.forth.mean < 0.5
+        (0.5, True)
+
+        The expectation ``expect.DistanceTo(..)`` of a recipe holds if ``distance.at_most`` is below its limit.
+
+        :param tolerance: The largest allowed difference between ``largest`` and ``at_most``, in scene units. Defaults
+            to 0.00001 of the diagonal of the bounding box of both meshes. The search can stop before it reaches a very
+            small tolerance.
+        :raises ValueError: If one of the meshes has no faces.
+        """
+        if not isinstance(other, Mesh):
+            raise TypeError(f"other is of the type {type(other).__name__}, expected Mesh")
+        if tolerance is not None and not tolerance >= 0:
+            raise ValueError(f"the tolerance is {tolerance}, expected at least 0")
+        found = self._core.distance(other._core, tolerance)
+        if found is None:
+            raise ValueError("a distance needs two meshes with faces")
+        forth, back = (OneSided(*numbers) for numbers in found)
+        return Distance(forth, back)
+
     def defects(self) -> list[str]:
         """The broken invariants in words. Empty, unless this package has a bug."""
         return self._core.defects()
@@ -452,7 +521,32 @@ class Mesh(MeshConversions, MeshOperations):
         """Returns the scene that has only this object."""
         from ._scene import Scene
 
-        return Scene(self._scene)
+        return Scene(self._scene, (), self._history)
+
+    def recipe(self) -> Recipe:
+        """Returns the recipe of the steps that made the mesh, from the file or the shape with which it began. A run of
+        the recipe gives a mesh with the same :attr:`digest`.
+
+        >>> import meshwright as mw
+        >>> m = mw.Scene().icosahedron(name="ball").mesh().loop_subdivide(levels=2)
+        >>> print(m.weld(distance=0.001).recipe())
+        (
+            recipe: 1,
+            steps: [
+                Icosahedron(name: "ball"),
+                LoopSubdivide(levels: 2),
+                Weld(distance: 0.001),
+            ],
+        )
+
+        Files that were written, for example by :meth:`save`, are not steps of the mesh. Add them to the recipe:
+        ``m.recipe().save("a.glb").save_recipe("clean.ron")``. Paths of input files stay as they were given. Relative
+        paths in a recipe are relative to the folder of its file, so save the recipe in the working directory.
+
+        :raises ValueError: If the mesh was made from arrays, has another mesh as an argument of an operation, or was
+            changed by :meth:`with_attribute`, :meth:`with_vertices` or :meth:`edit`. The text names the change.
+        """
+        return self.scene().recipe()
 
     def render(self, **options: Any) -> bytes:
         """Draws the mesh and returns the bytes of a PNG file. The options are the parameters of :meth:`picture`."""
@@ -497,14 +591,18 @@ class Mesh(MeshConversions, MeshOperations):
         others: dict[int, tuple[str, Mesh]] = {}
         replaced = {name: self._named(value, others) for name, value in fields.items()}
         only_this = [self._name] if others else None
-        done = Scene(self._with(others))._apply(operation, replaced, only_this, id, progress)
+        history = self._history
+        if others:
+            advice = "Put both objects into one scene, and use the method of the scene with `on`."
+            history = history.lost(f"repeat `{snake(operation)}()` with a mesh as an argument", advice)
+        done = Scene(self._with(others), (), history)._apply(operation, replaced, only_this, id, progress)
         result = done._core.only([n for n in done if n not in [name for name, _ in others.values()]])
         names = result.names()
         if len(names) != 1 or result.kind(names[0]) != "mesh":
             raise TypeError(
                 f"{operation} gives {len(names)} objects; use mesh.scene() and the method of the scene instead"
             )
-        return type(self)(result, names[0], done.notes)
+        return type(self)(result, names[0], done.notes, done._history)
 
     def _named(self, value: Any, others: dict[int, tuple[str, Mesh]]) -> Any:
         """Replaces meshes in the values of parameters by names of objects."""
@@ -530,8 +628,9 @@ class Mesh(MeshConversions, MeshOperations):
             scene = scene.joined(other._scene, {other.name: name})
         return scene
 
-    def _with_core(self, core: _core.Mesh) -> Self:
-        return type(self)(self._scene.with_mesh(self._name, core), self._name, self._notes)
+    def _with_core(self, core: _core.Mesh, method: str) -> Self:
+        scene = self._scene.with_mesh(self._name, core)
+        return type(self)(scene, self._name, self._notes, self._history.lost(f"repeat `{method}`"))
 
     # ---- Python
 

@@ -2109,7 +2109,8 @@ class SceneOperations:
         - Attributes: changes of texture coordinates, normals, colors and other numbers count as changes of the surface
           (Hoppe, 1999), and new vertices get the values that fit best. Values are never mixed across a line, and no
           triangle is turned over in the texture. Normals are kept, so that a simplified mesh is shaded like the
-          original.
+          original. The numbers that ``measure()`` stores also count, and the report lists them. If they must not
+          influence the result, use ``measure()`` after this operation.
         - Vertex tags: vertices with different tags, different sharpness, or different values of a whole-number
           attribute are not merged.
 
@@ -2134,8 +2135,8 @@ class SceneOperations:
         :param features: Edges to keep as lines, in addition to the lines that are always kept. For example,
             ``sel.Sharp(above=30)``. If omitted, no additional edges. ``"All"``, ``"Boundary"``, or a value of
             ``meshwright.sel``.
-        :param pin: Vertices that keep their exact positions, for example ``Boundary``. If omitted, no vertices.
-            ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
+        :param pin: Vertices that are never removed and keep their exact positions, for example ``Boundary``. If
+            omitted, no vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
         :param intersections: Whether the operation may create intersections of faces. Such intersections can occur
             where parts of the surface are close together. Defaults to ``"Allow"``.
             ``"Allow"``: New intersections are allowed, and not detected.
@@ -4540,7 +4541,8 @@ class MeshOperations:
         - Attributes: changes of texture coordinates, normals, colors and other numbers count as changes of the surface
           (Hoppe, 1999), and new vertices get the values that fit best. Values are never mixed across a line, and no
           triangle is turned over in the texture. Normals are kept, so that a simplified mesh is shaded like the
-          original.
+          original. The numbers that ``measure()`` stores also count, and the report lists them. If they must not
+          influence the result, use ``measure()`` after this operation.
         - Vertex tags: vertices with different tags, different sharpness, or different values of a whole-number
           attribute are not merged.
 
@@ -4565,8 +4567,8 @@ class MeshOperations:
         :param features: Edges to keep as lines, in addition to the lines that are always kept. For example,
             ``sel.Sharp(above=30)``. If omitted, no additional edges. ``"All"``, ``"Boundary"``, or a value of
             ``meshwright.sel``.
-        :param pin: Vertices that keep their exact positions, for example ``Boundary``. If omitted, no vertices.
-            ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
+        :param pin: Vertices that are never removed and keep their exact positions, for example ``Boundary``. If
+            omitted, no vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
         :param intersections: Whether the operation may create intersections of faces. Such intersections can occur
             where parts of the surface are close together. Defaults to ``"Allow"``.
             ``"Allow"``: New intersections are allowed, and not detected.

@@ -10,12 +10,13 @@ from functools import partial
 from typing import Any, Self, overload
 
 from . import _core, _ron
-from ._errors import Problem
+from ._history import History
 from ._mesh import Mesh
 from ._operations import SceneOperations
 from ._progress import Progress, callback, numbers
 from ._ron import Arg, Choice, Ron
 from ._scene import Scene, lines_of, whole_step
+from .errors import Problem
 
 
 @dataclass(frozen=True)
@@ -136,6 +137,12 @@ class Recipe(SceneOperations):
         self._about: str | None = None
 
     load = _Load()
+
+    @classmethod
+    def _of(cls, steps: tuple[str, ...]) -> Self:
+        made = cls()
+        made._steps = steps
+        return made
 
     def _copy(self) -> Self:
         if self._text is not None:
@@ -279,7 +286,7 @@ class Recipe(SceneOperations):
         ((), ())
 
         :param preset: The name of a preset of the recipe.
-        :param out: The folder for outputs.
+        :param out: The output folder, as for :meth:`run`.
         :param budget: The memory budget for meshes, in bytes. Defaults to 8 GiB.
         :param values: Values of the parameters of the recipe. A parameter named `out` can only be given here.
         :param more: More values: ``check(levels=3)``.
@@ -302,7 +309,8 @@ class Recipe(SceneOperations):
         **more: Any,
     ) -> Outcome:
         """Checks and runs the recipe. Ctrl-C cancels. Files are written only if every step succeeds and every expectation
-        holds.
+        holds. Their paths are relative to the folder `out`. Paths of input files are relative to the folder of the
+        recipe; for a recipe that was built in Python, to the working directory.
 
         >>> import meshwright as mw
         >>> out = mw.recipe().cube(name="box").triangulate().run()
@@ -310,7 +318,8 @@ class Recipe(SceneOperations):
         (12, 'Triangulate')
 
         :param preset: The name of a preset of the recipe.
-        :param out: The folder for outputs.
+        :param out: The output folder, which is created if necessary. It is relative to the working directory, and
+            defaults to the folder ``out`` there: ``save("a.glb")`` writes ``out/a.glb``.
         :param keep_outputs: Whether files are kept after the run.
         :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
             `True` for a bar of tqdm. An exception cancels the run.
@@ -323,7 +332,8 @@ class Recipe(SceneOperations):
         with callback(progress) as show:
             scene, about = core.run(keep_outputs, show)
         assert scene is not None
-        return Outcome(Scene(scene), about)
+        history = History().lost("begin with the result of a recipe", "Add further steps to that recipe.")
+        return Outcome(Scene(scene, (), history), about)
 
     def save_recipe(self, path: str | os.PathLike[str]) -> None:
         """Writes the text of the recipe to a file."""

@@ -7,13 +7,17 @@ import os
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self
 
 from . import _core, _ron
-from ._errors import Error, of_method, warn
+from ._history import History
 from ._mesh import Mesh
 from ._operations import SceneOperations
 from ._progress import Progress, callback
+from .errors import Error, of_method, warn
+
+if TYPE_CHECKING:
+    from ._recipe import Recipe
 
 EXTENSIONS = (".obj", ".gltf", ".glb", ".ply", ".stl", ".off", ".dae", ".mws", ".bez", ".bzc")
 
@@ -31,9 +35,12 @@ class Scene(SceneOperations, Mapping[str, Mesh]):
     6
     """
 
-    def __init__(self, core: _core.Scene | None = None, notes: tuple[str, ...] = ()) -> None:
+    def __init__(
+        self, core: _core.Scene | None = None, notes: tuple[str, ...] = (), history: History | None = None
+    ) -> None:
         self._core = core if core is not None else _core.Scene()
         self._notes = notes
+        self._history = history or History()
 
     # ---- Objects
 
@@ -43,7 +50,7 @@ class Scene(SceneOperations, Mapping[str, Mesh]):
             raise KeyError(f'no object is named "{name}"; objects: {known}')
         if self._core.kind(name) != "mesh":
             raise TypeError(f'"{name}" is {self._core.kind(name)}, expected a mesh; tessellate() makes meshes of patches')
-        return Mesh(self._core.only([name]), name, self._notes)
+        return Mesh(self._core.only([name]), name, self._notes, self._history.only(self._core, [name]))
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._core.names())
@@ -72,18 +79,23 @@ class Scene(SceneOperations, Mapping[str, Mesh]):
     def with_object(self, mesh: Mesh, *, name: str | None = None) -> Self:
         """Returns the scene with the object of a mesh added. The object is named `name`, or keeps its name if `name` is
         omitted."""
-        return type(self)(self._core.joined(mesh._scene, {mesh.name: name or mesh.name}), self._notes)
+        if self._history.is_empty and name in (None, mesh.name):
+            history = mesh._history
+        else:
+            history = self._history.lost("repeat `with_object()`", "Make all objects in one scene.")
+        return type(self)(self._core.joined(mesh._scene, {mesh.name: name or mesh.name}), self._notes, history)
 
     def only(self, *names: str) -> Self:
         """Returns the scene with only these objects."""
         for name in names:
             self._core.kind(name)
-        return type(self)(self._core.only(list(names)), self._notes)
+        return type(self)(self._core.only(list(names)), self._notes, self._history.only(self._core, names))
 
     def placed(self) -> Self:
         """Returns the scene without nodes, with every object moved to the place where its nodes show it. An object that
         several nodes show becomes several objects."""
-        return type(self)(self._core.placed(), self._notes)
+        history = self._history.lost("repeat `placed()`", 'Read the file with placements="Bake".')
+        return type(self)(self._core.placed(), self._notes, history)
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -161,7 +173,8 @@ class Scene(SceneOperations, Mapping[str, Mesh]):
     ) -> tuple[Self, dict[str, bytes]]:
         if operation not in _ron.operations():
             raise AttributeError(f"no operation is named {operation}")
-        text = f"(recipe: 1, steps: [\n{whole_step(operation, fields, on, id)}\n])"
+        step = whole_step(operation, fields, on, id)
+        text = f"(recipe: 1, steps: [\n{step}\n])"
         try:
             with callback(progress) as show:
                 core, about = self._core.run(text, "", output, files, budget, show)
@@ -172,7 +185,25 @@ class Scene(SceneOperations, Mapping[str, Mesh]):
             warn_of_losses(os.fspath(fields["path"]), reports)
         notes = [line for report in reports for line in lines_of(report)]
         notes += [warning["message"] for warning in about["warnings"]]
-        return type(self)(core, tuple(notes)), about["written"]
+        history = self._history
+        if operation not in WRITES:
+            history = history.then(step) if files is None else history.lost("read bytes, an address or a pickled object")
+        return type(self)(core, tuple(notes), history), about["written"]
+
+    def recipe(self) -> Recipe:
+        """Returns the recipe of the steps that made the scene. A run of the recipe gives a scene with the same
+        :attr:`digest`. See :meth:`Mesh.recipe`.
+
+        >>> import meshwright as mw
+        >>> scene = mw.Scene().cube(name="box").torus(name="ring").weld(distance=1e-6, on="ring")
+        >>> scene.recipe().run().digest == scene.digest
+        True
+
+        :raises ValueError: If no recipe can repeat one of the changes. The text names the change.
+        """
+        from ._recipe import Recipe
+
+        return Recipe._of(self._history.steps())
 
     # ---- Files
 
@@ -254,7 +285,7 @@ def warn_of_losses(path: str, reports: Sequence[Mapping[str, Any]]) -> None:
     """Issues one warning that lists what a file lacks. Rounded positions are not lost."""
     losses = [loss for report in reports for loss in report["losses"] if loss["name"] != "position"]
     if losses:
-        warn(f"{path}: {'; '.join(map(line_of_loss, losses))}")
+        warn(f"{path}: {'; '.join(map(line_of_loss, losses))}. An .mws file stores everything; see help(meshwright.LossWarning)")
 
 
 def is_address(path: str) -> bool:

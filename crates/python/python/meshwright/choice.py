@@ -16,6 +16,17 @@ if TYPE_CHECKING:
     from ._mesh import Mesh
 
 
+__all__ = [
+    "Angles", "Attribute", "Denoise", "Direction", "Distance", "DistanceTo", "EdgeLength", "Fit", "Geodesic", "Image",
+    "Implicit", "Laplacian", "LimitDistance", "LookAt", "Noise", "Occlusion", "Offset", "Perspective", "Plain",
+    "Point", "PrincipalCurvature", "Random", "Rotate", "Scale", "Tag", "Taubin", "To", "Winding"
+]
+
+
+def __dir__() -> list[str]:
+    return __all__
+
+
 
 def Angles(*, azimuth: float | Arg | Ron, elevation: float | Arg | Ron) -> Choice:
     """From any direction.

@@ -13,6 +13,19 @@ from numpy.typing import NDArray
 from ._ron import Arg, Choice, Ron
 
 
+__all__ = [
+    "Area", "Attribute", "AxisMirrors", "BoundaryLoops", "Bounds", "Closed", "Components", "Count", "CubeMotions",
+    "CubeRotations", "Digest", "DihedralAngle", "DistanceTo", "EdgeLength", "Edges", "EulerCharacteristic", "Faces",
+    "File", "Genus", "HasAttribute", "Manifold", "MeanFaceArea", "MeanMinAngle", "MinAngle", "Not", "Object",
+    "Objects", "Output", "Point", "Position", "Same", "SelfIntersections", "SymmetricUnder", "Thickness", "UvOverlap",
+    "UvStretch", "Valence", "Vertices", "Volume"
+]
+
+
+def __dir__() -> list[str]:
+    return __all__
+
+
 
 def Area(
     *,

@@ -16,6 +16,19 @@ if TYPE_CHECKING:
     from ._mesh import Mesh
 
 
+__all__ = [
+    "All", "And", "Between", "Boundary", "Box", "Component", "CornersOf", "Degree", "EdgeLoop", "EdgeRing", "Edges",
+    "EdgesAround", "EdgesOf", "EdgesWithin", "EndsOf", "Expand", "Expect", "Faces", "FacesAround", "FacesBeside",
+    "Facing", "Flat", "Grow", "HalfSpace", "Inside", "InsideOf", "Isolated", "Longer", "Longest", "Material",
+    "Nearest", "Not", "Or", "Path", "Random", "SelfIntersecting", "Sharp", "Shorter", "Shrink", "Sphere", "Tagged",
+    "Valence", "Vertices", "Where"
+]
+
+
+def __dir__() -> list[str]:
+    return __all__
+
+
 All = Choice('All')
 """All elements."""
 
@@ -459,6 +472,9 @@ def Where(
     """The elements whose attribute has a value in a range.
 
     Refused if no attribute of elements has this name.
+
+    For the 10 % of the vertices with the highest values: ``sel.Where(attribute="curvature",
+    above=numpy.quantile(m.attributes["curvature"], 0.9))``.
 
     :param attribute: The name of the attribute.
     :param component: The index of the component of a vector, starting at 0. Required if the attribute is a vector, and

@@ -1,4 +1,4 @@
-"""The exceptions of the package."""
+"""The exceptions and the warning of the package, which are also names of the package: `meshwright.RecipeError`."""
 
 from __future__ import annotations
 
@@ -77,7 +77,9 @@ class EditError(Error):
 class LossWarning(UserWarning):
     """A saved file lacks some of the data, because its format cannot store them. The text lists what is lost.
 
-    ``warnings.simplefilter("error", mw.LossWarning)`` makes an exception of the warning. The file is still written.
+    An ``.mws`` file stores everything. If the losses do not matter,
+    ``warnings.simplefilter("ignore", mw.LossWarning)`` hides the warnings. With ``"error"`` in place of ``"ignore"``,
+    they become exceptions. In both cases, the file is written.
     """
 
 
@@ -105,7 +107,3 @@ def of_method(error: Error, operation: str) -> Error:
     problems = [replace(p, message=text(p.message), help=p.help and text(p.help)) for p in error.problems]
     lines = [p.message + (f"; {p.help}" if p.help else "") for p in problems]
     return RecipeError("\n".join(lines) or str(error), tuple(problems))
-
-
-for _class in (Problem, Error, RecipeError, EditError, LossWarning):
-    _class.__module__ = "meshwright"

@@ -1,0 +1,62 @@
+"""The steps that made a scene or a mesh."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from . import _core, _ron
+
+#: What to do if no recipe can repeat a change.
+SAVE = "Save the result as an .mws file and read this file: the recipe then starts with the file."
+
+
+class History:
+    """The steps that made a scene, from the first to the last. Later histories refer to earlier ones. Only the texts of
+    steps are kept alive, not the meshes.
+
+    If no recipe can repeat a change, the history contains only the reason.
+    """
+
+    __slots__ = ("_earlier", "_reason", "_step")
+
+    def __init__(self, earlier: History | None = None, step: str = "", reason: str = "") -> None:
+        self._earlier = earlier
+        self._step = step
+        self._reason = reason
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether nothing was changed yet."""
+        return self._earlier is None and not self._reason
+
+    def then(self, step: str) -> History:
+        """This history with one more step."""
+        return self if self._reason else History(self, step)
+
+    def lost(self, change: str, advice: str = SAVE) -> History:
+        """The history after a change that no recipe can make: "repeat `edit()`". The first of these changes is kept."""
+        if self._reason:
+            return self
+        step = self._step if len(self._step) <= 80 else f"{self._step[:77]}..."
+        after = f" after the step `{step}`" if step else ""
+        return History(reason=f"no recipe can {change}{after}. {advice}")
+
+    def only(self, core: _core.Scene, names: Sequence[str]) -> History:
+        """The history of a part of the scene `core`."""
+        if self._reason:
+            return self
+        if not core.only_is_delete(names):
+            change = "make this part of a scene, because it lacks nodes, cameras or lights of the scene"
+            return self.lost(change, 'Use methods of the scene, or read the file with placements="Bake".')
+        others = [name for name in core.names() if name not in names]
+        return self.then(_ron.step("Delete", {"objects": others})) if others else self
+
+    def steps(self) -> tuple[str, ...]:
+        """The steps. Raises `ValueError` if no recipe can repeat a change."""
+        if self._reason:
+            raise ValueError(self._reason)
+        found, history = [], self
+        while history._earlier is not None:
+            found.append(history._step)
+            history = history._earlier
+        return tuple(reversed(found))

@@ -23,6 +23,9 @@ use crate::attribute::{
 /// if it is stretched, mirrored or overlaps itself. Each zero-area chart becomes a point. The report counts zero-area
 /// charts and charts that overlap themselves. Each mesh gets its own page, that is, the whole square of a texture.
 /// Tangents are removed, because charts are rotated.
+///
+/// Up to 256 charts can lie in the hollows and holes of each other. More charts are packed in rows, which is much faster
+/// but leaves more of the page empty.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct PackUvs {
@@ -41,6 +44,7 @@ pub struct PackUvs {
 
 impl MeshOperation for PackUvs {
     const NAME: &'static str = "PackUvs";
+    const VERSION: u32 = 2;
     const SUMMARY: &'static str = "Move and scale charts of texture coordinates into one page";
     const EXAMPLE: &'static str = "PackUvs(page: 2048, padding: 4)";
     const WORDS: &'static [&'static str] = &["uv", "texture", "atlas", "lightmap", "island"];

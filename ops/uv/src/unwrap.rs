@@ -22,7 +22,7 @@ use crate::attribute::{coverage, error, padding, padding_problem, page, page_of,
 /// hybrid method of Liu and others (2008). A chart is cut again if it would overlap itself or exceed `max_stretch`. It
 /// is also cut again if the ratio of the largest to the smallest stretch would exceed 1.15 on more than 5 % of its
 /// area. All charts of a mesh have the same scale, and no chart is mirrored. A polygon stays in one chart. Each mesh
-/// gets its own page.
+/// gets its own page, on which the charts are arranged as by `PackUvs`.
 ///
 /// The coordinates are written to the corner attribute `uv`, which is replaced if it exists. Edges at which charts meet
 /// become seams. Positions, faces and other attributes do not change, but tangents are removed. Zero-area faces have no
@@ -72,7 +72,7 @@ const fn max_stretch() -> f64 {
 
 impl MeshOperation for Unwrap {
     const NAME: &'static str = "Unwrap";
-    const VERSION: u32 = 3;
+    const VERSION: u32 = 4;
     const SUMMARY: &'static str = "Compute texture coordinates without overlaps";
     const EXAMPLE: &'static str = "Unwrap(max_angle: 60)";
     const WORDS: &'static [&'static str] = &["uv", "texture", "atlas", "lightmap", "parameterize"];

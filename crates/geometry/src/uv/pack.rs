@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use mesh::{DVec2, HalfEdgeId, Mesh};
 use progress::Progress;
-use uvunwrap::{Atlas, Density, MeshInput, Options, OutputMesh, generate_with_progress};
+use uvunwrap::{Atlas, Density, MeshInput, Options, OutputMesh, Packing, generate_with_progress};
 
 use super::surface::unit_positions;
 use super::{Page, UvError, charts};
@@ -25,6 +25,10 @@ pub struct Packed {
     /// The area of the charts, as a fraction of the page.
     pub coverage: f64,
 }
+
+/// Charts are nested by their shapes only up to this number. The time for nesting grows faster than the number of charts:
+/// for 3,324 charts on a page of 4096 texels, rows are 15 times as fast and cover 61 % of the page instead of 66 %.
+const MAX_NESTED: usize = 256;
 
 /// Triangles whose area is at most this fraction of the area of their chart do not take part in packing.
 const MIN_AREA: f64 = 1e-11;
@@ -58,7 +62,8 @@ struct Shape {
 
 /// Moves, turns and scales the charts of texture coordinates of a dense mesh, so that they do not overlap each other
 /// and have one scale: areas in the texture are proportional to areas of the surface. Angles and ratios of lengths
-/// inside a chart are preserved, and mirrored charts remain mirrored.
+/// inside a chart are preserved, and mirrored charts remain mirrored. Up to 256 charts can lie in the hollows and holes
+/// of each other. More charts are packed in rows, which is much faster.
 ///
 /// # Errors
 ///
@@ -172,6 +177,11 @@ fn generate(input: &[MeshInput], page: Page, progress: &dyn Progress) -> Result<
             page_size: page.size,
         },
         padding: page.padding,
+        packing: if input.len() <= MAX_NESTED {
+            Packing::Shape
+        } else {
+            Packing::Fast
+        },
         ..Options::default()
     };
     let listen = |report: uvunwrap::Progress| {

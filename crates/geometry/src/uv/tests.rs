@@ -309,33 +309,27 @@ fn stacked(mesh: &Mesh) -> Vec<DVec2> {
 
 #[test]
 fn packed_charts_have_one_scale_and_keep_their_shapes() {
-    let mesh = shapes::cube();
-    let before = stacked(&mesh);
-    assert!(
-        !overlapping_faces(&mesh, &before, &NoProgress)
-            .unwrap()
-            .is_empty()
-    );
-    let packed = pack(&mesh, &before, PAGE, &NoProgress).unwrap();
-    assert_eq!(
-        (packed.n_charts, packed.n_flat, packed.n_overlapping),
-        (6, 0, 0)
-    );
-    assert_eq!(
-        overlapping_faces(&mesh, &packed.uvs, &NoProgress).unwrap(),
-        []
-    );
-    let measured = stretch(&mesh, &packed.uvs).unwrap();
-    // The mirrored face remains mirrored.
-    assert_eq!(measured.n_mirrored, 2);
-    assert!((measured.max_aspect - 1.0).abs() < 1e-9, "{measured:?}");
-    assert!((measured.scales - 1.0).abs() < 1e-9, "{measured:?}");
-    assert!(packed.coverage > 0.5);
-    let sum: usize = raster(&mesh, &packed.uvs, 128)
-        .into_iter()
-        .map(usize::from)
-        .sum();
-    assert!((sum as f64 / 16384.0 - packed.coverage).abs() < 0.02);
+    // Few charts are nested, 300 charts are packed in rows.
+    for (mesh, size) in [(shapes::cube(), 256), (shapes::grid(20, 15), 512)] {
+        let before = stacked(&mesh);
+        let overlapping = |uvs: &[DVec2]| overlapping_faces(&mesh, uvs, &NoProgress).unwrap();
+        assert!(!overlapping(&before).is_empty());
+        let packed = pack(&mesh, &before, Page { size, ..PAGE }, &NoProgress).unwrap();
+        assert_eq!(
+            (packed.n_charts, packed.n_flat, packed.n_overlapping),
+            (mesh.n_faces(), 0, 0)
+        );
+        assert_eq!(overlapping(&packed.uvs), []);
+        let measured = stretch(&mesh, &packed.uvs).unwrap();
+        // The mirrored face remains mirrored.
+        assert_eq!(measured.n_mirrored, 2);
+        assert!((measured.max_aspect - 1.0).abs() < 1e-9, "{measured:?}");
+        assert!((measured.scales - 1.0).abs() < 1e-9, "{measured:?}");
+        assert!(packed.coverage > 0.5);
+        let pixels = raster(&mesh, &packed.uvs, size as usize / 2);
+        let n_covered: usize = pixels.iter().copied().map(usize::from).sum();
+        assert!((n_covered as f64 / pixels.len() as f64 - packed.coverage).abs() < 0.02);
+    }
 }
 
 #[test]

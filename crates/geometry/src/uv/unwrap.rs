@@ -47,8 +47,8 @@ pub struct Unwrapped {
 /// two if it would overlap itself or be stretched too much. In the result, each chart has an aspect of at most 1.15 on
 /// 95 % of its area (see [`Stretch`](super::Stretch)). Charts that meet are joined again if the joined chart neither
 /// overlaps itself nor is stretched too much. Then the faces of a chart are divided among the charts around it, if these
-/// charts remain within the same limits. All charts have the same scale and are packed by their shapes. No chart is
-/// mirrored, and no polygon is split.
+/// charts remain within the same limits. All charts have the same scale. No chart is mirrored, and no polygon is
+/// split. The charts are packed by [`pack`].
 ///
 /// The result does not depend on the number of threads or the processor.
 ///

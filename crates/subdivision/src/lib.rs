@@ -21,8 +21,8 @@
 //!
 //! # Convergence
 //!
-//! For Loop and Catmull-Clark, [`limit`] computes the position to which each vertex converges. The diagram shows the
-//! largest distance from a vertex to its limit position after each level of Loop subdivision:
+//! For Loop and Catmull-Clark, [`limit`](fn@limit) computes the position to which each vertex converges. The diagram
+//! shows the largest distance from a vertex to its limit position after each level of Loop subdivision:
 //!
 //! ```text
 //! 1    |

@@ -1,7 +1,7 @@
 //! Drawings in the plane: figures, labels and legends.
 //!
-//! A figure is an SVG document ([`Svg`]), which is written as text or rendered to [`pixels`]. Labels and legends are
-//! also SVG documents, which are drawn over an image.
+//! A figure is an SVG document ([`Svg`]), which is written as text or rendered to [`pixels`](fn@pixels). Labels and
+//! legends are also SVG documents, which are drawn over an image.
 //!
 //! - [`construction`](mod@construction): de Casteljau's construction of a point of a Bezier curve.
 //! - [`half_edges`](mod@half_edges): the half-edges of a part of a mesh.

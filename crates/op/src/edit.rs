@@ -43,7 +43,7 @@ impl OnRefusal {
     /// Returns the error `refused` if this is [`OnRefusal::Error`], or if the error is not a refusal.
     pub fn refuse(self, refused: OpError, report: &mut Report) -> Result<(), OpError> {
         match self {
-            Self::Error => Err(refused),
+            Self::Error => Err(refused.skippable()),
             Self::Skip => report.refuse(refused),
         }
     }
@@ -137,7 +137,7 @@ pub fn edit_each<I: EditTarget>(
         if let Err(refusal) = edit(mesh, element) {
             let refused = || OpError::refused_edit(refusal, mesh, &element.elements());
             match on_refusal {
-                OnRefusal::Error => return Err(refused()),
+                OnRefusal::Error => return Err(refused().skippable()),
                 OnRefusal::Skip => {
                     report.count_refused(refusal.into(), 1, || refused().to_string());
                 }

@@ -121,6 +121,8 @@ pub enum OpError {
         elements: Vec<Element>,
         /// The locations of the elements.
         places: Vec<ErrorLocation>,
+        /// Whether the operation has the parameter `on_refusal`, so that a recipe can skip the refused elements.
+        can_skip: bool,
     },
     /// A parameter has a value that the scene does not allow.
     #[error("{0}")]
@@ -147,7 +149,23 @@ impl OpError {
             message: message.into(),
             elements: Vec::new(),
             places: Vec::new(),
+            can_skip: false,
         }
+    }
+
+    /// Marks a refusal as one that the value `Skip` of the parameter `on_refusal` would avoid.
+    #[must_use]
+    pub fn skippable(mut self) -> Self {
+        if let Self::Refused { can_skip, .. } = &mut self {
+            *can_skip = true;
+        }
+        self
+    }
+
+    /// Returns advice for the user who wrote the step, if there is any.
+    pub fn help(&self) -> Option<&'static str> {
+        let can_skip = matches!(self, Self::Refused { can_skip: true, .. });
+        can_skip.then_some("to skip the elements at which this happens, add `on_refusal: Skip`")
     }
 
     /// Creates the error for a coordinate that is not finite. The message names the operation and the parameters that

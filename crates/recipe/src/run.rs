@@ -148,6 +148,8 @@ pub struct StepError {
     pub message: String,
     /// The locations in the scene to which the failure refers, if any are known.
     pub places: Vec<ErrorLocation>,
+    /// Advice for the user, if there is any.
+    pub help: Option<&'static str>,
 }
 
 /// The run ends early, because it was canceled or because a failure was reported.
@@ -310,8 +312,13 @@ impl Runner<'_> {
         run_step(step, &mut self.scene, files, budget, listener).map_err(|error| {
             match error {
                 None => self.cancelled = true,
-                Some(StepError { message, places }) => {
-                    let failure = Diagnostic::error(step.span, message);
+                Some(StepError {
+                    message,
+                    places,
+                    help,
+                }) => {
+                    let mut failure = Diagnostic::error(step.span, message);
+                    failure.help = help.map(str::to_owned);
                     self.fail(step.scope, failure, (&places, None), listener);
                 }
             }
@@ -464,7 +471,11 @@ pub fn run_step(
 ) -> Result<(Report, Option<Refusal>), Option<StepError>> {
     let error = |message: String, places: &[ErrorLocation]| {
         let places = places.to_vec();
-        Err(Some(StepError { message, places }))
+        Err(Some(StepError {
+            message,
+            places,
+            help: None,
+        }))
     };
     let Some(operation) = &step.step else {
         return error("this step could not be read".to_owned(), &[]);
@@ -513,7 +524,11 @@ pub fn run_step(
             let report = Report::default().note(format!("refused as expected: {message}"));
             Ok((report, Some(reason)))
         }
-        (Err(found), None) => error(found.to_string(), found.places()),
+        (Err(found), None) => Err(Some(StepError {
+            message: found.to_string(),
+            places: found.places().to_vec(),
+            help: found.help(),
+        })),
         (Err(found), Some(expected)) => {
             let message =
                 format!("expected the refusal {expected:?}, but the step failed: {found}");

@@ -68,7 +68,9 @@ impl MeshOperation for DeleteFaces {
         let report = match mesh.delete_faces(&faces) {
             Ok(()) if faces.is_empty() => Report::default().note("nothing was selected"),
             Ok(()) => Report::changed(faces.len()),
-            Err(refusal) if self.on_refusal == OnRefusal::Error => return Err(refusal.into()),
+            Err(refusal) if self.on_refusal == OnRefusal::Error => {
+                return Err(OpError::from(refusal).skippable());
+            }
             Err(_) => one_by_one(mesh, faces, cx)?,
         };
         for v in corners {

@@ -51,6 +51,27 @@ fn five_different_mistakes_are_five_errors_and_nothing_runs() {
 }
 
 #[test]
+fn a_refused_edit_says_how_to_skip_it_if_the_step_can() {
+    for (steps, can_skip) in [
+        ("Tetrahedron(), FlipEdges(edges: All)", true),
+        (
+            "Grid(columns: 2, rows: 2), BevelVertices(vertices: All, fraction: 0.25)",
+            true,
+        ),
+        (
+            "Grid(columns: 2, rows: 2), DeleteFaces(faces: Faces([0, 3]))",
+            true,
+        ),
+        ("Tetrahedron(), Simplify(faces: 2)", false),
+    ] {
+        let text = format!("(recipe: 1, steps: [{steps}])");
+        let ended = fails(&Folder::with_recipe(&text));
+        let help = "help: to skip the elements at which this happens, add `on_refusal: Skip`\n";
+        assert_eq!(ended.stderr.contains(help), can_skip, "{ended:#?}");
+    }
+}
+
+#[test]
 fn a_syntax_error_hides_no_other_mistake() {
     let folder =
         Folder::with_recipe("(recipe: 1, steps: [\n  Cube(name: \"a\",\n  Cubee(name: \"b\"),\n])");

@@ -49,7 +49,7 @@ const SPLIT: u8 = 1;
 const SYMMETRIZE: u8 = 31;
 const UNWRAP: u8 = 32;
 
-/// Applies the edit. Ids can be beyond the last element, and elements can be dead.
+/// Applies the edit. Ids can be beyond the last element, or belong to deleted elements.
 ///
 /// # Errors
 /// The reason for which the edit was refused.

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use super::{assert_none, root};
 
-/// The crates that can access files or clocks directly: the program, the window of the editor, the store, the step
-/// cache on disk, and benchmarks.
+/// The crates that are allowed to access files or clocks directly: the program, the window of the editor, the store,
+/// the step cache on disk, and benchmarks.
 const ALLOWED: [&str; 5] = ["benches", "cache", "cli", "store", "viewer"];
 
 /// The names in source code that indicate direct access to files or clocks.

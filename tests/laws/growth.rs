@@ -53,7 +53,8 @@ const SIZES: [usize; 2] = [1000, 64_000];
 /// with the mesh.
 const OTHER: &str = "Load Polygons MoveControlPoint MovePatchPoint CurveLevels SampleCurve CurveFigure HalfEdgeFigure";
 
-/// Steps whose time may grow faster, with the maximum growth. The comment above a step gives the reason.
+/// Steps whose time is allowed to grow faster than `MAX_GROWTH`, each with its maximum growth. The comment above a step
+/// gives the reason.
 const STEEPER: &[(&str, f64)] = &[
     // The collapses merge all vertices of a row into one vertex, whose valence is the length of a row. So the time for
     // n faces is proportional to n^1.5.

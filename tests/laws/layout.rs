@@ -7,7 +7,8 @@ use serde_json::Value;
 
 use crate::{assert_none, root};
 
-/// The direct dependencies that each crate may have. A crate can also use the dependencies of its direct dependencies.
+/// The direct dependencies that each crate is allowed to have. A crate can also use the dependencies of its direct
+/// dependencies.
 const ALLOWED_DEPENDENCIES: &[(&str, &[&str])] = &[
     ("progress", &[]),
     ("store", &[]),

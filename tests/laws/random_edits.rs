@@ -13,10 +13,12 @@ use crate::fixtures;
 #[derive(Clone, Copy, Debug)]
 enum Edit {
     Flip(usize),
-    /// Splits an edge. The number is the position in quarters of the edge; 0 and 4 are invalid.
+    /// Splits an edge. The second number is the position on the edge, in quarters of the length of the edge; 0 and 4
+    /// are invalid.
     Split(usize, u8),
     DeleteFace(usize),
-    /// Collapses an edge. The number is the position in quarters of the edge; 5 is invalid.
+    /// Collapses an edge. The second number is the position on the edge, in quarters of the length of the edge; 5 is
+    /// invalid.
     Collapse(usize, u8),
     Compact,
 }

@@ -1,5 +1,5 @@
-//! Tests the update of the recorded numbers of a recipe. The update restores changed numbers and keeps the rest of the
-//! text. The test uses the recipes in `scenes/`.
+//! Tests the update of the numbers in the expectations of a recipe. The test changes these numbers in each recipe in
+//! `scenes/`. The update must restore them and keep the rest of the text.
 
 use engine::FileReader;
 use op::Files;

@@ -18,7 +18,7 @@ pub struct Timing {
 
 /// Encodes images as an animated PNG file, with all colors and transparency.
 ///
-/// Each of `texts` is a keyword of 1 to 79 Latin-1 characters and a string.
+/// Each entry of `texts` is a pair of strings: a keyword of 1 to 79 Latin-1 characters, and its text.
 ///
 /// # Errors
 ///
@@ -48,8 +48,8 @@ pub fn to_apng(
 
 /// Encodes images as a GIF file, with one [`Palette`] for all images.
 ///
-/// Pixels that are less than half opaque become transparent, all others opaque. `comment` is a string that is stored in
-/// the file, for example to record its provenance.
+/// Pixels that are less than half opaque become transparent. All other pixels become opaque. `comment` is a string that
+/// is stored in the file, for example to record its provenance.
 ///
 /// # Errors
 ///
@@ -70,7 +70,7 @@ pub fn to_gif(
     let mut encoder = gif::Encoder::new(&mut bytes, width, height, &colors)?;
     encoder.set_repeat(match timing.plays {
         0 => gif::Repeat::Infinite,
-        // A GIF file stores the number of repetitions after the first play.
+        // A GIF file stores how often the animation is repeated after it has played once.
         plays => gif::Repeat::Finite(plays - 1),
     })?;
     if let Some(comment) = comment {

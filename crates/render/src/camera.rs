@@ -130,7 +130,7 @@ impl Camera {
         }
     }
 
-    /// Checks that all numbers are in their ranges, without a scene.
+    /// Checks that all numbers of the camera are in their ranges. This check needs no scene.
     ///
     /// # Errors
     ///
@@ -210,8 +210,8 @@ impl Default for Projection {
     }
 }
 
-/// The default field of view, in degrees. A lens of 80 mm has nearly the same vertical field of view on upright 35 mm
-/// film.
+/// The default field of view, in degrees. On 35 mm film in portrait format, a lens of 80 mm has nearly the same
+/// vertical field of view.
 const DEFAULT_ANGLE: f64 = 25.0;
 /// The field of view, in degrees, that determines the scale of an orthographic `LookAt`.
 const ORTHOGRAPHIC_ANGLE: f64 = 30.0;
@@ -236,7 +236,8 @@ impl Up {
         }
     }
 
-    /// Returns the directions to the right, upwards and to the front.
+    /// Returns the axes of the scene for a viewer in front of it: the directions to the right, upwards, and towards
+    /// this viewer.
     ///
     /// `Auto` must have been replaced by [`resolved`](Self::resolved). An `Auto` that was not replaced is treated like
     /// `Y`.
@@ -265,7 +266,8 @@ impl Side {
         }
     }
 
-    /// Returns the directions to the right and upwards in the picture, and towards the camera.
+    /// Returns three directions: to the right in the picture, upwards in the picture, and from the scene towards the
+    /// camera.
     fn axes(self, up: Up) -> [DVec3; 3] {
         let [right, up, front] = up.axes();
         let [azimuth, elevation] = self.angles();
@@ -311,7 +313,7 @@ impl View {
     /// # Errors
     ///
     /// [`PictureError::Camera`] if a number of the camera is out of its range or not finite, or the camera looks from a
-    /// point to the same point.
+    /// point to this same point, so that it has no direction.
     pub fn new(
         camera: &Camera,
         points: &impl Fn(&mut dyn FnMut(DVec3)),

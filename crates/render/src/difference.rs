@@ -86,7 +86,7 @@ struct Differences {
     total: u64,
     /// The largest difference of a channel.
     largest: u8,
-    /// The image, column and row of the first pixel that differs.
+    /// The indices of the image, the column and the row of the first pixel that differs.
     first: Option<[usize; 3]>,
 }
 

@@ -28,7 +28,8 @@ pub struct Part<'a> {
     pub points: Cow<'a, [DVec3]>,
     /// The indices of the points of each triangle, counter-clockwise seen from the front.
     pub triangles: Vec<[u32; 3]>,
-    /// The indices of the corners of each triangle. The list is empty if no values are given per corner.
+    /// For each triangle, the indices of its three corners in the lists with one value for each corner. Empty if there
+    /// are no such lists.
     pub corners: Vec<[u32; 3]>,
     /// The face that each triangle belongs to. The faces are in ascending order. The list is empty if each triangle is
     /// a face.
@@ -60,7 +61,7 @@ pub struct Surface {
     pub color: [f32; 4],
     /// The texture. The color, including alpha, is multiplied by the texture.
     pub texture: Option<Arc<Texture>>,
-    /// The index in [`Part::uvs`] of the texture coordinates.
+    /// The index of the set of texture coordinates in [`Part::uvs`].
     pub uv_set: usize,
     /// Whether the color is shown without lighting.
     pub unlit: bool,

@@ -121,8 +121,8 @@ impl Image {
 
     /// Encodes the image as a PNG file, without an alpha channel if all pixels are opaque.
     ///
-    /// Each of `texts` is a keyword of 1 to 79 Latin-1 characters and a string. The texts are stored in the file, for
-    /// example to record its provenance.
+    /// Each entry of `texts` is a pair of strings: a keyword of 1 to 79 Latin-1 characters, and its text. The texts are
+    /// stored in the file, for example to record its provenance.
     ///
     /// # Errors
     ///

@@ -9,8 +9,9 @@
 //!                                        camera --View::new--^
 //! ```
 //!
-//! [`picture`] runs all of these stages. [`build()`] converts a scene to a [`Drawing`] of triangles, lines and points.
-//! [`render`] finds the triangle that is visible at each of 16 samples per pixel, and computes colors in linear light.
+//! [`picture`] runs all of these stages except the last one, `to_png`. [`build()`] converts a scene to a [`Drawing`] of
+//! triangles, lines and points. [`render`] finds the triangle that is visible at each of 16 samples per pixel, and
+//! computes colors in linear light.
 //!
 //! [`figure`] draws in the plane: constructions of curves, legends and labels. [`animation`] encodes a sequence of
 //! images.
@@ -77,7 +78,8 @@ pub use texture::{Alpha, Texture, TextureCache};
 /// Renders a picture of a scene. Returns the picture, and a message for each texture that cannot be drawn.
 ///
 /// `size` is the width and height in pixels. Rendering uses at most about `budget` bytes of memory in addition to the
-/// scene and its drawing. `images` returns the bytes of an image file for its path in a material.
+/// scene and its drawing. `images` is called with the path of an image file, as written in a material, and returns the
+/// bytes of this file.
 ///
 /// # Errors
 ///

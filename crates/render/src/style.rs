@@ -68,7 +68,7 @@ pub struct Style {
     /// The lighting of surfaces.
     pub shading: Shading,
     /// The minimum angle between the normals of two faces, in degrees, at which the edge between the faces is shaded as
-    /// sharp. Ignored if the mesh has normals.
+    /// sharp. This angle has no effect if the mesh has normals.
     #[schemars(range(min = 0.0, max = 180.0))]
     pub sharp: f64,
     /// The strength of ambient occlusion, which darkens hollows, from 0 (none) to 1.
@@ -76,7 +76,7 @@ pub struct Style {
     pub occlusion: f64,
     /// The background.
     pub background: Background,
-    /// The color of all surfaces. If omitted, the colors of the scene.
+    /// The color of all surfaces. If omitted, surfaces have the colors of the scene.
     pub color: Option<Color>,
     /// The color of the back of faces. The back is visible where a mesh is open or inside out.
     pub back: Option<Color>,
@@ -130,7 +130,7 @@ impl Style {
     ///
     /// # Errors
     ///
-    /// [`PictureError::Style`] that names the first number out of its range.
+    /// [`PictureError::Style`] with the name of the first number that is out of its range.
     pub fn check(&self) -> Result<(), PictureError> {
         let mut numbers = vec![
             ("sharp", self.sharp, 180.0),

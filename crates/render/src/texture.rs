@@ -190,8 +190,9 @@ impl Texture {
         self.alpha == Alpha::Ignored
     }
 
-    /// Returns linear red, green and blue at texture coordinates with v upwards. `steps` are the differences of the
-    /// texture coordinates between this pixel of the picture and the next pixels, to the right and downwards.
+    /// Returns linear red, green and blue at texture coordinates with v upwards. `steps` has two differences of texture
+    /// coordinates: from this pixel of the picture to the next pixel on the right, and from this pixel to the next
+    /// pixel below.
     pub(crate) fn at(&self, uv: DVec2, steps: [DVec2; 2]) -> [f32; 3] {
         let footprint = self.footprint(uv, steps);
         if self.is_opaque() {
@@ -214,8 +215,9 @@ impl Texture {
         })
     }
 
-    /// Returns the coverage of the surface, from 0 to 1, at texture coordinates with v upwards. `steps` are the
-    /// differences of the texture coordinates between this sample and the next samples, to the right and downwards.
+    /// Returns the coverage of the surface, from 0 to 1, at texture coordinates with v upwards. `steps` has two
+    /// differences of texture coordinates: from this sample to the next sample on the right, and from this sample to
+    /// the next sample below.
     ///
     /// With [`Alpha::Cut`], the interpolated alpha of the first level is compared with the cutoff. In the other mipmap
     /// levels, the alpha of each pixel of the image was compared with the cutoff first, and the results of the

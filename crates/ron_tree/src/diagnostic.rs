@@ -9,8 +9,8 @@ pub struct Diagnostic {
     pub severity: Severity,
     /// The message: one line that starts in lower case and has no final period.
     pub message: String,
-    /// The index of the text that the spans refer to, in the list of source texts of the reader. The first one has
-    /// index 0.
+    /// The index of the text that the spans refer to, in the list of all source texts that were read. The first text
+    /// has index 0.
     pub source: usize,
     /// The span that the message is about, if it is about a part of the text.
     pub span: Option<Span>,

@@ -368,8 +368,8 @@ fn after(prefix: usize, (kind, length): (TokenKind, usize)) -> (TokenKind, usize
     (kind, prefix + length)
 }
 
-/// Whether the text after an `r` makes it the start of a raw string: the text starts with `"`, `#"` or `##`. `ron`
-/// distinguishes raw strings from names such as `r#name` in the same way.
+/// Whether an `r` before this text starts a raw string. This is the case if the text starts with `"`, `#"` or `##`.
+/// `ron` distinguishes raw strings from names such as `r#name` in the same way.
 fn is_raw_string(rest: &str) -> bool {
     rest.starts_with('"') || rest.starts_with("#\"") || rest.starts_with("##")
 }

@@ -118,7 +118,8 @@ fn parse_float<T: FromStr>(text: &str) -> Option<T> {
     if matches!(text.trim_start_matches(['+', '-']), "inf" | "NaN") {
         return text.parse().ok();
     }
-    // `ron` accepts an underscore after a digit or an exponent, but not at the start or after the decimal point.
+    // `ron` accepts an underscore after a digit or after the `e` of an exponent, but not at the start or after the
+    // decimal point.
     let mut allows_underscore = false;
     let mut plain = String::with_capacity(text.len());
     for c in text.chars() {

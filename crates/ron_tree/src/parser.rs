@@ -1,8 +1,8 @@
 //! Parses a source text into a tree of values. A source text with errors also becomes a tree.
 //!
 //! A mistake usually gives one diagnostic, and parsing continues after it. To recover from a bracket error, the parser
-//! assumes that only one bracket is missing or mistyped, that line breaks and indentation are right, and that each item
-//! of a list starts on its own line. The module [`recovery`](super::recovery) implements the recovery.
+//! makes three assumptions: only one bracket is missing or mistyped, line breaks and indentation are right, and each
+//! item of a list starts on its own line. The module [`recovery`](super::recovery) implements the recovery.
 
 use super::lexer::{Bracket, Lexer, Token, TokenKind};
 use super::literal::{self, BadLiteral, Number};
@@ -85,7 +85,7 @@ pub(super) struct Parser<'s> {
     /// The brackets around `current`, outermost first.
     pub(super) open: Vec<OpenBracket>,
     diagnostics: Vec<Diagnostic>,
-    /// The start of the token of the last error. No second error is reported about the token of the last error.
+    /// The start of the token that the last error is about. No second error is reported about this token.
     pub(super) complained_at: Option<usize>,
     values: usize,
     pub(super) too_deep: bool,
@@ -158,8 +158,8 @@ impl<'s> Parser<'s> {
                         Diagnostic::error(start, "this comment is not closed")
                             .with_help("end it with `*/`"),
                     );
-                    // Errors at the end of the text may be mere consequences of the unclosed comment, so they are not
-                    // reported.
+                    // Errors at the end of the text are possibly only consequences of the unclosed comment, so they are
+                    // not reported.
                     after_invalid = true;
                 }
                 _ => break (Some(kind), span),

@@ -53,7 +53,7 @@ pub struct Struct {
     /// The fields in the order of the text.
     pub fields: Vec<Field>,
     /// Whether everything between the parentheses could be read. If a part could not be read, a field that seems to be
-    /// missing may be in that part.
+    /// missing is possibly in that part.
     pub complete: bool,
 }
 
@@ -94,7 +94,7 @@ impl Value {
         }
     }
 
-    /// Returns the fields of `(a: 1, ..)` or `Name(a: 1, ..)`. Empty for all other values.
+    /// Returns the fields of `(a: 1, ..)` or `Name(a: 1, ..)`. The result is empty for all other values.
     pub fn fields(&self) -> &[Field] {
         match &self.kind {
             ValueKind::Struct(fields) => &fields.fields,

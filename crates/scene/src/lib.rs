@@ -206,9 +206,9 @@ impl Scene {
         }
     }
 
-    /// Renames an object. A node that references the object is renamed too if it has the same name. The mesh is renamed
-    /// if it has the same name, or if no node was renamed. The object keeps its position in the list. Returns whether
-    /// the object exists.
+    /// Renames an object. A node that references the object is renamed too if its name is `from`. The mesh can have a
+    /// different name than the object. The mesh is renamed if its name is `from`, or if no node was renamed. The object
+    /// keeps its position in the list. Returns whether the object exists.
     ///
     /// # Errors
     ///

@@ -208,7 +208,8 @@ pub struct Sampler {
     /// The filter where pixels of the image are smaller than pixels of the screen. `None` leaves the choice to the
     /// viewer.
     pub minify: Option<Filter>,
-    /// The filter between mipmap levels. `None` if mipmaps are not used. Ignored unless `minify` is set.
+    /// The filter between mipmap levels. If `None`, mipmaps are not used. This filter has no effect unless `minify` is
+    /// set.
     pub mipmap: Option<Filter>,
 }
 

@@ -86,7 +86,7 @@ impl Store for Disk {
     }
 
     fn remove_folder(&self, folder: &Path) -> Result<(), StoreError> {
-        // If the removal fails, it is tried a second time in a way that needs fewer file descriptors.
+        // If the removal fails, the folder is removed in a second way, which needs fewer file descriptors.
         fs::remove_dir_all(folder)
             .or_else(|_| remove_all(folder))
             .map_err(|error| StoreError::new("remove the folder", folder, error))
@@ -152,7 +152,7 @@ pub fn temporary_prefix(process: u32) -> String {
     format!(".meshwright-{process}-")
 }
 
-/// A temporary file that replaces the file at its path when it is committed.
+/// A temporary file. When it is committed, it replaces the file at `path`.
 struct UnfinishedFile {
     file: NamedTempFile,
     path: PathBuf,

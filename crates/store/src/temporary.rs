@@ -25,7 +25,8 @@ impl<'s> TemporaryFolder<'s> {
         let missing =
             missing.take_while(|folder| !folder.as_os_str().is_empty() && !store.exists(folder));
         let parents = missing.map(Path::to_path_buf).collect();
-        // Another run can remove the folder while it is empty. It is then created again.
+        // While the folder `inside` is empty, another process can remove it. In this case, a second attempt creates it
+        // again.
         let path = store
             .make_temporary(inside)
             .or_else(|_| store.make_temporary(inside))?;

@@ -80,7 +80,7 @@ impl AttributeSources<'_> {
         let Some(old) = to_vec4s(&column.values) else {
             return Ok(column.values.blend(n, |i, add| self.masks.mask(i, add)));
         };
-        // All values are converted to 3D vectors, so that masks are compiled for one type only.
+        // All values are converted to 3D vectors, so that the code of the masks is compiled for one type only.
         let smoothed = |part: fn(&DVec4) -> DVec3| {
             let old: Vec<DVec3> = old.iter().map(part).collect();
             self.masks.values(n, &old, meter)

@@ -1,10 +1,10 @@
 //! The connectivity of Doo-Sabin subdivision: every corner becomes a vertex, and every face, edge and vertex
 //! becomes a face.
 //!
-//! V, E and F are the numbers of old vertices, edges and faces. Half-edge h runs from a to b and has face f;
-//! its twin t has face g. The corner at the origin of h becomes vertex h. If h has no face, two points on the
-//! edge replace the missing corners: vertex h near a, and vertex 2E + (rank of h among the half-edges without a
-//! face) near b. Write p(h) and q(h) for the new vertices beside h, near a and near b:
+//! The old mesh has V vertices, E edges and F faces. Half-edge h runs from a to b and has face f; its twin t has face
+//! g. The corner at the origin of h becomes vertex h. If h has no face, two points on the edge replace the missing
+//! corners: vertex h near a, and vertex 2E + (rank of h among the half-edges without a face) near b. Write p(h) and
+//! q(h) for the new vertices beside h, near a and near b:
 //!
 //! ```text
 //!                  |         f         |             along(h)  = 2h, from p(h) to q(h), in face f
@@ -39,7 +39,7 @@ use crate::links::{self, Link, Links};
 use crate::subset::Subset;
 use crate::topology::{Place, Topology, place_near_origin};
 
-/// A dense mesh, with the subsets of elements that need special treatment.
+/// A mesh without deleted elements, with the subsets of elements that need special treatment.
 pub(crate) struct DooSabin<'a> {
     pub(crate) mesh: &'a Mesh,
     n_edges: usize,

@@ -109,8 +109,8 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// Returns two values: the sharpness of the edge of `h` on this level, and the sharpness on the next level of
-    /// the part of that edge at the origin of `h`.
+    /// Returns the sharpness of the edge of `h` on this level, then the sharpness on the next level. The second value
+    /// is that of the part of the edge at the origin of `h`.
     fn edge_sharpness(&self, h: HalfEdgeId) -> [f64; 2] {
         [self.sharpness.edge(h.edge()), self.sharpness.of_half(h)]
     }

@@ -61,10 +61,10 @@ pub(crate) fn place(mesh: &Mesh, i: usize) -> Place {
     }
 }
 
-/// For the first and the second part of a half-edge: the next half-edges, and the faces.
+/// The next half-edge of each of the two parts of a half-edge, and the face of each part.
 pub(crate) type PartLinks = ([HalfEdgeId; 2], [FaceId; 2]);
 
-/// The slices of the arrays of the next level that come after the elements made from old edges.
+/// The slices of the arrays of the next level for the elements that come after those on old edges.
 pub(crate) struct AddedArrays<'n> {
     pub(crate) halves: Arrays<'n>,
     /// The half-edges of the vertices that come after the new vertices on old edges.

@@ -12,7 +12,8 @@ use crate::rules::Scheme;
 /// vertices, each several times. With this limit, the sums of the masks stay finite.
 pub const MAX_COORDINATE: f64 = 1e290;
 
-/// Returns the mesh without dead elements. A mesh that has no dead elements is borrowed, not copied.
+/// Returns the mesh without dead (deleted) elements. A mesh that has no dead elements (a dense mesh) is borrowed, not
+/// copied.
 pub(crate) fn dense(mesh: &Mesh) -> Cow<'_, Mesh> {
     if mesh.is_dense() {
         return Cow::Borrowed(mesh);

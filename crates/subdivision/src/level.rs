@@ -14,8 +14,8 @@ use crate::sqrt3::Sqrt3;
 use crate::topology::Topology;
 use crate::triangles::Triangles;
 
-/// Computes one level of a dense mesh. `level` is the index of the level, counted from 0. The caller must have
-/// checked the faces and the size of the next level.
+/// Computes one level of a dense mesh, which is a mesh without deleted elements. `level` is the index of the level,
+/// counted from 0. The caller must have checked the faces and the size of the next level.
 pub(crate) fn finer(
     mesh: &Mesh,
     rules: Rules,

@@ -87,7 +87,7 @@ pub(crate) struct Link(
 
 /// Computes the elements of a new mesh one at a time.
 pub(crate) trait Links: Sync {
-    /// Returns the numbers of vertices, edges and faces.
+    /// Returns the number of vertices, the number of edges, and the number of faces.
     fn counts(&self) -> [usize; 3];
 
     /// Returns the two halves of edge `i`.
@@ -100,7 +100,7 @@ pub(crate) trait Links: Sync {
     fn face(&self, i: usize) -> HalfEdgeId;
 }
 
-/// Allocates zeroed arrays for a mesh with the given numbers of vertices, edges and faces.
+/// Allocates zeroed arrays for a mesh with this many vertices, edges and faces.
 pub(crate) fn zeroed([vertices, edges, faces]: [usize; 3]) -> Connectivity {
     Connectivity {
         next: mesh::zeroed(2 * edges),

@@ -28,7 +28,8 @@
 //! # Polygons
 //!
 //! Chosen faces are cut into one quad for each corner. A neighboring face that is not chosen is not cut. The new
-//! vertices on its common edges with chosen faces become additional corners of this face.
+//! vertices on the edges between this neighboring face and chosen faces become additional corners of the neighboring
+//! face.
 
 mod builder;
 mod closure;
@@ -66,8 +67,8 @@ use smoothed::LocalMasks;
 /// Ids change as follows. Old vertices keep their ids. Each level appends the new vertices on edges, in order of the
 /// edges, then the new vertices in faces, in order of the faces. Edges and faces are renumbered. The parts of an edge
 /// are consecutive, in order from the origin of its first half to the target. The parts of a face are consecutive too.
-/// New edges inside faces come after the parts of old edges, in order of the faces. A mesh with dead elements is
-/// compacted first.
+/// New edges inside faces come after the parts of old edges, in order of the faces. A mesh with dead (deleted) elements
+/// is compacted first.
 ///
 /// Vertex attributes are blended with the weights of the positions. Where positions are smoothed, corner values
 /// are smoothed as defined by [`Rules::face_varying`]. Elsewhere each corner value is a mean of values of its own
@@ -82,10 +83,10 @@ use smoothed::LocalMasks;
 ///
 /// # Errors
 ///
-/// Returns [`SubdivisionError::WholeMesh`] for Butterfly, Sqrt3 and Doo-Sabin, [`SubdivisionError::FlagCount`]
-/// unless `faces` has one flag for each face, [`SubdivisionError::NotTriangle`] if the scheme needs triangles
-/// and a face is not a triangle, [`SubdivisionError::TooLarge`] if a level would have more elements than there
-/// are ids or take more than `budget` bytes, [`SubdivisionError::TooFar`] if a coordinate is too large,
+/// Returns [`SubdivisionError::WholeMesh`] for Butterfly, Sqrt3 and Doo-Sabin. Returns [`SubdivisionError::FlagCount`]
+/// unless `faces` has one flag for each face. Returns [`SubdivisionError::NotTriangle`] if the scheme needs triangles
+/// and a face is not a triangle. Returns [`SubdivisionError::TooLarge`] if a level would have more elements than there
+/// are ids or take more than `budget` bytes. Returns [`SubdivisionError::TooFar`] if a coordinate is too large, and
 /// [`SubdivisionError::Cancelled`] if the progress listener asks to stop.
 pub fn refine_faces(
     mesh: &Mesh,

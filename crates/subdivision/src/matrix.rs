@@ -49,7 +49,7 @@ impl SparseMatrix {
     ///
     /// # Panics
     ///
-    /// May panic if `values` has fewer entries than the matrix has columns.
+    /// Panics if `values` has no entry for a column in which the matrix has a weight.
     pub fn apply<T>(&self, values: &[T]) -> Vec<T>
     where
         T: mesh::Value + std::ops::Add<Output = T> + std::ops::Mul<f64, Output = T>,
@@ -112,7 +112,7 @@ impl SparseMatrix {
 /// [`SparseMatrix::apply`] multiplies the matrix by any values of the vertices. The refined values have the same
 /// weights as the refined positions.
 ///
-/// A mesh with dead elements is compacted first, and the columns are the vertices of the compacted mesh.
+/// A mesh with dead (deleted) elements is compacted first, and the columns are the vertices of the compacted mesh.
 ///
 /// # Errors
 ///

@@ -6,9 +6,9 @@ use mesh::{DVec3, EdgeId, Mesh, VertexId};
 
 use crate::fixtures::{corners, number};
 
-/// Computes a level by the method that is taught in courses: computes the new positions, splits every edge in the
-/// middle, flips every new edge between an old and a new vertex, and moves the vertices. Vertices have the same ids
-/// as in [`crate::subdivide`]; edges and faces do not.
+/// Computes a level by the method that is taught in courses. The new positions are computed first. Then every edge is
+/// split in the middle, and every new edge between an old and a new vertex is flipped. At the end, the vertices are
+/// moved to the new positions. Vertices have the same ids as in [`crate::subdivide`]; edges and faces do not.
 pub(crate) fn by_splits_and_flips(old: &Mesh) -> Mesh {
     let positions = old.vertices().map(|v| moved(old, v));
     let positions: Vec<DVec3> = positions

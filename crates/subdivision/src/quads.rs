@@ -1,9 +1,9 @@
 //! The connectivity of the next level when every face with n corners is split into n quads.
 //!
-//! V, E and F are the numbers of old vertices, edges and faces. Corner indices increase face by face, and c(h) is
-//! the index of the corner at the origin of half-edge h. Edges are split in two as in
-//! [`halves`](crate::halves). Each part of a face is the quad at one corner. Between two of these quads, an
-//! edge called a spoke runs from the middle of an old edge to the center:
+//! The old mesh has V vertices, E edges and F faces. Corner indices increase face by face, and c(h) is the index of the
+//! corner at the origin of half-edge h. Edges are split in two as in [`halves`](crate::halves). Each part of a face is
+//! the quad at one corner. Between two of these quads, an edge called a spoke runs from the middle of an old edge to
+//! the center:
 //!
 //! ```text
 //!     . <------------ .
@@ -35,7 +35,7 @@ use crate::links::{self, Entries};
 use crate::parallel::{any, fill_uncounted};
 use crate::topology::{Place, Topology};
 
-/// A dense mesh whose faces are split into quads.
+/// A mesh without deleted elements, whose faces are split into quads.
 pub(crate) struct Quads<'a> {
     mesh: &'a Mesh,
     n_vertices: usize,

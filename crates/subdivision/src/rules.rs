@@ -32,20 +32,20 @@ impl Rules {
 /// A subdivision scheme.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scheme {
-    /// Splits each triangle into four; smooth. Loop, "Smooth Subdivision Surfaces Based on Triangles", 1987.
+    /// Smooth: splits each triangle into four. Source: Loop, "Smooth Subdivision Surfaces Based on Triangles", 1987.
     Loop(LoopWeights),
-    /// Splits each face into quads; smooth. Catmull and Clark, "Recursively generated B-spline surfaces on
+    /// Smooth: splits each face into quads. Source: Catmull and Clark, "Recursively generated B-spline surfaces on
     /// arbitrary topological meshes", 1978.
     CatmullClark,
     /// Linear: new vertices lie in the middle of edges and faces, and old vertices stay in place.
     Midpoint(Split),
-    /// Splits each triangle into four; smooth, and the surface passes through the old vertices. Zorin, Schröder
+    /// Smooth: splits each triangle into four, and the surface passes through the old vertices. Source: Zorin, Schröder
     /// and Sweldens, "Interpolating Subdivision for Meshes with Arbitrary Topology", 1996.
     Butterfly,
-    /// Splits each triangle into three and flips the old edges; smooth. Kobbelt, "√3-Subdivision", 2000.
+    /// Smooth: splits each triangle into three and flips the old edges. Source: Kobbelt, "√3-Subdivision", 2000.
     Sqrt3,
-    /// Makes a face of each old vertex, edge and face; smooth. Doo and Sabin, "Behaviour of recursive division
-    /// surfaces near extraordinary points", 1978.
+    /// Smooth: makes one face from each old vertex, each old edge and each old face. Source: Doo and Sabin, "Behaviour
+    /// of recursive division surfaces near extraordinary points", 1978.
     DooSabin,
 }
 
@@ -82,8 +82,8 @@ pub enum Boundary {
     Fixed,
 }
 
-/// How the sharpness of an edge decreases from one level to the next. Applies to sharpness above 0 and below
-/// 10.
+/// How the sharpness of an edge decreases from one level to the next. The rule applies to edges with a sharpness above
+/// 0 and below 10.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 pub enum Creasing {
     /// The sharpness decreases by 1. Source: DeRose, Kass and Truong, "Subdivision Surfaces in Character

@@ -1,10 +1,10 @@
 //! The connectivity of Sqrt3 subdivision: every triangle is split into three, then the old edges are flipped.
 //!
-//! V, E and F are the numbers of old vertices, edges and faces. Half-edge h runs from a to b and has face f,
-//! whose opposite corner is c; its twin t has face g. Every face gets the vertex V + f at its center and three
-//! spokes, the edges from its corners to the center. Every inner edge is flipped, so that it connects two
-//! centers. Edges keep their ids. The spoke of the k-th corner of face f is edge E + 3f + k, and spoke(h)
-//! is the half-edge of that spoke that starts at the origin of h. T(h), the k-th triangle of face f, is 3f + k:
+//! The old mesh has V vertices, E edges and F faces. Half-edge h runs from a to b and has face f, whose opposite corner
+//! is c; its twin t has face g. Every face gets the vertex V + f at its center and three spokes, the edges from its
+//! corners to the center. Every inner edge is flipped, so that it connects two centers. Edges keep their ids. The spoke
+//! of the k-th corner of face f is edge E + 3f + k, and spoke(h) is the half-edge of that spoke that starts at the
+//! origin of h. T(h), the k-th triangle of face f, is 3f + k:
 //!
 //! ```text
 //!              c                           c
@@ -44,7 +44,7 @@ use crate::subset::Subset;
 use crate::topology::{Place, Topology, place_near_origin};
 use crate::triangles::rank;
 
-/// A dense mesh of triangles, each of which becomes three.
+/// A mesh of triangles without deleted elements. Each triangle becomes three.
 pub(crate) struct Sqrt3<'a> {
     pub(crate) mesh: &'a Mesh,
     n_vertices: usize,

@@ -39,13 +39,13 @@ impl Subset {
         self.0.get(self.below(i)).is_some_and(|&c| c as usize == i)
     }
 
-    /// Returns the rank of `i`, which is not a member, among the numbers that are not members.
+    /// Returns how many non-members are below `i`. `i` itself must not be a member.
     #[inline]
     pub(crate) fn rank_outside(&self, i: usize) -> usize {
         i - self.below(i)
     }
 
-    /// Returns the number of rank `r` among the numbers that are not members.
+    /// Returns the non-member (a number that is not a member) of rank `r`, counted from 0 in ascending order.
     #[inline]
     pub(crate) fn nth_outside(&self, r: usize) -> usize {
         // If c is the k-th member, then c - k of the numbers below c are not members.

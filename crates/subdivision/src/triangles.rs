@@ -1,9 +1,9 @@
 //! The connectivity of the next level when every triangle is split into four.
 //!
-//! Edges are split in two as in [`halves`](crate::halves). V and E are the numbers of old vertices and edges. Face f
-//! has the half-edges h0, h1, h2, counted from its first one. Face 4f + k is the triangle at the origin of hk, and face
-//! 4f + 3 is the middle triangle. The edge between the corner triangle at hk and the middle triangle is 2E + 3f + k.
-//! The first half of this edge, cut k, belongs to the corner triangle, and the second half to the middle triangle:
+//! Edges are split in two as in [`halves`](crate::halves). The old mesh has V vertices and E edges. Face f has the
+//! half-edges h0, h1, h2, counted from its first one. Face 4f + k is the triangle at the origin of hk, and face 4f + 3
+//! is the middle triangle. The edge between the corner triangle at hk and the middle triangle is 2E + 3f + k. The first
+//! half of this edge, cut k, belongs to the corner triangle, and the second half to the middle triangle:
 //!
 //! ```text
 //!                  v2
@@ -28,7 +28,7 @@ use crate::halves::{AddedArrays, PartLinks, first, on_edge, place, second, split
 use crate::links::{self, Entries};
 use crate::topology::{Place, Topology};
 
-/// A dense mesh of triangles, each of which is split into four.
+/// A mesh of triangles without deleted elements. Each triangle is split into four.
 pub(crate) struct Triangles<'a>(pub(crate) &'a Mesh);
 
 impl Triangles<'_> {

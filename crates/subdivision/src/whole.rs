@@ -14,7 +14,7 @@ use crate::size::Size;
 
 /// Subdivides a mesh `levels` times.
 ///
-/// One level changes ids as follows, where V, E and F are the numbers of old vertices, edges and faces:
+/// If the old mesh has V vertices, E edges and F faces, one level changes ids as follows:
 ///
 /// - Loop, Butterfly, Catmull-Clark and Midpoint: old vertices keep their ids. The vertex on edge e is V + e,
 ///   and edge e becomes edges 2e and 2e + 1. Triangle f becomes faces 4f to 4f + 3. If the scheme makes quads,
@@ -23,7 +23,7 @@ use crate::size::Size;
 ///   vertices follow.
 /// - Sqrt3: old vertices keep their ids, and face f becomes faces 3f to 3f + 2.
 ///
-/// A mesh with dead elements is compacted first, and the ids are those of the compacted mesh.
+/// A mesh with dead (deleted) elements is compacted first, and the ids are those of the compacted mesh.
 ///
 /// Vertex attributes are smoothed with the weights of the positions. Loop and Catmull-Clark smooth corner values as
 /// defined by [`Rules::face_varying`]; all other schemes interpolate corner values linearly within each old face. Parts

@@ -298,8 +298,8 @@ fn angles(direction: DVec3) -> (f64, f64) {
     (azimuth, elevation)
 }
 
-/// Returns marks of the locations: lines of the width `width` and dots of the diameter `dot`, in pixels. Locations that
-/// are smaller than `dot_limit`, in scene units, also get a dot.
+/// Returns marks of the locations: lines that are `width` pixels wide, and dots with a diameter of `dot` pixels.
+/// Locations that are smaller than `dot_limit`, in scene units, also get a dot.
 fn marks(
     locations: &[ErrorLocation],
     surroundings: &Surroundings,

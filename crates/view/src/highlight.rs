@@ -5,9 +5,9 @@ use render::{Color, Elements, Highlight};
 /// The default color of highlighted elements.
 pub const HIGHLIGHT_COLOR: Color = Color::rgb(0xe6, 0x55, 0x0d);
 
-/// The width of highlighted edges in a picture whose shorter side has 960 pixels.
+/// The width of highlighted edges, in pixels, in a picture whose shorter side has 960 pixels.
 const EDGE_WIDTH: f64 = 4.0;
-/// The diameter of highlighted vertices in a picture whose shorter side has 960 pixels.
+/// The diameter of highlighted vertices, in pixels, in a picture whose shorter side has 960 pixels.
 const VERTEX_DIAMETER: f64 = 13.0;
 
 /// The exponent for pictures whose shorter side has less than 960 pixels. The width of edges is proportional to the

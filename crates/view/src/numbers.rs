@@ -17,7 +17,8 @@ use serde::{Deserialize, Serialize};
 pub struct ColorBy {
     /// The quantity that the colors show.
     pub of: Quantity,
-    /// The color map. If omitted, `Classes` for valences, `Diverging` for curvatures, else `Viridis`.
+    /// The color map. The default is `Classes` for valences, `Diverging` for curvatures, and `Viridis` for all other
+    /// quantities.
     #[serde(default)]
     pub map: Option<ColorMap>,
     /// The values that the first and the last color represent, as in `(0, 60)`. If omitted, the range depends on the
@@ -46,8 +47,8 @@ pub enum Quantity {
     MinAngle,
     /// The area of each face, in scene units².
     Area,
-    /// The angle between the normals of the two faces at each edge, in degrees: 0 where the surface is flat. Shown as
-    /// colored lines.
+    /// The angle between the normals of the two faces at each edge, in degrees: 0 where the surface is flat. The angles
+    /// are shown as colored lines.
     DihedralAngle,
     /// The mean curvature at each vertex, in 1 / scene unit: positive where the surface is convex.
     MeanCurvature,

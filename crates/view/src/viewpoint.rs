@@ -19,7 +19,8 @@ const MAX_ELEVATION: f64 = 0.965_925_826_289_068_3;
 
 /// A location in a scene that the camera looks at.
 pub(crate) struct Target<'a> {
-    /// The points of the location. Faces that touch one of the points do not count as hiding the location.
+    /// The points of the location. Faces that touch one of these points are ignored when faces that hide the location
+    /// are searched for.
     pub(crate) points: &'a [DVec3],
     /// The middle of the points.
     pub(crate) middle: DVec3,
@@ -125,7 +126,7 @@ fn triangle_distance([a, b, c]: [DVec3; 3], from: DVec3, direction: DVec3) -> f6
     let q = offset.cross(ab);
     let v = direction.dot(q) * inverse;
     let t = ac.dot(q) * inverse;
-    // For a triangle that is degenerate or seen edge-on, the numbers are NaN, and the condition is false.
+    // For a triangle that is degenerate or seen edge-on, the numbers are infinite or NaN, and the condition is false.
     if u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0 {
         t
     } else {

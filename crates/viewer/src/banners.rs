@@ -86,7 +86,7 @@ pub(crate) fn banners(ui: &mut Ui, parts: &mut Parts, colors: &Colors) {
     }
 }
 
-/// Returns the first error and its place in the text.
+/// Returns the first error, and its offset in the text if the error is about the current text.
 fn first_error(parts: &Parts) -> Option<(Diagnostic, Option<usize>)> {
     if parts.editor.is_running() {
         return None;

@@ -48,7 +48,7 @@ impl Side {
         Self::Bottom,
     ];
 
-    /// Returns the name for people.
+    /// Returns the name that is shown to the user.
     pub fn name(self) -> &'static str {
         match self {
             Self::ThreeQuarter => "Three-quarter",
@@ -112,7 +112,8 @@ fn tangent() -> f64 {
 }
 
 impl Camera {
-    /// Returns the directions to the right, upwards and towards the camera: orthogonal unit vectors.
+    /// Returns three orthogonal unit vectors: to the right in the picture, upwards in the picture, and towards the
+    /// camera.
     pub fn axes(&self) -> [DVec3; 3] {
         let [right, up, front] = self.world_axes();
         let (sin, cos) = sin_cos(self.yaw);
@@ -121,7 +122,8 @@ impl Camera {
         [x, up * cos - forward * sin, forward * cos + up * sin]
     }
 
-    /// Returns the directions to the right, upwards and to the front of the scene.
+    /// Returns the axes of the scene for a viewer in front of it: the directions to the right, upwards, and towards
+    /// this viewer.
     pub fn world_axes(&self) -> [DVec3; 3] {
         match self.up {
             UpAxis::Y => [DVec3::X, DVec3::Y, DVec3::Z],

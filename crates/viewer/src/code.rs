@@ -17,7 +17,8 @@ pub(crate) struct Mark {
     pub(crate) is_error: bool,
 }
 
-/// Lays out a recipe with colors for its tokens, a background for the bytes `current`, and underlined marks.
+/// Lays out a recipe. The tokens have colors, the bytes in the range `current` have a background color, and the marks
+/// are underlined.
 pub(crate) fn layout(
     text: &str,
     colors: &Colors,

@@ -28,7 +28,7 @@ pub(crate) struct Drawing {
     path: PathBuf,
     is_gif: bool,
     images: Vec<Image>,
-    /// The numbers of edits after which an image is drawn.
+    /// For each image, the number of edits that are done before the image is drawn.
     moments: Vec<usize>,
 }
 
@@ -50,7 +50,7 @@ impl Parts {
         }));
     }
 
-    /// Shows the mesh at the moment whose image is drawn next.
+    /// Shows the mesh as it must appear in the next image.
     pub(crate) fn show_exported(&mut self) {
         if let (Some(Export::Drawing(drawing)), Some(player)) = (&self.export, &mut self.player) {
             player.go_to(drawing.moments[drawing.images.len()]);
@@ -86,7 +86,7 @@ impl Parts {
     }
 }
 
-/// Returns the duration of an image at a speed in edits per second.
+/// Returns how long each image is shown, where `speed` is the number of edits per second.
 fn timing(speed: f64) -> Timing {
     #[expect(
         clippy::cast_possible_truncation,

@@ -1,4 +1,4 @@
-//! The window of the editor. The window draws what the crate `editor` computes, and forwards input to this crate.
+//! The window of the editor. The window draws what the crate `editor` computes, and forwards input to `editor`.
 //!
 //! - [`App`]: the window's contents, for eframe and for tests.
 //! - [`camera`]: the camera of the view.

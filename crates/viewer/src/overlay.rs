@@ -47,7 +47,8 @@ const WRONG: Pen = Pen {
 };
 const ARROW: [u8; 4] = [64, 196, 255, 255];
 
-/// Returns the overlay of a scene, with the element under the cursor and an element that is drawn like a picked one.
+/// Returns the overlay of a scene. `hovered` is the element under the cursor, and `marked` is an element that is drawn
+/// like a picked element.
 pub(crate) fn overlay(
     scene: &Scene,
     picked: Option<&Picked>,

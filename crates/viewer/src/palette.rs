@@ -32,8 +32,8 @@ impl Palette {
     }
 }
 
-/// Returns the operations that match a query, the best first. Of equally good ones, those in `first` come first. An
-/// empty query matches all operations.
+/// Returns the operations that match a query, the best first. Of operations that match equally well, those in `first`
+/// come first. An empty query matches all operations.
 pub(crate) fn search<'r>(
     registry: &'r Registry,
     query: &str,

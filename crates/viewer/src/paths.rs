@@ -1,5 +1,5 @@
-//! Asks for the path of a file: by a dialog of the system or, if the system shows none, by a line and a list of files in
-//! the window.
+//! Asks for the path of a file: by a dialog of the system or, if the system shows none, by a text field and a list of
+//! files in the window.
 
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -51,7 +51,7 @@ impl Purpose {
         extensions.any(|fitting| extension.eq_ignore_ascii_case(fitting))
     }
 
-    /// Returns the extension of the file; empty for a file that is opened.
+    /// Returns the extension of a file to save; empty for a file to open.
     fn extension(self) -> &'static str {
         match self {
             Self::Open => "",
@@ -68,11 +68,11 @@ pub(crate) struct Prompt {
     path: String,
     /// The folder of the path, and what it contains.
     listed: (PathBuf, Vec<Listed>),
-    /// Whether the line for the path gets the keys from the next frame on.
+    /// Whether the text field for the path gets the keyboard focus in the next frame.
     takes_keys: bool,
 }
 
-/// A folder or a file in the list below the line.
+/// A folder or a file in the list below the text field.
 struct Listed {
     is_file: bool,
     name: String,
@@ -215,7 +215,7 @@ fn proceed(parts: &mut Parts, purpose: Purpose, path: &Path, ctx: &Context) {
     }
 }
 
-/// The line for a path, and the list of files.
+/// The text field for a path, and the list of files.
 pub(crate) fn ui(ctx: &Context, parts: &mut Parts) {
     let Some(mut prompt) = parts.prompt.take() else {
         return;

@@ -24,7 +24,7 @@ pub(crate) struct Player {
     step: usize,
     /// The version of the text that the edits belong to.
     version: u64,
-    /// The scene before the step, in which the object has the mesh of this moment.
+    /// The scene before the step, but with the mesh of the object after the edits that are done.
     scene: Arc<Scene>,
     /// The number of edits per second.
     speed: f64,
@@ -33,7 +33,7 @@ pub(crate) struct Player {
 }
 
 impl Player {
-    /// Returns the scene between two edits.
+    /// Returns the scene after the edits that are done.
     pub(crate) fn scene(&self) -> &Arc<Scene> {
         &self.scene
     }
@@ -74,7 +74,7 @@ impl Player {
         self.update();
     }
 
-    /// Shows the mesh of this moment.
+    /// Shows the mesh after the edits that are done.
     fn update(&mut self) {
         if let Some((geometry, _)) = Arc::make_mut(&mut self.scene).parts_mut(&self.object) {
             *geometry = Geometry::Mesh(Arc::new(self.play.mesh().clone()));

@@ -23,7 +23,7 @@ pub(crate) struct TextPane {
     version: Option<u64>,
     /// The byte to scroll to.
     target: Option<usize>,
-    /// The cursor, as a byte.
+    /// The cursor, as an index of a byte.
     cursor: Option<usize>,
     /// The index of the chosen completion.
     chosen: usize,
@@ -197,8 +197,9 @@ struct Words {
 }
 
 /// Returns the completions of the word before the cursor. For a word with a capital letter, the completions are the
-/// names of the variants of the parameter. If the parameter has no variants, they are the names of operations. For
-/// other words, the completions are the names of the parameters of the step.
+/// names of the variants of the parameter whose value contains the word. If there is no such parameter, or it has no
+/// variants, the completions are the names of operations. For other words, the completions are the names of the
+/// parameters of the step.
 fn completions(parts: &Parts, ui: &Ui, id: Id) -> Words {
     let none = Words {
         range: 0..0,
@@ -344,7 +345,7 @@ fn show_completions(
         });
 }
 
-/// Returns the byte of a character.
+/// Returns the index of the byte at which the character `at` begins.
 fn byte_of(text: &str, at: usize) -> usize {
     text.char_indices()
         .nth(at)

@@ -3,7 +3,7 @@
 use geometry::triangulate::Cutter;
 use mesh::{DVec3, FaceId, HalfEdgeId, Mesh};
 
-/// The arrays of a mesh. Vertices and faces have the numbers that recipes use.
+/// The arrays of a mesh. The indices of vertices and faces are the ids that recipes use.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Arrays {
     /// The center of the bounding box of the vertices, in scene units.

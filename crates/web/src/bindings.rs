@@ -33,7 +33,7 @@ fn error(error: impl ToString) -> JsError {
     JsError::new(&error.to_string())
 }
 
-/// Reads an object of strings.
+/// Reads a JSON object. Returns its names and values as strings.
 fn strings(set: &str) -> Result<Vec<(String, String)>, JsError> {
     let object: serde_json::Map<String, Json> = serde_json::from_str(set)?;
     let pair = |(name, value): (String, Json)| match value {

@@ -34,7 +34,7 @@ pub struct MeshColors {
 #[derive(Clone, Copy, Debug, Eq, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Per {
-    /// The vertices by number.
+    /// The vertices, in the order of their ids.
     Vertex,
     /// The corners of the triangles of [`Arrays`](crate::Arrays), in their order.
     Corner,
@@ -131,7 +131,7 @@ mod tests {
         Colors::new(scene, quantity).unwrap()
     }
 
-    /// Each array has as many colors as the view has elements, for each quantity.
+    /// For each quantity, each array of colors has one color for each element that the view draws.
     #[test]
     fn all_elements_of_the_arrays_have_colors() {
         let scene = scene(shapes::cylinder(7, true));

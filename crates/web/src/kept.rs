@@ -34,8 +34,7 @@ impl Kept {
     pub(crate) fn start(&mut self, loaded: &Loaded, keys: &StepKeys) -> (usize, Scene) {
         let known = self.steps.iter().zip(&keys.steps);
         let known = known.take_while(|((before, _), now)| before == *now);
-        // A step that writes files always runs again, because the provenance in these files has the values of all
-        // parameters.
+        // A step that writes files always runs again, because these files record the values of all parameters.
         let forecast = &loaded.forecast.steps;
         let writes = forecast.iter().position(|step| step.n_outputs > 0);
         let first = known.count().min(writes.unwrap_or(usize::MAX));
@@ -66,7 +65,7 @@ impl Kept {
         self.steps.iter().map(report).collect()
     }
 
-    /// Keeps the scene after the next step. While a scene is kept, a step copies its meshes before it changes them.
+    /// Keeps the scene after the next step. A step that changes a mesh of a kept scene changes a copy of the mesh.
     pub(crate) fn add_scene(&self, scene: &Scene) {
         let mut scenes = self.scenes();
         scenes.after.push(Some(scene.clone()));
@@ -75,8 +74,8 @@ impl Kept {
         }
     }
 
-    /// Keeps the reports of a run. `checked` is the number of expectations that this run has checked, or that hold
-    /// since an earlier run.
+    /// Keeps the reports of a run. `checked` is the number of expectations that this run has checked, or that an
+    /// earlier run has checked and that still hold.
     pub(crate) fn add(&mut self, keys: &StepKeys, outcome: &Outcome, checked: usize) {
         let keyed = keys.steps.iter().skip(outcome.first).zip(&outcome.steps);
         self.steps

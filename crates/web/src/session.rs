@@ -61,13 +61,14 @@ impl Session {
         Self::default()
     }
 
-    /// Writes a file, which recipes can then read. Folders are created.
+    /// Writes a file, which recipes can then read. Missing folders of the path are created.
     ///
     /// # Errors
     ///
     /// [`StoreError`] if the path is the path of a folder, or a part of the path is a file.
     pub fn write(&mut self, path: &str, bytes: &[u8]) -> Result<(), StoreError> {
-        // A step can read a file that is not a part of its key, such as the materials of a model. So no result is kept.
+        // The key of a step, which tells whether the step must run again, does not cover all files that the step reads,
+        // such as the materials of a model. So no result is kept.
         self.kept = Kept::default();
         self.store.write(path.as_ref(), bytes)
     }
@@ -87,8 +88,8 @@ impl Session {
         self.store.read(path.as_ref())
     }
 
-    /// Checks a recipe without running it. `path` is the path of the recipe, which other paths are relative to. The
-    /// paths in `values` are relative to the root.
+    /// Checks a recipe without running it. `path` is the path of the recipe. Paths in the recipe are relative to its
+    /// folder, and paths in `values` are relative to the root folder.
     ///
     /// Returns an object with these fields:
     ///
@@ -124,13 +125,14 @@ impl Session {
     ///
     /// The run starts at the first step that differs from the last run or that writes a file. The run starts earlier if
     /// the scene before this step was not kept, or if an expectation must be checked again. The first run after a file
-    /// was written or removed starts at the first step. The reports of steps that do not run again have `cached`.
+    /// was written or removed starts at the first step. The reports of steps that do not run again have the field
+    /// `cached`.
     ///
     /// Returns an object with these fields:
     ///
     /// - `succeeded` and `cancelled`
     /// - `problems`, as in [`check`](Self::check)
-    /// - `steps`, the events `done`
+    /// - `steps`, the `done` events of all steps
     /// - `expectations`, each checked expectation with `line`, `text` and `met`
     /// - `digest`, `null` if the recipe has errors
     /// - `files`, the paths of the written files
@@ -164,7 +166,7 @@ impl Session {
         result
     }
 
-    /// Runs a recipe without errors, and writes the outcome into `result`.
+    /// Runs a recipe, which must have no errors, and writes the outcome into `result`.
     fn run_loaded(
         &mut self,
         loaded: &Loaded,

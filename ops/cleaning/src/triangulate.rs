@@ -25,18 +25,18 @@ use op::prelude::*;
 ///
 /// A quadrilateral is cut along its shorter diagonal. If both diagonals have the same length, the quadrilateral is cut
 /// along the diagonal at its vertex with the lowest id. Two lengths count as the same if the relative difference of
-/// their squares is at most 1e-12. A diagonal is avoided if it gives a zero-area triangle or a triangle that is turned
-/// over relative to the normal of the face. It is not avoided if the other diagonal has the same problem. A
-/// quadrilateral with a reflex corner is therefore cut at that corner. If a diagonal would join two vertices that are
-/// already joined by an edge or another diagonal, the other diagonal is chosen where possible. The report counts the
-/// duplicate diagonals that remain.
+/// their squares is at most 1e-12. If the chosen diagonal gives a zero-area triangle, or a triangle that is turned over
+/// relative to the normal of the face, the other diagonal is used, unless it has the same problem. A quadrilateral with
+/// a reflex corner is therefore cut at that corner. If a diagonal would join two vertices that are already joined by an
+/// edge or by a diagonal of another face, the quadrilateral is cut along its other diagonal where possible. The report
+/// counts the duplicate diagonals that remain.
 ///
 /// A face with more than four corners is projected along its normal. The projected face is cut by ear clipping, or into
 /// monotone pieces if it has more than 4096 corners. Then diagonals are flipped until the triangulation is a
 /// constrained Delaunay triangulation. Some faces cannot be triangulated in this way: faces with zero area, faces whose
-/// sides cross, and faces with more than ten million corners. If a face has more than 4096 corners, its sides must not
-/// overlap either. A face that cannot be triangulated in this way becomes a triangle fan around its vertex with the
-/// lowest id. The report counts these faces.
+/// sides cross, faces with more than 4096 corners whose sides overlap, and faces with more than ten million corners. A
+/// face that cannot be triangulated in this way becomes a triangle fan around its vertex with the lowest id. The report
+/// counts these faces.
 ///
 /// The triangles of a face take its place in the order of the faces and have its values. Vertices and edges keep their
 /// ids. The corners of the triangles have the values of the corners of the face at the same vertices.
@@ -97,8 +97,8 @@ impl MeshOperation for Triangulate {
         cx.advance("triangulate", 1, 3)?;
         let duplicates = duplicates::avoid(mesh, &mut cuts);
         cx.advance("triangulate", 2, 3)?;
-        // For each half-edge, the mesh stores three ids. A separate list stores the half-edge from which its values are
-        // copied. Each of these arrays is extended once.
+        // For each half-edge, the mesh stores three ids, and a separate list stores the half-edge from which the values
+        // are copied. Each of these arrays is extended once.
         let n_half_edges = mesh.n_half_edges() + 2 * diagonals;
         mesh::require_memory(24 * n_half_edges + 24 * mesh.n_vertices());
         mesh.replace(assemble::assemble(mesh, &cuts, diagonals));

@@ -52,7 +52,7 @@ impl MeshOperation for Weld {
         plan.vertices.min = plan.vertices.min.min(1);
         plan.edges = plan.edges.or_less();
         plan.faces = plan.faces.or_less();
-        // Faces may lose corners, but not below three.
+        // Faces can lose corners, but each remaining face has at least three.
         plan.degrees = plan.degrees.or(Range::exactly(3));
         Vec::new()
     }

@@ -143,7 +143,8 @@ impl Tessellate {
         plan
     }
 
-    /// Checks that the elements fit the ids and the memory budget, before anything is allocated.
+    /// Checks, before anything is allocated, that there are enough ids for the elements, and that the mesh fits into
+    /// the memory budget.
     fn check_budget(
         &self,
         name: &str,

@@ -20,9 +20,9 @@ use crate::moved::moved;
 /// the step acts on all meshes except the object `onto`, which does not change. Normals and tangents are dropped.
 /// Faces, element ids and other attributes do not change, so textures stretch with the surface.
 ///
-/// Vertices that would move farther than `distance` do not move. With `Normal` and `Direction`, vertices whose line
-/// misses the surface do not move either. The report counts the vertices that would move too far, and the vertices
-/// whose line misses the surface.
+/// Vertices that would move farther than `distance` do not move. With `Normal` and `Direction`, a vertex moves along a
+/// line, and vertices whose line misses the surface do not move either. The report counts the vertices that would move
+/// too far, and the vertices whose line misses the surface.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Project {

@@ -232,7 +232,8 @@ fn change(note: &Note) -> ReadingChange {
 /// The plan of a mesh lists at most this number of joints, and at most this number of morph targets.
 const MAX_PLANNED: u64 = 1 << 12;
 
-/// Returns the plan of a mesh that is read from a file, given the numbers of its elements in the file.
+/// Returns the plan of a mesh that is read from a file. `peek` contains the number of elements of each kind in the
+/// file.
 fn planned(object: &PeekObject, peek: &PeekMesh, policies: Policies) -> MeshPlan {
     let range = |range: RangeInclusive<u64>| Range::between(*range.start(), *range.end());
     let ranges = peek.ranges(policies);

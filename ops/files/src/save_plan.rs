@@ -49,7 +49,7 @@ pub(crate) fn plan(save: &Save, plan: &mut Plan, cx: &PlanContext) -> Vec<Proble
     problems
 }
 
-/// The losses that certainly occur, and the losses that may occur.
+/// The losses that certainly occur, and the losses that possibly occur.
 #[derive(Default)]
 struct Losses {
     certain: Vec<Loss>,

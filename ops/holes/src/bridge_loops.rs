@@ -18,16 +18,16 @@ use op::prelude::*;
 ///
 /// Each hole is identified by one of its vertices. The band starts at a new edge that joins the two given vertices, and
 /// goes around both holes. Holes with n and m edges, where n is at least m, are joined by m quadrilaterals and n - m
-/// evenly spread triangles. The step adds n edges and no vertices. Both holes may be in one connected part of the mesh,
-/// which then gets a tunnel or a handle, or in two separate parts of the same mesh. (`Join` joins two objects into
-/// one.)
+/// evenly spread triangles. The step adds n edges and no vertices. Both holes can be in one connected part of the mesh,
+/// which then gets a tunnel or a handle. They can also be in two separate parts of the same mesh. (`Join` joins two
+/// objects into one.)
 ///
 /// Each new face copies the attribute values of the adjacent face at the hole with more edges. New corners have the
 /// values of the corners at the same vertices in the adjacent faces. Normals are dropped.
 ///
 /// The step is refused if a vertex is not on the boundary (`NotBoundary`), or if both vertices are on the same hole
 /// (`WrongPlace`). The step is also refused if the band would join two vertices that are already joined by an edge
-/// (`DuplicateEdge`). If a step is refused as `DuplicateEdge`, it may succeed with other vertices of the same holes.
+/// (`DuplicateEdge`). In this case, the step can succeed with other vertices of the same holes.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct BridgeLoops {
@@ -54,7 +54,7 @@ impl MeshOperation for BridgeLoops {
                 "`first` and `second` must be on different holes, but they are the same vertex";
             problems.push(Problem::error(message).at(["second"]));
         }
-        // The band has as many faces as the hole with more edges has edges, so it has at least two faces.
+        // If the hole with more edges has n edges, the band has n faces. Every hole has at least two edges.
         let band = Range::between(2, plan.edges.max);
         plan.grow(Range::exactly(0), band, band);
         plan.degrees = plan.degrees.or(Range::between(3, 4));

@@ -13,7 +13,7 @@ use op::prelude::*;
 
 /// Opens the mesh along edges.
 ///
-/// The edges may form paths, loops and trees. A loop can cut out a piece. Each edge becomes two edges, one for each
+/// The edges can form paths, loops and trees. A loop can cut out a piece. Each edge becomes two edges, one for each
 /// side of the cut. If the cuts separate the faces around a vertex into several parts, each part gets a separate copy
 /// of the vertex. The part that contains the face with the lowest id keeps the id of the vertex, and new vertices get
 /// the highest ids. Faces keep their ids, and no vertex moves. Copies of vertices and edges have the values of the

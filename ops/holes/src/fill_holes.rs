@@ -19,7 +19,7 @@ use op::prelude::*;
 ///
 /// For holes with up to 500 edges, the triangles have the smallest possible total area. A hole with more than 500 edges
 /// is filled one triangle at a time. Each triangle is added at the corner whose two neighbors are closest to each
-/// other. Triangles at straight and reflex corners are added last. If the hole is far from convex, the triangles may
+/// other. Triangles at straight and reflex corners are added last. If the hole is far from convex, the triangles can
 /// overlap. Two vertices that are already joined by an edge are not joined by a second edge. If no triangulation
 /// without duplicate edges is found, the hole cannot be filled (`DuplicateEdge`). A hole with two edges cannot be
 /// filled (`WrongPlace`). Use `Stitch` to close it.

@@ -141,8 +141,9 @@ impl Operation for Measure {
             }
             let n = found.map_or(0, |found| found.n);
             let (without, value) = (values.len() - n, readable(missing));
-            let what =
-                format!("\"{object}\": elements at which {name} is not defined, set to {value}");
+            let what = format!(
+                "\"{object}\": elements that get the value {value}, because {name} is not defined there"
+            );
             report = report.count(&what, without);
             report.changed += n as u64;
             for x in &mut values {

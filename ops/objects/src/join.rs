@@ -40,7 +40,7 @@ use crate::join::skin::{KeptSkin, LostSkin};
 pub struct Join {
     /// The names of the meshes. At least one name, without duplicates.
     pub objects: Vec<String>,
-    /// The name of the result. This name may be the name of one of the meshes.
+    /// The name of the result. The name of one of the meshes is allowed.
     pub name: String,
     /// Whether to tag the faces of each part with the name of the part, so that `Tagged("head")` selects them in later
     /// steps.
@@ -82,7 +82,7 @@ impl Operation for Join {
             return problems;
         }
         if parts.len() != self.objects.len() {
-            // An earlier step that could not be planned may create the missing objects.
+            // The missing objects are possibly created by an earlier step that could not be planned.
             plan.incomplete = true;
             return problems;
         }
@@ -210,7 +210,7 @@ impl Join {
         }
     }
 
-    /// Joins parts. All parts are meshes.
+    /// Joins parts. Requires that all parts are meshes.
     fn joined(&self, parts: &[&Object], cx: &Context) -> Result<(Object, Report), OpError> {
         let meshes = parts.iter().filter_map(|o| o.as_mesh());
         let meshes: Vec<&Mesh> = meshes.map(Arc::as_ref).collect();

@@ -23,8 +23,8 @@ use scene::{Geometry, Graph, Object};
 /// Nodes that placed the object place the first part instead. Each of these nodes gets child nodes that place the other
 /// parts.
 ///
-/// If parts of one component are separated, each part gets its own copies of the edges and vertices between two parts.
-/// If the faces of a part around a vertex form several fans, each fan gets a separate copy of the vertex.
+/// If a connected component is divided, each of its parts gets its own copies of the edges and vertices that the parts
+/// shared. If the faces of a part around a vertex form several fans, each fan gets a separate copy of the vertex.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Separate {
@@ -201,7 +201,7 @@ impl Separate {
             .collect()
     }
 
-    /// Replaces the object with the parts. The names of the parts must be free.
+    /// Replaces the object with the parts. Requires that no other object has the name of a part.
     fn replace(&self, scene: &mut Scene, names: &[String], parts: Vec<Mesh>) {
         let (_, materials) = scene.parts_mut(&self.object).expect("it was found");
         let materials = materials.clone();

@@ -29,10 +29,10 @@ use crate::transform::map::Map;
 ///
 /// Points are first scaled, then rotated, then moved. The step changes the points of meshes, patches, curves and
 /// polylines. If nodes place an object and `space` is `Scene`, the step changes the placements of these nodes instead
-/// of the points. Everything below these nodes also moves. With `space: Scene`, a skinned mesh moves with its joints.
-/// If the placement of a node is animated, the node gets a new parent, and the step moves this parent instead. If
-/// `space` is `Scene`, `on:` is omitted and `about` is not `Center`, all other root nodes also move, for example the
-/// nodes of cameras and lights. A curve must stay in the plane z = 0.
+/// of the points. Everything below these nodes also moves. With `space: Scene`, the step moves a skinned mesh by moving
+/// its joints. If the placement of a node is animated, the node gets a new parent, and the step moves this parent
+/// instead. If `space` is `Scene`, `on:` is omitted and `about` is not `Center`, all other root nodes also move, for
+/// example the nodes of cameras and lights. A curve must stay in the plane z = 0.
 ///
 /// Ids do not change. If the points of a mesh change, its normals, tangents and deltas of morph targets are also
 /// transformed; other attributes do not change. If the points are mirrored (one or three negative factors in `scale`),

@@ -270,7 +270,7 @@ mod tests {
         op::test::read(parameters).unwrap()
     }
 
-    /// Runs a step with a stamp, and returns the bytes of its file.
+    /// Runs a step with a provenance to store in the file, and returns the bytes of the file.
     fn written(step: &CurveFigure, on: Option<&[String]>, budget: u64) -> Result<Vec<u8>, OpError> {
         let folder = tempfile::tempdir().unwrap();
         let files = Files {

@@ -157,7 +157,7 @@ impl Picture {
         }
     }
 
-    /// Returns the problems of the parameters that do not depend on the scene.
+    /// Returns the problems of the parameters that can be found without the scene.
     fn problems(&self) -> Vec<Problem> {
         let mut problems = Vec::new();
         match Format::of(Path::new(&self.path)) {
@@ -349,7 +349,8 @@ impl Picture {
         }
     }
 
-    /// Encodes images as a file in the format of the path. `stamp` is the provenance that is stored in the file.
+    /// Encodes images as a file in the format of the path. `stamp` is a line about the origin of the file (its
+    /// provenance), which is stored in the file.
     ///
     /// # Errors
     ///

@@ -14,7 +14,7 @@ use op::prelude::*;
 
 /// Creates a flat sheet of squares whose normals point to +z.
 ///
-/// The ids of vertices and faces follow the rows, from -x to +x and from -y to +y.
+/// The ids of vertices and faces increase along each row from -x to +x, and from row to row towards +y.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Grid {

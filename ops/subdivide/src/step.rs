@@ -118,7 +118,8 @@ impl Step<'_> {
                     .at(["levels"])
                     .help(too_large.help()),
             );
-            // The plan continues with the levels that fit, so that later steps do not report the same problem.
+            // The plan continues with the largest number of levels that is possible, so that later steps do not report
+            // the same problem.
             levels = too_large.fits.unwrap_or(0);
         }
         let end = (0..levels).fold(start, |size, level| size.after(scheme, level));

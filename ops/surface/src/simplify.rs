@@ -65,8 +65,8 @@ pub struct Simplify {
     /// Vertices that are never removed and keep their exact positions, for example `Boundary`. If omitted, no vertices.
     #[serde(default)]
     pub pin: Option<VertexSelection>,
-    /// Whether the step may create intersections of faces. Such intersections can occur where parts of the surface are
-    /// close together.
+    /// Whether the step is allowed to create intersections of faces. Such intersections can occur where parts of the
+    /// surface are close together.
     #[serde(default)]
     pub intersections: Intersections,
     /// What to do if the number of faces cannot be reached.
@@ -160,7 +160,7 @@ pub(crate) fn unreached(n_faces: usize, goal: u64, blocked: &[(Blocked, usize)])
     };
     let edges = counted(n_edges, "edge");
     let message = format!(
-        "only {n_faces} {faces} reached instead of {goal}, because no further edge can be collapsed: of {edges}, {}",
+        "{n_faces} {faces} left, more than the requested {goal}, because no further edge can be collapsed: of {edges}, {}",
         reasons.join(", ")
     );
     OpError::refused(Refusal::Unreached, message)
@@ -233,7 +233,8 @@ impl MeshOperation for Simplify {
 }
 
 /// Adds a note with the names of the vertex attributes that hold one number, such as the attributes that `Measure`
-/// stores, because their changes influenced the result. Users do not expect this of a measurement.
+/// stores. Users do not expect that a measurement influences the result, but changes of these attributes count as
+/// changes of the surface.
 pub(crate) fn note_quantities(mesh: &Mesh, report: &mut Report) {
     let columns = mesh.attributes().of(Domain::Vertex).iter();
     let is_quantity = |c: &&Column| {
@@ -431,7 +432,7 @@ mod tests {
         let refused = try_applied(&step("(faces: 2)"), shapes::tetrahedron()).unwrap_err();
         assert_eq!(
             refused.to_string(),
-            "only 4 faces were reached instead of 2, because no further edge can be collapsed: of 6 edges, 6 would change the topology"
+            "4 faces were left, more than the requested 2, because no further edge can be collapsed: of 6 edges, 6 would change the topology"
         );
         let skip = step("(faces: 2, on_refusal: Skip)");
         let (mesh, report) = try_applied(&skip, shapes::octahedron()).unwrap();

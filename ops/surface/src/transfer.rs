@@ -147,7 +147,7 @@ impl MeshOperation for Transfer {
         }
         for (domain, kept) in far {
             let what = format!(
-                "{} farther than `within` from \"{}\", which take no values from it",
+                "{} that take no values from \"{}\", because they are farther away than `within`",
                 plural(domain),
                 self.from
             );
@@ -172,7 +172,7 @@ impl Transfer {
             for (domain, column) in found() {
                 if domain == Domain::Edge {
                     let message = format!(
-                        "\"{name}\" is an edge attribute, and edges have no nearest points; Transfer copies attributes of vertices, corners and faces"
+                        "\"{name}\" is an edge attribute, but Transfer copies only attributes of vertices, corners and faces"
                     );
                     return Err(OpError::refused(Refusal::Missing, message));
                 }

@@ -16,8 +16,8 @@ use case::{Lines, case, folder, mesh_of, parse, point, result, rules_of};
 /// sharpness as `f32`.
 const TOLERANCE: f64 = 1e-6;
 
-/// Finds the nearest position in `expected` for each vertex of `mesh`. Fails if the numbers of vertices and positions
-/// differ, a distance exceeds the tolerance, or a position is used twice.
+/// Finds the nearest position in `expected` for each vertex of `mesh`. Fails if the number of vertices is not the
+/// number of positions, if a distance exceeds the tolerance, or if a position is used twice.
 fn matched(mesh: &Mesh, expected: &[DVec3], tolerance: f64) -> Result<Vec<VertexId>, String> {
     if mesh.n_vertices() != expected.len() {
         let n = mesh.n_vertices();
@@ -106,8 +106,8 @@ fn faces_differ(mesh: &Mesh, partners: &[VertexId], expected: &Lines) -> Vec<Str
 }
 
 /// Describes the differences between the sharpness of `mesh` and the expected sharpness. Boundary edges and vertices
-/// with one face are skipped, because OpenSubdiv's sharpness values include the boundary rule, which can make them
-/// sharp.
+/// with one face are skipped, because OpenSubdiv can make them sharp by its rule for boundaries, and its sharpness
+/// values then contain the effect of this rule.
 fn sharpness_differs(mesh: &Mesh, partners: &[VertexId], expected: &Lines) -> Vec<String> {
     let creases: BTreeMap<[VertexId; 2], f64> = expected
         .creases()

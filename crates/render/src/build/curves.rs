@@ -18,7 +18,7 @@ use crate::style::Lines;
 const CELLS: u32 = 24;
 /// The number of line segments of a curve.
 const SEGMENTS: u32 = 200;
-/// The diameter of a polyline of one point, as a multiple of the line width.
+/// The diameter of the dot for a polyline with a single point, as a multiple of the line width.
 const SINGLE_POINT: f64 = 3.0;
 
 impl Builder<'_, '_> {
@@ -262,7 +262,7 @@ mod tests {
         let found = colors(&Style::default());
         assert_eq!(found.len(), 4);
         assert!((1..4).all(|i| !found[..i].contains(&found[i])));
-        // If the style has a color, it replaces the colors of levels.
+        // The color of the style, if there is one, replaces the colors of the levels.
         let blue = Color::rgb(0, 0, 200);
         let style = Style {
             color: Some(blue),

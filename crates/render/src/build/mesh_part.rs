@@ -205,7 +205,7 @@ struct Triangulation {
 /// Triangulates the faces of a mesh. The faces can be concave.
 fn triangulate(mesh: &Mesh, with_corners: bool) -> Triangulation {
     let n = mesh.domain_len(Domain::Face);
-    // If the mesh is dense and all faces are triangles, each triangle has the index of its face.
+    // If the mesh has no deleted elements and all faces are triangles, each triangle has the index of its face.
     let is_simple = mesh.is_dense() && 3 * mesh.n_faces() == n_corners(mesh);
     let chunks: Vec<Triangulation> = (0..n.div_ceil(CHUNK))
         .into_par_iter()
@@ -258,7 +258,7 @@ fn triangulate(mesh: &Mesh, with_corners: bool) -> Triangulation {
     all
 }
 
-/// Returns the number of corners of all faces of a dense mesh.
+/// Returns the number of corners of all faces of a mesh without deleted elements.
 fn n_corners(mesh: &Mesh) -> usize {
     let faces = &mesh.connectivity().face;
     faces.par_iter().filter(|f| f.some().is_some()).count()

@@ -106,15 +106,15 @@ pub struct Coloring {
     pub object: String,
     /// The elements that have values. Values of edges are shown as colored lines.
     pub domain: ::mesh::Domain,
-    /// One number for each element, by index. NaN if the element has no number.
+    /// One number for each element, by index. The number is NaN if the element has no value.
     pub values: Vec<f64>,
     /// The color map.
     pub map: ColorMap,
-    /// The numbers at the two ends of the map.
+    /// The numbers that the first and the last color of the color map represent.
     pub range: [f64; 2],
 }
 
-/// The default colors of objects, in the order of the scene. The colors repeat after the last one.
+/// The default colors of objects, in the order of the objects in the scene. The colors repeat after the last one.
 pub const PALETTE: [Color; 6] = [
     Color::rgb(0xa9, 0xc1, 0xe2),
     Color::rgb(0xe8, 0xc3, 0x8a),
@@ -126,8 +126,9 @@ pub const PALETTE: [Color; 6] = [
 
 /// Converts a scene to a drawing. Returns the drawing, and a message for each texture that cannot be drawn.
 ///
-/// `images` returns the bytes of an image file for its path in a material. If `images` returns `None`, or the bytes are
-/// not a PNG or JPEG file, the surface is drawn without this texture, and a message gives the path and the reason.
+/// `images` is called with the path of an image file, as written in a material, and returns the bytes of this file. If
+/// `images` returns `None`, or the bytes are not a PNG or JPEG file, the surface is drawn without this texture, and a
+/// message gives the path and the reason.
 ///
 /// The drawing uses these properties of materials: base color and alpha with their texture, roughness, emission,
 /// `unlit`, and `double_sided`.

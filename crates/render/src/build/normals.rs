@@ -7,8 +7,9 @@ use crate::color::narrow;
 use crate::drawing::Channel;
 use crate::work::map_indices;
 
-/// Returns the area vectors of faces by index. The vectors are divided by the square of `size`, so that their
-/// coordinates are in the range of `f32`. Deleted faces have zero vectors.
+/// Returns the area vector of each face, by index: a normal whose length is the area of the face. The vectors are
+/// divided by the square of `size`, so that their coordinates are in the range of `f32`. Deleted faces have zero
+/// vectors.
 pub(super) fn of_faces(mesh: &Mesh, size: f64) -> Vec<[f32; 3]> {
     let scale = 1.0 / (size * size);
     map_indices(mesh.domain_len(Domain::Face), |i| {
@@ -35,8 +36,8 @@ fn of_vertices(mesh: &Mesh, areas: &[[f32; 3]]) -> Vec<[f32; 3]> {
 }
 
 /// Returns smooth normals that are split at sharp edges. If the mesh has smoothing groups, an edge is sharp if its two
-/// faces are in different groups, or both in no group. Otherwise, an edge is sharp if the normals of its faces differ
-/// by at least `sharp` degrees. `size` is the radius of the scene.
+/// faces are in different groups, or if neither face is in a group. Otherwise, an edge is sharp if the normals of its
+/// faces differ by at least `sharp` degrees. `size` is the radius of the scene.
 pub(super) fn smooth<'a>(mesh: &Mesh, size: f64, sharp: f64) -> Channel<'a> {
     let areas = of_faces(mesh, size);
     let is_sharp = sharp_edges(mesh, &areas, sharp);

@@ -37,8 +37,9 @@ pub(super) struct Fit {
     tangent: Option<f64>,
     steady: bool,
     size: DVec2,
-    /// Half the width and half the height of the picture without its margins. With perspective, the unit is the scene
-    /// unit at distance 1; otherwise, the unit is half the height of the picture.
+    /// Half the width and half the height of the picture without its margins. With perspective, the unit of both
+    /// lengths is the size of a scene unit at distance 1 from the camera. Otherwise, the unit is half the height of the
+    /// picture.
     half: DVec2,
 }
 

@@ -99,8 +99,7 @@ pub fn half_edges(mesh: &Mesh, faces: &[FaceId], width: f64) -> (Svg, usize) {
     (svg, faces.len() - visible.len())
 }
 
-/// Whether the front of a face is seen, and not so nearly edge-on that names do not fit into the face. The normal can
-/// have any length.
+/// Whether the front of a face is seen at an angle at which names fit into the face. `face_normal` can have any length.
 fn is_visible(face_normal: DVec3, direction: DVec3) -> bool {
     const MIN_COSINE: f64 = 0.15;
     face_normal.dot(direction) >= MIN_COSINE * face_normal.length()

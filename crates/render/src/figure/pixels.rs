@@ -41,8 +41,8 @@ pub fn pixel_size(svg: &Svg, scale: f64) -> Result<(u32, u32), PictureError> {
     Ok((width, height))
 }
 
-/// Returns the maximum number of bytes that the pixels take in [`pixels`]. Each pixel needs four bytes in the image,
-/// and four bytes in the layer into which the document is drawn first.
+/// Returns how many bytes [`pixels`] needs at most for the pixels of an image of this size. Each pixel needs four bytes
+/// in the image, and four bytes in the layer into which the document is drawn first.
 pub fn bytes_needed(width: u32, height: u32) -> u64 {
     u64::from(width) * u64::from(height) * 8
 }
@@ -196,8 +196,8 @@ fn outline(shape: &Shape) -> Option<Path> {
                 return None;
             }
             let [x, y, r] = [center.x, center.y, *radius].map(narrow);
-            // A cubic curve approximates a quarter of a circle if its inner control points are 4 / 3 * tan(pi / 8)
-            // times the radius from its ends.
+            // A cubic curve approximates a quarter of a circle if the distance from each of its ends to the next
+            // control point is 4 / 3 * tan(pi / 8) times the radius.
             let k = r * 0.552_284_8;
             path.move_to(x + r, y);
             path.cubic_to(x + r, y + k, x + k, y + r, x, y + r);

@@ -162,12 +162,12 @@ pub struct Text {
 }
 
 impl Text {
-    /// Creates a line in one font, which starts at its position.
+    /// Creates a line of text in one font. The position of the text is the start of its baseline.
     pub fn new(font: Font, text: impl Into<String>, size: f64, color: Color) -> Self {
         Self::of(vec![Run::new(font, text)], size, color)
     }
 
-    /// Creates a line of several runs, which starts at its position.
+    /// Creates a line of text from several runs. The position of the text is the start of its baseline.
     pub fn of(runs: Vec<Run>, size: f64, color: Color) -> Self {
         Self {
             runs,

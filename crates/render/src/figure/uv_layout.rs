@@ -42,9 +42,9 @@ const FAR: f64 = 1e6;
 /// The number of colors that show the stretch. Faces of the same color form one shape.
 const N_COLORS: usize = 16;
 
-/// Draws the charts of texture coordinates, `width` pixels wide. Coordinates outside the page are drawn too, so the
-/// figure can be higher than wide. If `edges` is false, only the borders of charts are drawn. A figure with colors for
-/// the stretch also has a legend, if the legend takes at most a third of the width.
+/// Draws the charts of texture coordinates in a figure that is `width` pixels wide. Coordinates outside the page are
+/// drawn too, so the figure can be higher than wide. If `edges` is false, only the borders of charts are drawn. A
+/// figure with colors for the stretch also has a legend, if the legend takes at most a third of the width.
 pub fn uv_layout(
     mesh: &Mesh,
     uvs: &[DVec2],

@@ -48,8 +48,8 @@ fn n_tiles([left, top, right, bottom]: TileRect) -> usize {
     (right - left) as usize * (bottom - top) as usize
 }
 
-/// Returns the number of tiles up to which an item is in the list of each tile that it touches. An item that touches
-/// more tiles is in the list that all tiles read, so that the size of the lists is bounded.
+/// Returns a number of tiles: an item that touches at most this number of tiles is in the list of each of these tiles.
+/// An item that touches more tiles is in the list that all tiles read, so that the size of the lists is bounded.
 fn max_listed_tiles(items: &[(u32, TileRect)]) -> usize {
     let mut entries = [0; MAX_LISTED_TILES + 1];
     for &(_, rect) in items {

@@ -30,7 +30,8 @@ pub(super) struct Textured<'a> {
     alpha: f32,
     /// The first sample to be covered; see [`rank`].
     rotation: usize,
-    /// The last pixel, and the differences of the texture coordinates between samples of that pixel.
+    /// The pixel that was tested last, and the differences between the texture coordinates of neighboring samples in
+    /// that pixel.
     last_pixel: Option<([u32; 2], [DVec2; 2])>,
 }
 

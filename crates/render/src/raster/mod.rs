@@ -47,8 +47,8 @@ const TILE: u32 = 32;
 pub struct Rendered {
     /// The pixels.
     pub image: Image,
-    /// The positions of the labels of the drawing, in the order of the labels. `None` for labels behind the camera or
-    /// outside of the picture.
+    /// The positions of the labels of the drawing, in the order of the labels. The position is `None` if the label is
+    /// behind the camera or outside of the picture.
     pub labels: Vec<Option<PlacedLabel>>,
 }
 

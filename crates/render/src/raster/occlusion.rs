@@ -168,8 +168,8 @@ impl Occlusion {
 const SMALL_EDGE: f64 = 0.85;
 
 /// Returns the triangles of a part that are drawn into maps, and whether the points of the part are drawn too.
-/// Triangles whose edges are all shorter than `length` are left out. The points of the part are drawn instead of them.
-/// If the part has transparent surfaces, returns all triangles of its opaque surfaces, and `false`.
+/// Triangles whose edges are all shorter than `length` are left out, and the points of the part are drawn instead of
+/// these triangles. If the part has transparent surfaces, returns all triangles of its opaque surfaces, and `false`.
 fn triangles_to_draw<'a>(part: &'a Part, length: f64) -> (Cow<'a, [[u32; 3]]>, bool) {
     let has_transparent = part.materials.iter().any(Surface::is_transparent);
     let is_drawn = |&i: &usize| {

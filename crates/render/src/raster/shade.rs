@@ -11,7 +11,8 @@ use crate::drawing::{Drawing, Part, Surface};
 use crate::style::{Look, Shading};
 use crate::{PictureError, View};
 
-/// The direction to the key light: right, upwards, towards the camera. The vector is not a unit vector.
+/// The direction to the key light. Its components point to the right, upwards, and towards the camera. The vector is
+/// not a unit vector.
 pub(super) const KEY: DVec3 = DVec3::new(-0.45, 0.65, 0.75);
 /// The direction to the fill light. The vector is not a unit vector.
 pub(super) const FILL: DVec3 = DVec3::new(0.8, -0.05, 0.45);

@@ -1,9 +1,10 @@
 //! Finds the visible triangle for each sample of a tile of the picture.
 //!
-//! A pixel has 16 samples, one in each of 16 rows and columns (n-rooks: Shirley, "Discrepancy as a Quality Measure for
-//! Sample Distributions", 1991). The arrangement was found by a search that tested each arrangement with edges of all
-//! directions that cut a pixel. Of all tested arrangements, this one has the smallest difference between the fraction
-//! of samples that are covered and the exact fraction of the pixel that is covered.
+//! A pixel has 16 samples. Each of its 16 rows and each of its 16 columns contains exactly one sample (n-rooks:
+//! Shirley, "Discrepancy as a Quality Measure for Sample Distributions", 1991). The arrangement was found by a search
+//! that tested each arrangement with edges of all directions that cut a pixel. Of all tested arrangements, this one has
+//! the smallest difference between the fraction of samples that are covered and the exact fraction of the pixel that is
+//! covered.
 
 use std::ops::{Add, BitOr, Mul, Sub};
 
@@ -88,9 +89,9 @@ impl Tile {
         ((y - self.top) * TILE + (x - self.left)) as usize
     }
 
-    /// Draws a triangle. At each sample that the triangle covers, the triangle replaces the current triangle of the
-    /// sample, if it is nearer to the camera. At the same depth, the triangle with the lower index is visible. Only
-    /// samples whose bit is set in `mask` can be covered.
+    /// Draws a triangle. At each sample that the new triangle covers, it replaces the current triangle if the new
+    /// triangle is nearer to the camera. At the same depth, the triangle with the lower index is visible. Only samples
+    /// whose bit is set in `mask` can be covered.
     pub(super) fn draw(&mut self, id: u32, projected: &ProjectedTriangle, mask: u16) {
         let Some(setup) = Setup::new(projected, self) else {
             return;

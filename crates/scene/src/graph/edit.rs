@@ -33,8 +33,8 @@ impl Graph {
         self.retain_channels(|c| c.property != AnimatedProperty::Weights || shows[c.node]);
     }
 
-    /// Renames an object. A node that references the object gets the new name if it has the old name. The mesh gets the
-    /// new name if it has the old name, or if no node got the new name.
+    /// Renames an object. A node that references the object is renamed to `to` if its name is `from`. The label of the
+    /// mesh is renamed to `to` if its name is `from`, or if no node was renamed.
     pub fn rename_object(&mut self, from: &str, to: &str) {
         let mut is_named = false;
         for node in &mut self.nodes {

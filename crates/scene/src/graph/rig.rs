@@ -13,12 +13,12 @@ use super::Graph;
 pub struct Skin {
     /// The name.
     pub name: Option<String>,
-    /// The nodes that are the joints.
+    /// The indices of the nodes that are the joints.
     pub joints: Vec<usize>,
     /// The index of the inverse bind matrices in [`Graph::arrays`]: 16 numbers for each joint, column by column. `None`
     /// if all inverse bind matrices are the identity.
     pub inverse_bind_matrices: Option<usize>,
-    /// The node that is the root of the joints, for programs that need it.
+    /// The index of the node that is the root of the joints, for programs that need this root.
     pub skeleton: Option<usize>,
     /// Data of other programs, as JSON.
     pub extras: Option<String>,

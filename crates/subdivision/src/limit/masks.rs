@@ -12,7 +12,7 @@ use crate::sharpness::VertexRule;
 const LEVELS_TO_CONVERGE: usize = 96;
 
 /// A sector of a star: the faces that share one tangent plane. The sector has `n_faces` faces, counter-clockwise from
-/// spoke `first`.
+/// spoke `first`. (The spokes are the edges at the center of the star.)
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Sector {
     first: usize,

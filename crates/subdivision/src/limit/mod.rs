@@ -33,8 +33,9 @@ pub struct Limit {
     /// vectors points outward. At an inner crease, the vectors span the tangent plane of one side of the
     /// crease. At an isolated vertex, the vectors are zero.
     pub tangents: Vec<[DVec3; 2]>,
-    /// The unit normal of each corner, by half-edge, and zero for half-edges without a face. The value is
-    /// `None` if each vertex has only one tangent plane, because then one normal for each vertex is enough.
+    /// The unit normal of each corner, by the index of its half-edge. The normal is zero for half-edges without a face.
+    /// The value is `None` if each vertex has only one tangent plane, because then one normal for each vertex is
+    /// enough.
     pub corner_normals: Option<Vec<DVec3>>,
 }
 
@@ -55,7 +56,7 @@ fn normal([a, b]: &[DVec3; 2]) -> DVec3 {
 /// Computes the limit surface at the vertices of a mesh, for [`Scheme::Loop`](crate::Scheme::Loop) and
 /// [`Scheme::CatmullClark`](crate::Scheme::CatmullClark).
 ///
-/// A mesh with dead elements is compacted first, and the ids are those of the compacted mesh.
+/// A mesh with dead (deleted) elements is compacted first, and the ids are those of the compacted mesh.
 ///
 /// # Errors
 ///

@@ -31,8 +31,8 @@ impl<'a> ConnectivityBuilder<'a> {
                 last = pieces.second(h);
                 let m = pieces.on_edge(h.edge());
                 new.origin[last.index()] = m;
-                // The new vertex on the edge is m. Its stored half-edge is the second part of one half of the edge.
-                // This is the second half if that half has no face, and otherwise the first half.
+                // The new vertex on the edge is m. Its stored half-edge is the second part of one of the two half-edges
+                // of the edge: of the second half-edge if that half-edge has no face, otherwise of the first half-edge.
                 if h.index().is_multiple_of(2) || mesh.face(h).is_none() {
                     new.vertex_half_edge[m.index()] = last;
                 }

@@ -24,7 +24,7 @@ pub(super) enum Cut {
 }
 
 impl Cut {
-    /// Returns the numbers of new vertices and new edges inside the face, and of the faces that it becomes.
+    /// Returns how many new vertices and how many new edges are inside the face, and how many faces the face becomes.
     pub(super) const fn counts(self) -> [u32; 3] {
         match self {
             Self::Whole | Self::Hanging => [0, 0, 1],
@@ -44,8 +44,8 @@ pub(super) struct Cuts {
 }
 
 impl Cuts {
-    /// Returns the cuts of a level that cuts the chosen triangles into four. After these, the level repeatedly cuts
-    /// every triangle that would get a second hanging vertex into four, too. The result does not depend on the order in
+    /// Returns the cuts of a level that cuts the chosen triangles into four. As long as any other triangle would get a
+    /// second hanging vertex, the level cuts that triangle into four, too. The result does not depend on the order in
     /// which triangles are visited.
     ///
     /// A face with four corners is a triangle with a hanging vertex.
@@ -124,7 +124,7 @@ impl Cuts {
         }
     }
 
-    /// Returns the numbers of vertices, edges and faces of the next level.
+    /// Returns how many vertices, edges and faces the next level has.
     pub(super) fn counts_after(&self, mesh: &Mesh) -> [u64; 3] {
         let cut = self.edges.iter().filter(|&&cut| cut).count();
         let start = [mesh.n_vertices() + cut, mesh.n_edges() + cut, 0].map(|n| n as u64);

@@ -25,7 +25,7 @@ use super::sides;
 use crate::parallel::BLOCK;
 use crate::topology::{Place, Topology};
 
-/// A dense mesh, and the parts into which its elements are cut.
+/// A mesh without deleted elements, and the parts into which its elements are cut.
 pub(super) struct Pieces<'a> {
     pub(super) mesh: &'a Mesh,
     smoothed: SmoothedElements,
@@ -134,7 +134,7 @@ impl<'a> Pieces<'a> {
         }
     }
 
-    /// Returns the numbers of vertices, edges and faces of the next level.
+    /// Returns how many vertices, edges and faces the next level has.
     pub(super) fn counts(&self) -> [usize; 3] {
         [
             self.mesh.n_vertices() + self.middles.len() + self.centers.len(),

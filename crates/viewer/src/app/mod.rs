@@ -179,7 +179,7 @@ impl App {
         self.parts.view.pixel_of(point).map(|at| at.to_array())
     }
 
-    /// Sets how the scene is drawn.
+    /// Returns the settings that determine how the scene is drawn, mutably.
     pub fn look_mut(&mut self) -> &mut crate::gpu::Look {
         &mut self.parts.view.look
     }
@@ -259,7 +259,7 @@ impl Parts {
             .is_some_and(|since| since.elapsed() >= LONG)
     }
 
-    /// Returns the places of failures in the scene at the cursor.
+    /// Returns the places of the failures of the newest run, in the scene.
     fn places_of_errors(&self) -> Vec<ErrorLocation> {
         let failures = self.editor.run().failures.iter();
         failures

@@ -2,7 +2,7 @@
 
 use eframe::egui_wgpu::RenderState;
 
-/// The number of storage buffers from which a vertex shader reads a surface.
+/// The number of storage buffers that the vertex shader of surfaces reads.
 const N_STORAGE_BUFFERS: u32 = 5;
 
 /// Whether a [`Painter`](super::Painter) can draw with this device. OpenGL adapters do not have all features that the

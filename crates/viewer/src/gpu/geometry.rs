@@ -37,9 +37,9 @@ pub(super) struct Surface {
 pub(super) struct Chunk {
     /// Three points for each triangle, with the bit [`EDGE`] for sides that are edges of the mesh.
     pub(super) triangles: Vec<[u32; 3]>,
-    /// Unit vectors in 4 bytes. Empty if the normals are those of the points.
+    /// The normals, as unit vectors of 4 bytes each. Empty if the chunk uses the normals of the points.
     pub(super) normals: Vec<u32>,
-    /// sRGB colors. Empty if the colors are those of the points.
+    /// sRGB colors. Empty if the chunk uses the colors of the points.
     pub(super) colors: Vec<u32>,
     /// The texture, if the surface has texture coordinates for it.
     pub(super) texture: Option<Arc<Texture>>,
@@ -120,8 +120,8 @@ fn byte(x: f32) -> u8 {
     (x.clamp(0.0, 1.0) * 255.0).round() as u8
 }
 
-/// Converts a part. If the part is the surface of a mesh, `mesh` is the mesh, so that the sides of triangles inside of
-/// polygons are not drawn as edges.
+/// Converts a part. If the part is the surface of a mesh, `mesh` is this mesh. It shows which sides of triangles are
+/// edges of the mesh, and which are diagonals of polygons.
 pub(super) fn surfaces(part: &Part, mesh: Option<&Mesh>, center: DVec3) -> Vec<Surface> {
     split(part, mesh, center, [CHUNK, MAX_POINTS])
 }
@@ -184,7 +184,7 @@ impl Renumbering {
         }
     }
 
-    /// Gives the points of a chunk new numbers, in the order of their first use. Returns the old numbers.
+    /// Gives the points of a chunk new indices, in the order of their first use. Returns the old indices.
     fn renumber(&mut self, triangles: &mut [[u32; 3]]) -> Vec<u32> {
         self.chunk += 1;
         let mut used = Vec::new();

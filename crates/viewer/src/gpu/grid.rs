@@ -18,7 +18,7 @@ pub(super) fn grid(
     const HALF: f64 = 26.0;
     const SEGMENTS: u32 = 12;
     let [x, up, front] = camera.world_axes();
-    // The distance between two lines of the grid is a power of ten, times 1, 2 or 5.
+    // The distance between neighboring lines of the grid is a power of ten, times 1, 2 or 5.
     let size = radius.max(1e-300) * 0.3;
     let power = libm::pow(10.0, libm::floor(libm::log10(size)));
     let step = power

@@ -39,8 +39,8 @@ pub(super) struct Key {
 }
 
 impl Key {
-    /// Whether both objects have the same color and style, and their buffers depend on nothing else except the geometry
-    /// of each object.
+    /// Whether both objects have the same color and style, and their buffers depend only on the color, the style and
+    /// the geometry.
     pub(super) fn looks_like(&self, other: &Self) -> bool {
         self.color == other.color
             && self.style == other.style
@@ -155,7 +155,7 @@ pub(super) struct Uploaded {
     pub(super) simple: Option<Simple>,
     /// Lines and their number.
     pub(super) lines: Option<(wgpu::Buffer, u32)>,
-    /// Whether lines are visible where a surface hides them.
+    /// Whether the hidden parts of some lines are also drawn.
     pub(super) has_hidden: bool,
     /// Corners of triangles on surfaces and their number.
     pub(super) patches: Option<(wgpu::Buffer, u32)>,

@@ -118,8 +118,8 @@ impl Painter {
         self.bounds.map(sphere)
     }
 
-    /// Returns the upward axis of a scene that stands on a plane. The axis is z if the scene stands on the plane z = 0
-    /// but not on the plane y = 0, else y.
+    /// Guesses the upward axis of the scene: z if the scene stands on the plane z = 0 but not on the plane y = 0, else
+    /// y.
     pub fn up_axis(&self) -> UpAxis {
         let Some([min, max]) = self.bounds else {
             return UpAxis::Y;
@@ -219,7 +219,7 @@ impl Painter {
                 line.hidden,
                 line.color,
             );
-            // The first line is half a pixel farther from the camera than the others.
+            // The first line of the overlay is half a pixel farther from the camera than the other lines.
             instance.look[2] = 0.5 + if i > 0 { 0.5 } else { 0.0 };
             instance
         };

@@ -14,7 +14,8 @@ use scene::Geometry;
 use super::geometry::{CHUNK, EDGE, encode_normal, narrow};
 use super::objects::{Key, Uploaded};
 
-/// The maximum number of half-edges that may differ. If more differ, the whole object is converted.
+/// The maximum number of half-edges that differ between the old and the new mesh. If more half-edges differ, the whole
+/// object is converted.
 const MAX_CHANGES: usize = 50_000;
 
 /// The buffers of a surface whose triangle `i` is face `i` of its mesh.
@@ -72,7 +73,7 @@ pub(super) fn patch(queue: &wgpu::Queue, uploaded: &Uploaded, new: &Key) -> bool
     true
 }
 
-/// Returns the faces of the half-edges that differ, in the order of their numbers. All returned faces are triangles of
+/// Returns the faces of the half-edges that differ, in the order of the face ids. All returned faces are triangles of
 /// both meshes. `None` if the meshes differ in other ways.
 fn changed_faces(a: &Mesh, b: &Mesh) -> Option<Vec<FaceId>> {
     let is_same_size = a.is_dense()
@@ -119,7 +120,7 @@ fn has_attributes(mesh: &Mesh) -> bool {
         || mesh.get(mesh::MATERIAL).is_some()
 }
 
-/// Whether a face has a boundary edge or an edge that separates smooth parts, so that its vertices may have several
+/// Whether a face has a boundary edge or an edge that separates smooth parts, so that its vertices can have several
 /// normals.
 fn has_sharp_edge(mesh: &Mesh, f: FaceId, sharp: f64) -> bool {
     let limit = libm::cos(sharp.to_radians());
@@ -133,7 +134,7 @@ fn has_sharp_edge(mesh: &Mesh, f: FaceId, sharp: f64) -> bool {
     })
 }
 
-/// Returns the corners of faces in both meshes, in the order of their numbers.
+/// Returns the vertices of `faces` in both meshes, in the order of their ids.
 fn vertices(meshes: [&Mesh; 2], faces: &[FaceId]) -> Vec<VertexId> {
     let of_face = |&f: &FaceId| {
         meshes

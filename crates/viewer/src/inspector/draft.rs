@@ -62,7 +62,7 @@ impl Draft {
     }
 
     /// Draws the parameters, and applies the changes that the user makes. A parameter that takes the picked elements
-    /// shows their selection.
+    /// shows `selection`, which describes them.
     fn fields(&mut self, ui: &mut Ui, selection: Option<&SelectionText>) {
         let picked = selection.and_then(|selection| self.panel.picked_value(selection));
         for i in 0..self.panel.fields.len() {
@@ -82,7 +82,7 @@ impl Draft {
                 Some(Change::Set(value) | Change::Drag(value)) => {
                     self.panel.set(&of.name, Some(&value));
                 }
-                // If this reset left the parameter without a value, the parameter would take the picked elements again.
+                // The parameter gets its default here. Without a value, it would take the picked elements again.
                 Some(Change::Reset)
                     if picked.as_ref().is_some_and(|(name, _)| of.name == *name) =>
                 {

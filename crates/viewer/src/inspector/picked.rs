@@ -98,7 +98,7 @@ fn nothing_picked(ui: &mut Ui, parts: &mut Parts) {
     }
 }
 
-/// The selection that the next step uses, which can be edited.
+/// The selection that the next step uses. The user can edit it.
 fn selection(ui: &mut Ui, parts: &mut Parts) {
     if parts.editor.is_searching() {
         weak(
@@ -137,7 +137,7 @@ fn selection(ui: &mut Ui, parts: &mut Parts) {
     }
 }
 
-/// The half-edge of the picked edge and its neighbors, if an edge is picked.
+/// If an edge is picked, the half-edge of this edge, and the neighbors of the half-edge.
 pub(super) fn half_edge(ui: &mut Ui, parts: &mut Parts) {
     let picked = parts.editor.picked().and_then(|picked| picked.half_edge);
     let info = picked.zip(parts.picked_mesh());

@@ -16,9 +16,10 @@ use crate::theme::Colors;
 const LENGTH: f64 = 84.0;
 /// The maximum distance from the cursor at which a handle can be dragged, in points of the screen.
 const REACH: f64 = 8.0;
-/// Arrows that are shorter than this in the picture point towards the viewer, and cannot be dragged.
+/// The minimum length of an arrow that can be dragged, in points of the screen. A shorter arrow points almost towards
+/// the viewer or away from the viewer.
 const SHORTEST: f64 = 12.0;
-/// The number of parts of a ring.
+/// The number of straight segments of a ring.
 const RING: u8 = 64;
 /// The index of the handle that scales along all axes.
 const ALL: usize = 3;
@@ -340,7 +341,7 @@ fn square(ui: &Ui, center: Pos2, half: f32, color: Color32) {
     ui.painter().rect_filled(square, 1.5, color);
 }
 
-/// Rounds a length to a multiple of a power of ten that is at most half of a pixel.
+/// Rounds a length to a multiple of a power of ten. This power of ten is at most half the size of a pixel.
 pub(super) fn round(length: f64, pixel: f64) -> f64 {
     let size = 0.5 * pixel;
     if !(size > 0.0 && size.is_finite()) {

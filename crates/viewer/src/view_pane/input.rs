@@ -38,7 +38,7 @@ impl Outline {
 }
 
 impl ViewPane {
-    /// Turns, moves and zooms.
+    /// Turns, moves and zooms the camera.
     pub(super) fn navigate(&mut self, ui: &Ui, rect: Rect, response: &egui::Response) {
         let delta = response.drag_delta();
         let pixels = DVec2::new(f64::from(delta.x), f64::from(delta.y));

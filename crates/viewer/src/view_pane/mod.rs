@@ -90,7 +90,7 @@ struct Drawn {
     scene: usize,
     look: Look,
     camera: Camera,
-    /// The number of the overlay.
+    /// The value of `overlay_number` for this picture.
     overlay: u64,
     size: [u32; 2],
     scale: f32,
@@ -196,7 +196,7 @@ impl ViewPane {
         self.fit();
     }
 
-    /// Moves the camera to points of the scene.
+    /// Moves the camera so that it shows the given points of the scene.
     pub(crate) fn fit_points(&mut self, points: &[DVec3]) {
         let Some(&first) = points.first() else { return };
         let (min, max) = points

@@ -92,12 +92,12 @@ struct ChangedNeighborhood {
     vertices: Vec<VertexId>,
     /// For each vertex, whether it is in `vertices`.
     has_vertex: Vec<bool>,
-    /// For each edge, whether it may be flipped and is not collected yet.
+    /// For each edge, whether flipping it is allowed and it is not collected yet.
     is_free: Vec<bool>,
 }
 
 impl ChangedNeighborhood {
-    /// Creates a collector without vertices. Only `edges` may be flipped.
+    /// Creates a collector without vertices. Only `edges` are allowed to be flipped.
     fn new(mesh: &Mesh, edges: &[EdgeId]) -> Self {
         let mut is_free = vec![false; mesh.domain_len(mesh::Domain::Edge)];
         for e in edges {

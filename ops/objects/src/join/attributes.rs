@@ -112,7 +112,8 @@ fn note_zeros(columns: &[Attributes], parts: &[&Object], report: &mut Report) {
     }
 }
 
-/// Returns the columns that satisfy `predicate`, without duplicates, in the order of the parts.
+/// Returns the domain and the name of each column that satisfies `predicate`, without duplicates, in the order of the
+/// parts.
 fn names(columns: &[Attributes], predicate: impl Fn(&Column) -> bool) -> Vec<(Domain, String)> {
     let mut names = Vec::new();
     for (domain, column) in columns.iter().flat_map(Attributes::iter) {

@@ -29,7 +29,7 @@ impl Map {
     /// Returns the image of a point.
     pub(crate) fn point(&self, p: DVec3, center: DVec3) -> DVec3 {
         if self.only_moves() {
-            // A move alone avoids the rounding error of p - center + center.
+            // If points are only moved, p + shift avoids the rounding error of p - center + center.
             return p + self.shift;
         }
         self.linear * (p - center) + center + self.shift

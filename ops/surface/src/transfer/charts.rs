@@ -239,7 +239,7 @@ impl<'a> Charts<'a> {
         };
         let mut reached = BTreeSet::new();
         let mut seen = BTreeSet::from([start]);
-        // Distances are not negative, so their bits have the same order.
+        // Distances are not negative, so their bits, compared as integers, have the same order as the distances.
         let mut open = BinaryHeap::from([Reverse((distance(start, 0.0).to_bits(), start))]);
         let mut largest = 0.0;
         while let Some(Reverse((bits, f))) = open.pop() {

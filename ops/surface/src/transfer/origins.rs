@@ -6,7 +6,7 @@ use op::prelude::*;
 
 use super::charts::Charts;
 
-/// The elements of the source and their weights, from which an element of the target takes its value.
+/// The elements of the source from which an element of the target takes its value, each with its weight.
 pub(super) type Origin = Option<[(usize, f64); 3]>;
 
 /// The mesh with the attributes.

@@ -145,8 +145,8 @@ fn elements_that_are_too_far_keep_their_values_and_are_counted() {
     assert_eq!(
         report.notes,
         [
-            "vertices farther than `within` from \"scan\", which take no values from it: 1",
-            "corners farther than `within` from \"scan\", which take no values from it: 4"
+            "vertices that take no values from \"scan\", because they are farther away than `within`: 1",
+            "corners that take no values from \"scan\", because they are farther away than `within`: 4"
         ]
     );
     let mesh = low(&scene);

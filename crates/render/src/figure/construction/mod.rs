@@ -103,7 +103,7 @@ const LEVELS: [Color; 5] = [
     [0x3f, 0xa7, 0xe0, 255],
 ];
 
-/// Returns the color of level `r`, from 1.
+/// Returns the color of level `r`, which is at least 1.
 fn level_color(r: usize) -> Color {
     LEVELS[(r - 1) % LEVELS.len()]
 }
@@ -234,7 +234,7 @@ impl<'p, 'c> Row<'p, 'c> {
     }
 }
 
-/// Checks the numbers of panels and points, and the parameters.
+/// Checks the number of panels, the number of points, and the parameters.
 fn check(panels: &[Panel]) -> Result<(), PictureError> {
     let expect = |is_valid: bool, expected: &str, found: &dyn Debug| {
         let message = || PictureError::Style(format!("expected {expected}, found {found:?}"));

@@ -15,7 +15,7 @@
 //!
 //! If the entries (without copies of whole arrays) take at least as much memory as the mesh plus 64 KiB, one copy of
 //! the mesh replaces them before the next edit starts. If a level of the journal has a copy of the mesh, no further
-//! entries are recorded for it.
+//! entries are recorded for this level.
 
 use bytemuck::cast_slice_mut;
 use glam::DVec3;
@@ -54,8 +54,8 @@ const JOURNAL_ALLOWANCE: usize = 1 << 16;
 pub(crate) struct Journal {
     recorded: Change,
     levels: Vec<Level>,
-    /// The numbers of elements when the innermost level was opened. Changes are recorded only for elements that existed
-    /// at that time. All numbers are 0 if the whole mesh was recorded.
+    /// The number of elements of each domain when the innermost level was opened. Changes are recorded only for
+    /// elements that existed at that time. All four numbers are 0 if the whole mesh was recorded.
     lengths: Lengths,
 }
 

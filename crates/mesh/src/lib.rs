@@ -49,9 +49,9 @@
 //! | holes | [`fill_hole`](Mesh::fill_hole), [`fill_hole_by_ears`](Mesh::fill_hole_by_ears), [`bridge_loops`](Mesh::bridge_loops) |
 //! | whole meshes | [`reverse`](Mesh::reverse) |
 //!
-//! The documentation of the edits writes V, E and F for the numbers of vertices, edges and faces. An element that an
-//! edit removes is marked dead ("dies"). The id of a dead element is not reused until [`Mesh::compact`] renumbers the
-//! elements. If an edit that added elements is undone, later edits reuse the ids of these elements.
+//! In the documentation of the edits, V is the number of vertices, E the number of edges, and F the number of faces. An
+//! element that an edit removes is marked dead ("dies"). The id of a dead element is not reused until [`Mesh::compact`]
+//! renumbers the elements. If an edit that added elements is undone, later edits reuse the ids of these elements.
 //!
 //! [`Mesh::begin`] starts to record edits, [`Mesh::rollback`] undoes them and ends the recording, and [`Mesh::commit`]
 //! ends the recording and returns a [`Change`]. [`Mesh::revert`] undoes the change later, and returns another change,

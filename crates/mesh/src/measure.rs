@@ -25,8 +25,8 @@ fn length(v: DVec3) -> f64 {
 
 /// Scales a vector by a power of two, so that squares of its components cannot overflow and its length does not
 /// underflow. Returns the scaled vector and an exponent k: the original vector is the scaled vector times 2ᵏ. If the
-/// largest absolute value of a component is zero, not finite, or neither very small nor very large, the vector is
-/// returned unchanged, with the exponent 0.
+/// largest absolute value of a component is zero, not finite, or between 1e-70 and 1e70, the vector is returned
+/// unchanged, with the exponent 0.
 fn ordinary(v: DVec3) -> (DVec3, i32) {
     let largest = v.abs().max_element();
     if (1e-70..1e70).contains(&largest) || largest == 0.0 || !largest.is_finite() {

@@ -103,7 +103,7 @@ pub fn collect<T: Send>(n: usize, value: impl Fn(usize) -> T + Sync) -> Vec<T> {
     });
     #[expect(
         unsafe_code,
-        reason = "a type may have no zero value, so safe code would collect blocks and then copy all values once more"
+        reason = "some types have no zero value, so safe code would collect blocks and then copy all values once more"
     )]
     // SAFETY: the capacity is at least n, and `fill` has passed each of the first n slots to the closure, which wrote
     // it. If the closure `value` panics, `set_len` is not called.

@@ -14,8 +14,8 @@ const STEPS: [usize; 4] = [32, 24, 16, 8];
 
 impl Mesh {
     /// Asks the processor to prefetch memory for later edits of the edges after index `at` of `edges`, in order. The
-    /// call is only a hint: the mesh does not change. `edges` may contain ids of elements that are dead or do not
-    /// exist.
+    /// call is only a hint: the mesh does not change. `edges` is allowed to contain ids of elements that are dead or do
+    /// not exist.
     ///
     /// # Examples
     ///

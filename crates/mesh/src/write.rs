@@ -108,7 +108,7 @@ impl Mesh {
     }
 
     /// Sets the attribute values of element `to` to the mean of the values of the elements `from`. Attributes whose
-    /// rule does not interpolate are not changed. `from` may contain `to`.
+    /// rule does not interpolate are not changed. `from` is allowed to contain `to`.
     pub(crate) fn average_values<I: Id>(&mut self, from: &[I], to: I) {
         self.edit_values(to, |column| column.average(from, to));
     }

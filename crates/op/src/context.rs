@@ -130,7 +130,7 @@ impl<'a> Context<'a> {
         self.progress
     }
 
-    /// Returns the store of the run, for writing long files. Writes to this store report progress and fail if the run
+    /// Returns the store of the run, for writing large files. Writes to this store report progress and fail if the run
     /// is canceled. If a write failed because of the cancellation, [`advance`](Self::advance) then returns
     /// [`OpError::Cancelled`].
     pub fn cancellable_store(&self) -> CancellableStore<'_> {

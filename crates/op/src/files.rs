@@ -1,4 +1,4 @@
-//! The files of a run: the paths that a recipe may read and write, and a log of each use of a file.
+//! The files of a run: the paths that a recipe is allowed to read and write, and a log of each use of a file.
 //!
 //! Paths of input files are relative to the folder of the recipe. Output files are always inside the output folder. An
 //! output path that leads out of the output folder is refused.
@@ -156,8 +156,8 @@ impl Files {
         self.store.make_folder(store::folder_of(path))
     }
 
-    /// Returns the full path of an output file in the output folder. `path` may contain placeholders, which are
-    /// replaced.
+    /// Returns the full path of an output file in the output folder. Placeholders in `path` are replaced by their
+    /// values.
     ///
     /// # Errors
     ///
@@ -166,7 +166,8 @@ impl Files {
     pub fn to_write(&self, path: &str) -> Result<PathBuf, FileError> {
         let filled = self.fill(path)?;
         let relative = Path::new(&filled);
-        // Drives and backslashes have a meaning only on some systems, so they are refused on all systems.
+        // Drive letters (`C:`) and backslashes have a special meaning only on some systems. They are refused on all
+        // systems, so that a recipe works in the same way everywhere.
         let plain = relative
             .components()
             .all(|c| matches!(c, Component::Normal(_)));

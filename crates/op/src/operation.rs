@@ -33,8 +33,8 @@ pub trait MeshOperation:
     /// Names for the operation in other programs, in lower case. If a recipe uses one of these words as the name of a
     /// step, the error suggests this operation.
     const WORDS: &'static [&'static str] = &[];
-    /// The word that step tables show after the number of changed elements, such as `flipped` in `12 flipped`. If the
-    /// word is empty, the tables do not show this number.
+    /// The word after the number of changed elements in tables of steps, such as `flipped` in `12 flipped`. If the word
+    /// is empty, the tables do not show this number.
     const DONE: &'static str = "";
 
     /// Returns the names of the other objects whose meshes the operation reads with [`Context::other_mesh`]. Each name
@@ -65,8 +65,8 @@ pub trait MeshOperation:
     ///
     /// # Errors
     ///
-    /// Returns an [`OpError`]. If an error is returned, a part of the mesh may already be changed. The caller has
-    /// opened the journal of the mesh, and undoes the changes after an error.
+    /// Returns an [`OpError`]. When an error is returned, a part of the mesh has possibly already been changed. The
+    /// caller has opened the journal of the mesh, and undoes the changes after an error.
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError>;
 }
 
@@ -88,8 +88,8 @@ pub trait Operation:
     /// Names for the operation in other programs, in lower case. If a recipe uses one of these words as the name of a
     /// step, the error suggests this operation.
     const WORDS: &'static [&'static str] = &[];
-    /// The word that step tables show after the number of changed elements, such as `flipped` in `12 flipped`. If the
-    /// word is empty, the tables do not show this number.
+    /// The word after the number of changed elements in tables of steps, such as `flipped` in `12 flipped`. If the word
+    /// is empty, the tables do not show this number.
     const DONE: &'static str = "";
     /// Whether a step can choose objects with `on:`.
     const TAKES_ON: bool = false;
@@ -106,8 +106,8 @@ pub trait Operation:
     ///
     /// # Errors
     ///
-    /// Returns an [`OpError`]. If an error is returned, a part of the scene may already be changed. The runner then
-    /// restores the scene to its state before the step.
+    /// Returns an [`OpError`]. When an error is returned, a part of the scene has possibly already been changed. The
+    /// runner then restores the scene to its state before the step.
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError>;
 }
 

@@ -63,7 +63,7 @@ impl Range {
         }
     }
 
-    /// Returns the range of the difference of two counts. Neither end becomes negative.
+    /// Returns the range of the difference of two counts. An end that would be negative is 0.
     #[must_use]
     pub const fn minus(self, other: Self) -> Self {
         let max = if self.max == u64::MAX {
@@ -77,8 +77,8 @@ impl Range {
         }
     }
 
-    /// Returns the range of this count minus `n`. Neither end becomes negative. The upper end `max` must be a known
-    /// limit, not `u64::MAX`.
+    /// Returns the range of this count minus `n`. An end that would be negative is 0. The upper end `max` must be a
+    /// known limit, not `u64::MAX`.
     #[must_use]
     pub const fn less(self, n: u64) -> Self {
         Self {
@@ -390,8 +390,8 @@ pub struct Plan {
     outputs: IndexSet<PathBuf>,
     /// The data that the current step certainly loses. Attributes of meshes that the step changes are not included.
     pub losses: Vec<Loss>,
-    /// The data that the current step may lose. The loss is uncertain because the values of the data, or whether the
-    /// data exist, are unknown.
+    /// The data that the current step possibly loses. The loss is uncertain because it is unknown whether the data
+    /// exist, or what their values are.
     pub possible_losses: Vec<Loss>,
     graph: Arc<Graph>,
     /// Whether an earlier step could not be read or planned. In this case, the scene can have objects that are missing
@@ -440,7 +440,7 @@ impl Plan {
     }
 
     /// Returns whether [`objects_mut`](Self::objects_mut) was called since the last call of this method. If
-    /// `objects_mut` was not called, objects may have been added at the end, but nothing else has changed.
+    /// `objects_mut` was not called, the only possible change is that objects were added at the end.
     pub fn take_edited(&mut self) -> bool {
         std::mem::take(&mut self.is_edited)
     }

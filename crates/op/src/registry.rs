@@ -71,7 +71,7 @@ impl Entry {
         (self.schema)().to_value()
     }
 
-    /// Adds the schema to the definitions of `generator` and returns a reference to it.
+    /// Adds the schema of the parameters to the definitions of `generator`, and returns a reference to this definition.
     pub fn schema_in(&self, generator: &mut SchemaGenerator) -> serde_json::Value {
         (self.schema_in)(generator).to_value()
     }
@@ -122,7 +122,7 @@ impl Registry {
         self.with::<T>()
     }
 
-    /// Adds the operations that `register` adds.
+    /// Adds a group of operations, by calling `register`.
     #[must_use]
     pub fn with_group(self, register: fn(Self) -> Self) -> Self {
         register(self)

@@ -40,7 +40,7 @@ pub struct ReadingChange {
 pub enum ReadingElements {
     /// Vertices.
     Vertices(Vec<u64>),
-    /// Edges, as pairs of vertices.
+    /// Edges, each given by the indices of its two vertices.
     Edges(Vec<[u64; 2]>),
     /// Faces.
     Faces(Vec<u64>),
@@ -85,8 +85,8 @@ impl fmt::Display for Loss {
 }
 
 impl Loss {
-    /// Creates a loss that occurred while a file was read. `code` is used both as the code of the loss and as the name
-    /// of the lost data. `message` describes the loss and names the file.
+    /// Creates the record of a loss that occurred while a file was read. `code` is used both as the code of the loss
+    /// and as the name of the lost data. `message` describes the loss and names the file.
     pub fn reading(file: &str, code: &str, count: u64, message: impl Into<String>) -> Self {
         Self {
             code: code.to_owned(),
@@ -98,7 +98,7 @@ impl Loss {
         }
     }
 
-    /// Creates the loss of an attribute.
+    /// Creates the record of a lost attribute.
     pub fn attribute(object: &str, domain: Domain, name: &str, reason: impl Into<String>) -> Self {
         let what = format!("the {domain} attribute \"{name}\"");
         Self {
@@ -107,8 +107,8 @@ impl Loss {
         }
     }
 
-    /// Creates the loss of a part of an object or of the scene. `name` is the name of the part, such as `skins`. The
-    /// code is derived from this name.
+    /// Creates the record of a lost part of an object or of the scene. `name` is the name of the part, such as `skins`.
+    /// The code is derived from this name.
     pub fn part(
         object: &str,
         name: &str,
@@ -133,7 +133,7 @@ impl Loss {
         format!("{} may lose {}: {}", self.owner(), self.what, self.reason)
     }
 
-    /// Returns the words for the owner of the lost data in messages: the name of the object, or `the scene`.
+    /// Returns what messages call the owner of the lost data: the name of the object, or `the scene`.
     fn owner(&self) -> String {
         match self.object.as_str() {
             "" => "the scene".to_owned(),

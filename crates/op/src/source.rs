@@ -13,8 +13,8 @@ use crate::{Context, MeshPlan, OpError, Plan, PlannedGeometry, Problem, Report, 
 /// Each corner can need two half-edges. The largest possible id of a half-edge is 2^32 - 2.
 const MAX_EDGES: u64 = (u32::MAX as u64 - 1) / 4;
 
-/// A mesh that a step creates. A `Source` consists of the name of the new object, the counts of the mesh, and the
-/// problems of the step's parameters.
+/// A mesh that a step creates. A `Source` consists of the name of the new object, the planned element counts of its
+/// mesh, and the problems of the step's parameters.
 ///
 /// An operation creates the same `Source` in both its `plan` and its `apply` method:
 ///

@@ -115,7 +115,7 @@ pub fn applied_as_planned(operation: &impl MeshOperation, mesh: &Mesh) -> Mesh {
     new
 }
 
-/// Returns the numbers of vertices, edges and faces.
+/// Returns the number of vertices, of edges, and of faces.
 pub fn counts(mesh: &Mesh) -> [usize; 3] {
     [mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()]
 }

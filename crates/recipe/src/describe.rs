@@ -38,7 +38,7 @@ pub fn fields(schema: &Json) -> Vec<FieldDoc> {
     fields_of(&Schema::root(schema), true)
 }
 
-/// Returns the fields of `part`, which is a part of the JSON schema `root`, such as the fields of a variant.
+/// Returns the fields of `part`, which is a part of the JSON schema `root`: for example, the schema of one variant.
 pub fn fields_in(root: &Json, part: &Json) -> Vec<FieldDoc> {
     fields_of(&Schema::new(root, part), true)
 }

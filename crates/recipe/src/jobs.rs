@@ -151,7 +151,7 @@ struct State {
     next: usize,
     /// The number of running jobs.
     running: usize,
-    /// The bytes of the running jobs.
+    /// The estimated memory of the running jobs, in bytes.
     used: u64,
 }
 
@@ -292,10 +292,10 @@ impl<T> InOrder<T> {
 const BYTES_FOR_EACH_BYTE_READ: u64 = 8;
 
 impl Forecast {
-    /// Returns the estimated peak memory of the run, in bytes. If the forecast has an upper limit for the memory of the
-    /// meshes after every step, the estimate is the size of the input files plus the largest of these limits. If the
-    /// forecast of some step has no upper limit, the estimate is eight times the size of the input files, but at least
-    /// the largest lower limit of a step.
+    /// Returns the estimated peak memory of the run, in bytes. For each step, the forecast can have an upper limit for
+    /// the memory that the meshes take after the step. If all steps have such a limit, the estimate is the size of the
+    /// input files plus the largest of these limits. Otherwise, the estimate is eight times the size of the input
+    /// files, but at least the largest lower limit of a step.
     pub fn peak_bytes(&self) -> u64 {
         let size = |path: &std::path::PathBuf| Path::metadata(path).map_or(0, |m| m.len());
         let read: u64 = self.inputs.iter().map(size).sum();

@@ -151,7 +151,8 @@ impl Param {
     ///
     /// # Errors
     ///
-    /// Returns an error if the value does not have the type of the parameter, or if the parameter does not allow it.
+    /// Returns an error if the value does not have the type of the parameter, or if the parameter does not allow the
+    /// value.
     pub fn value_from(
         &self,
         written: &Value,

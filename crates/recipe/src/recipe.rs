@@ -99,12 +99,12 @@ pub enum OnLoss {
     Warn,
     /// The run fails.
     Error,
-    /// Data with one of these names may be lost. Any other loss fails the run.
+    /// Steps are allowed to lose data with these names. After any other loss, the run fails.
     Allow(Vec<String>),
 }
 
 impl OnLoss {
-    /// Whether data with this name may be lost.
+    /// Whether steps are allowed to lose data with this name.
     pub fn allows(&self, name: &str) -> bool {
         match self {
             Self::Warn => true,
@@ -158,7 +158,7 @@ pub struct RecipeStep {
     pub on: Option<Vec<(String, Span)>>,
     /// If the recipe expects that the step is refused: the expected reason.
     pub refused: Option<Refusal>,
-    /// The losses that the step may cause.
+    /// The losses that the step is allowed to cause.
     pub on_loss: OnLoss,
     /// The comment on the step. Programs show the comment to users. The comment has no effect on the run.
     pub note: Option<String>,
@@ -203,7 +203,7 @@ pub struct RecipeExpectation {
     /// The index of the step after which the expectation is checked. If `None`, the expectation is checked at the end
     /// of the recipe.
     pub after: Option<usize>,
-    /// The names of the objects for which the expectation is checked. If `None`, all objects.
+    /// The names of the objects for which the expectation is checked. If `None`, it is checked for all objects.
     pub on: Option<Vec<String>>,
     /// The expectation.
     pub that: Expectation,

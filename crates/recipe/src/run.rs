@@ -54,9 +54,9 @@ pub fn run(recipe: &Recipe, settings: Settings, listener: &dyn Listener) -> Outc
     run_from(recipe, 0, Scene::new(), settings, listener)
 }
 
-/// Runs a recipe starting at the step with index `first`. `scene` is the scene before this step. An earlier run has
-/// passed this scene to [`Listener::scene_after`] or returned it in an [`Outcome`]. If one step has changed, a
-/// run from this step avoids running the steps before it again.
+/// Runs a recipe starting at the step with index `first`. `scene` is the scene before this step, which an earlier run
+/// has passed to [`Listener::scene_after`] or returned in an [`Outcome`]. If one step has changed, a run from this step
+/// avoids running the steps before it again.
 ///
 /// The steps before `first` do not write their files again, and the expectations after these steps are not checked
 /// again. If `first` is not 0, the cache is not used. The cache identifies a scene by the steps that produced it, and
@@ -270,8 +270,9 @@ impl Runner<'_> {
         Ok(digest)
     }
 
-    /// Advances `scene` to its state before the step with the index `to`. All steps before that step must be done.
-    /// Loads the latest scene up to that step that the cache has stored, and runs the steps after it again.
+    /// Advances `scene` to its state before the step with the index `to`. All steps before that step must be done. From
+    /// the scenes that the cache has stored, loads the latest one that is not after that state, and runs the steps
+    /// after it again.
     fn advance_scene(&mut self, to: usize, listener: &dyn Listener) -> Result<(), Stopped> {
         if self.scene_index < to
             && let Some(session) = &mut self.session
@@ -542,8 +543,8 @@ fn is_before(a: Option<usize>, b: Option<usize>) -> bool {
     a.is_some_and(|a| b.is_none_or(|b| a < b))
 }
 
-/// Returns the numbers of vertices, edges and faces of all meshes together. The points of polylines are counted as
-/// vertices.
+/// Returns the number of vertices, of edges, and of faces of all meshes together. The points of polylines are counted
+/// as vertices.
 fn counts(scene: &Scene) -> [usize; 3] {
     let mut counts = [0; 3];
     for object in scene.objects() {

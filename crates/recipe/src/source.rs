@@ -102,7 +102,7 @@ pub(crate) fn rebase_path(store: &dyn Store, text: &str, from: &Path, to: &Path)
     if Path::new(text).is_absolute() {
         return target;
     }
-    // If a folder is a link, `..` does not lead to the folder that contains the link.
+    // If `a` is a link to a folder, `a/..` does not lead to the folder that contains the link.
     let is_same = |relative: &PathBuf| {
         let (rebased, original) = (
             store.canonical(&to.join(relative)),

@@ -4,7 +4,7 @@
 //! meshwright 0.1.0, recipe 1f0c..e2, {"file":"teapot.ron","set":{"levels":"2"},"inputs":{"a.bez":"9a.."}}
 //! ```
 //!
-//! The digest of the recipe comes before the details of the run. If a format can store only a short text, it therefore
+//! The digest of the recipe comes before the details of the run. Therefore, a format that can store only a short text
 //! still stores the digest. The stamp contains no absolute paths. A stamp records a file by its path relative to the
 //! recipe's folder. If the path is absolute and leads out of this folder, only the name of the file is recorded.
 

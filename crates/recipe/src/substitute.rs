@@ -6,8 +6,7 @@ use ron_tree::{Call, Diagnostic, Span, Value, ValueKind};
 /// name of a parameter and the span of this name. `resolve` returns the value of the parameter. The inserted value has
 /// the span of the `arg(..)` that it replaces, and it records the name of the parameter.
 ///
-/// Returns the errors of `resolve`, and an error for each `arg` without a name. If there is an error in an `arg`, it is
-/// not replaced.
+/// Returns the errors of `resolve`, and an error for each `arg` without a name. An `arg` with an error is not replaced.
 pub fn substitute(
     value: &mut Value,
     mut resolve: impl FnMut(&str, Span) -> Result<Value, Box<Diagnostic>>,

@@ -5,7 +5,7 @@ use op::Registry;
 use crate::recipe::Kind;
 use crate::schema_check::{listed, nearest};
 
-/// Words for operations on solids that do not exist yet.
+/// Words for boolean operations on solids. Meshwright does not have such operations yet.
 const BOOLEANS: &[&str] = &[
     "boolean",
     "csg",
@@ -23,7 +23,7 @@ const BOOLEANS: &[&str] = &[
 /// there are no such operations either, the text names the command that lists all operations.
 ///
 /// If `name` contains a word for a boolean operation, the text instead says that there are no boolean operations, and
-/// names other operations that may help.
+/// names other operations that can be used instead.
 pub fn suggest_operations(name: &str, registry: &Registry) -> String {
     let entries = registry.entries();
     let known = entries.iter().map(|entry| entry.name);

@@ -1,9 +1,9 @@
 //! Updates the recorded values of a recipe. In the text of the recipe, the recorded value of each expectation that
 //! does not hold is replaced by the actual value. The rest of the text stays unchanged.
 //!
-//! Recorded values are `eq`, `is`, the corners of `Bounds`, `Digest`, and the reference file of `Output`. Requirements
-//! are never changed: one-sided bounds such as `min` and `below`, and conditions such as `Manifold`. Values that come
-//! from parameters are also never changed.
+//! Recorded values are `eq`, `is`, the digest in `Digest`, the two corners in `Bounds`, and the reference file of
+//! `Output`. Requirements are never changed: one-sided bounds such as `min` and `below`, and conditions such as
+//! `Manifold`. Values that come from parameters are also never changed.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -278,7 +278,7 @@ fn number_text(value: &Value) -> Result<&str, String> {
 }
 
 /// Returns an error if the value comes from a parameter. A value that comes from a parameter is not updated, because
-/// other values may depend on the parameter.
+/// other values possibly depend on the parameter.
 fn not_from_parameter(value: &Value) -> Result<(), String> {
     match &value.kind {
         ValueKind::Call(call) if &*call.name.text == "arg" => Err(format!(

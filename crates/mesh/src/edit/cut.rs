@@ -23,12 +23,11 @@ impl Mesh {
     ///    |     |     |          |     |     |
     /// ```
     ///
-    /// If the cuts divide the faces around a vertex into several parts, the part with the lowest face id keeps
-    /// the vertex; each other part gets a copy of the vertex. The copies are in order of the lowest face ids of
-    /// the parts. New vertices are numbered in the order of the old vertices, and new edges in the order of
-    /// `edges`. Faces keep their ids. The copies of vertices and edges have the values of the originals, and
-    /// corners keep their values. Positions do not change: both sides of a cut coincide.
-    /// [`stitch_edges`](Self::stitch_edges) is the inverse.
+    /// If the cuts divide the faces around a vertex into several parts, the part with the lowest face id keeps the
+    /// vertex; each other part gets a copy of the vertex. The copies are ordered by the lowest face id of their parts.
+    /// New vertices are numbered in the order of the old vertices, and new edges in the order of `edges`. Faces keep
+    /// their ids. The copies of vertices and edges have the values of the originals, and corners keep their values.
+    /// Positions do not change: both sides of a cut coincide. [`stitch_edges`](Self::stitch_edges) is the inverse.
     ///
     /// An edge cannot be cut if neither of its ends would be split. The cut would then be a hole with two edges (a
     /// slit). A slit cannot be opened, and a list of polygons cannot represent it.
@@ -162,8 +161,8 @@ impl Mesh {
 /// Returns the parts of a fan after its cut edges were duplicated. The fan must start at the boundary or at a cut.
 fn parts(fan: &[HalfEdgeId], copy_of: impl Fn(HalfEdgeId) -> Option<EdgeId>) -> Vec<Part> {
     // Returns two outgoing half-edges at the cut along the edge of h. The first is the last half-edge, in clockwise
-    // order, of the part before the cut. The second is the first half-edge of the part after the cut. The latter is on
-    // the boundary.
+    // order, of the part before the cut. The second is the first half-edge of the part after the cut. The second
+    // half-edge is on the boundary.
     let sides = |h: HalfEdgeId| {
         let [first, second] = copy_of(h)?.half_edges();
         let is_first = h == h.edge().half_edge();

@@ -75,8 +75,8 @@ impl Mesh {
     /// # Errors
     ///
     /// Returns [`EditError::Pinch`] if a diagonal starts and ends at the same vertex, which the face contains twice;
-    /// [`EditError::NoCut`] with the ends of the first diagonal if two diagonals cross or are equal, or if a diagonal
-    /// joins neighboring corners; [`EditError::NoSuchFace`]; or [`EditError::Full`]. The mesh is unchanged.
+    /// [`EditError::NoCut`] with the ends of the first diagonal in the list if two diagonals cross or are equal, or if
+    /// a diagonal joins neighboring corners; [`EditError::NoSuchFace`]; or [`EditError::Full`]. The mesh is unchanged.
     ///
     /// # Panics
     ///

@@ -58,7 +58,7 @@ mod tests {
     use crate::edit::testing::{checked_edit_mesh, sample_shapes};
     use crate::{FaceId, shapes};
 
-    /// Returns the numbers of vertices, edges and faces.
+    /// Returns the number of vertices, of edges, and of faces.
     fn counts(mesh: &Mesh) -> [usize; 3] {
         [mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()]
     }

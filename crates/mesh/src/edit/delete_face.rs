@@ -17,9 +17,9 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// Returns [`EditError::Pinch`] if the remaining faces around a vertex would not form one fan. This error
-    /// occurs if the vertex is on the boundary, but both edges of `f` at the vertex are inside.
-    /// Also returns [`EditError::NoSuchFace`]. The mesh is unchanged.
+    /// Returns [`EditError::Pinch`] if the remaining faces around a vertex would not form one fan. This error occurs if
+    /// the vertex is on the boundary of the mesh, but neither edge of `f` at the vertex is. Also returns
+    /// [`EditError::NoSuchFace`]. The mesh is unchanged.
     pub fn delete_face(&mut self, f: FaceId) -> Result<(), EditError> {
         self.delete_faces(&[f])
     }
@@ -34,10 +34,10 @@ impl Mesh {
     ///    +---+---+---+          +---+   +---+
     /// ```
     ///
-    /// Faces that cannot be deleted alone can be deleted together: only the result is checked. Edges that
-    /// have no other face are deleted too. Vertices are not deleted; a vertex without other edges becomes
-    /// isolated. Other ids and attribute values do not change. An empty list changes nothing. Takes time
-    /// proportional to the number of listed faces and of edges at their corners.
+    /// Only the result is checked: a list of faces can be accepted even if one of its faces alone would be refused.
+    /// Edges that have no other face are deleted too. Vertices are not deleted; a vertex without other edges becomes
+    /// isolated. Other ids and attribute values do not change. An empty list changes nothing. Takes time proportional
+    /// to the number of listed faces plus the number of edges at their corners.
     ///
     /// # Errors
     ///
@@ -228,7 +228,8 @@ mod tests {
                 let mut mesh = shape.clone();
                 let result = mesh.delete_faces(&deleted);
                 assert_eq!(mesh.defects(), []);
-                // The builder splits vertices with two fans, which the deletion refuses.
+                // If two fans are left at a vertex, the builder splits the vertex and reports this repair; the deletion
+                // is refused.
                 assert_eq!(result.is_ok(), report.is_clean(), "{result:?}");
                 if let Err(error) = result {
                     assert!(matches!(error, EditError::Pinch(_)));

@@ -19,11 +19,11 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// Returns [`EditError::Boundary`] if `e` has a face on only one side, [`EditError::SameFace`] if the same
-    /// face is on both sides, [`EditError::FewEdges`] if an end of `e` has only two edges (remove that vertex
-    /// first, with [`dissolve_vertex`](Self::dissolve_vertex)), [`EditError::RepeatedVertex`] if the faces
-    /// have another vertex in common, [`EditError::Seam`] if corner attributes differ across `e`, or
-    /// [`EditError::NoSuchEdge`]. The mesh is unchanged.
+    /// Returns [`EditError::Boundary`] if `e` has a face on only one side; [`EditError::SameFace`] if the same face is
+    /// on both sides; [`EditError::FewEdges`] if an end of `e` has only two edges (remove that vertex first, with
+    /// [`dissolve_vertex`](Self::dissolve_vertex)); [`EditError::RepeatedVertex`] if the faces have another vertex in
+    /// common; [`EditError::Seam`] if corner attributes differ across `e`; or [`EditError::NoSuchEdge`]. The mesh is
+    /// unchanged.
     ///
     /// # Examples
     ///

@@ -148,8 +148,8 @@ impl Mesh {
         Ok(merged)
     }
 
-    /// Returns the half-edges of the faces of these spokes, except those that start or end at the common
-    /// origin of the spokes.
+    /// The spokes are outgoing half-edges of one vertex. Returns the half-edges around the faces of the spokes, except
+    /// those that start or end at this vertex.
     fn rim_around(&self, spokes: impl Iterator<Item = HalfEdgeId>) -> Vec<HalfEdgeId> {
         let mut rim = Vec::new();
         for spoke in spokes.filter(|&h| self.face(h).is_some()) {
@@ -162,8 +162,8 @@ impl Mesh {
         rim
     }
 
-    /// Returns the spoke whose face has the most corners. Walks around all of these faces at the same time, and stops
-    /// when at most one walk is not complete.
+    /// Returns the spoke whose face has the most corners. Walks around the faces of all spokes at the same time, and
+    /// stops when at most one walk is not complete.
     fn spoke_of_largest_face(&self, spokes: &[HalfEdgeId]) -> HalfEdgeId {
         let with_face = spokes.iter().filter(|&&h| self.face(h).is_some());
         let mut walks: Vec<(HalfEdgeId, HalfEdgeId)> = with_face.map(|&h| (h, h)).collect();

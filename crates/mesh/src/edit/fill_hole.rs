@@ -20,9 +20,10 @@ impl Mesh {
     /// The outer boundary of an open sheet is a hole too: filling it gives a closed mesh, with the sheet as
     /// its front and the new face as its back. No vertices or edges are added, and all ids stay the same.
     ///
-    /// The new face has the values of the face beside `h`. Each new corner has the values of the corner at the same
-    /// vertex in the face on the other side of the edge that leaves the new corner. So an edge of the hole becomes a
-    /// seam only if the corners at one of its ends already had different values.
+    /// The new face has the values of the face beside `h`. Each new corner lies at the origin of a half-edge of the
+    /// hole. The corner has the values of the corner at the same vertex in the face on the other side of that
+    /// half-edge. So an edge of the hole becomes a seam only if the corners at one of its ends already had different
+    /// values.
     ///
     /// Returns the new face.
     ///
@@ -55,8 +56,8 @@ impl Mesh {
     }
 
     /// Fills a hole with triangles, by cutting off ears. `h` is a half-edge of the hole: it has no face. Each number in
-    /// `ears` is the index of a vertex on the rim, counted from the origin of `h`. The vertex is cut off by a triangle
-    /// whose other two corners are its current neighbors on the rim.
+    /// `ears` is the index of a vertex on the rim, counted from the origin of `h`. This vertex is cut off by a triangle
+    /// whose other two corners are the current neighbors of the vertex on the rim.
     ///
     /// ```text
     ///    +-----+-----+          +-----+-----+
@@ -144,7 +145,7 @@ impl Mesh {
         self.next(h.twin())
     }
 
-    /// Copies the values of the face on the other side of a boundary half-edge to the new face `f`.
+    /// Sets the values of the new face `f` to those of the face on the other side of the boundary half-edge `h`.
     pub(super) fn copy_face_beside(&mut self, h: HalfEdgeId, f: FaceId) {
         if let Some(beside) = self.face(h.twin()) {
             self.copy_values(beside, f);

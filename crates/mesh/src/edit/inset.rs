@@ -25,10 +25,10 @@ impl Mesh {
     /// counter-clockwise from the first. Each h adds the vertex v', the edges v'-w' and v-v' in this order, and the
     /// face (v, w, w', v'), whose half-edge is h.
     ///
-    /// Each new vertex, and each corner at a new vertex, gets values that are interpolated at t between the values at
-    /// the outer corner and the mean of the values at all corners of the face. Attributes that are not interpolated are
-    /// copied from the outer corner. Inner edges have the values of the outer edges, the edges v-v' have zero values,
-    /// and the faces of the ring have the values of `f`.
+    /// Each new vertex, and each corner at a new vertex, gets values that are interpolated with the parameter t: from
+    /// the values at the outer corner (t = 0) to the mean of the values at all corners of the face (t = 1). Attributes
+    /// that are not interpolated are copied from the outer corner. Inner edges have the values of the outer edges, the
+    /// edges v-v' have zero values, and the faces of the ring have the values of `f`.
     ///
     /// Returns the faces of the ring, in the order of the half-edges h.
     ///

@@ -77,8 +77,8 @@ pub enum EditError {
     #[error("a face would contain {0} twice")]
     RepeatedVertex(VertexId),
     /// No face has both vertices as corners, or the two vertices are the same. [`Mesh::cut_face`] returns this error,
-    /// with the ends of the first diagonal, if two diagonals cross or are equal, or if a diagonal joins neighboring
-    /// corners.
+    /// with the ends of the first diagonal in its list, if two diagonals cross or are equal, or if a diagonal joins
+    /// neighboring corners.
     #[error("no face can be cut from {0} to {1}")]
     NoCut(VertexId, VertexId),
     /// Several faces have both vertices as corners, or one face contains a vertex several times.

@@ -29,9 +29,9 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// Returns [`EditError::VisitsTwice`] if the face contains a vertex twice, because this vertex
-    /// would be joined to m twice, [`EditError::NoSuchFace`], [`EditError::BadNumber`] if the mean of
-    /// the corners is not finite, or [`EditError::Full`]. The mesh is unchanged.
+    /// Returns [`EditError::VisitsTwice`] if the face contains a vertex twice (this vertex would be joined to m twice),
+    /// [`EditError::NoSuchFace`], [`EditError::BadNumber`] if the mean of the corners is not finite, or
+    /// [`EditError::Full`]. The mesh is unchanged.
     ///
     /// # Examples
     ///

@@ -60,8 +60,8 @@ impl Mesh {
         Ok(self.origin(mb))
     }
 
-    /// Splits `e`, from a to b, by a vertex m, like [`split_edge`](Self::split_edge), but does not cut the faces
-    /// beside `e`: m becomes an additional corner of these faces, even of triangles.
+    /// Splits `e`, which runs from a to b, by a vertex m. Unlike [`split_edge`](Self::split_edge), this edit does not
+    /// cut the faces beside `e`: m becomes an additional corner of these faces, even of triangles.
     ///
     /// Returns the new edge m-b, whose first half starts at m.
     ///

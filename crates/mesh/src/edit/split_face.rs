@@ -21,10 +21,9 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// Returns [`EditError::WrongCorner`] if `x` has no face or `y` is not on the same face,
-    /// [`EditError::Adjacent`] if the corners are the same, adjacent, or at the same vertex,
-    /// [`EditError::DuplicateEdge`] if the vertices share an edge outside the face,
-    /// [`EditError::NoSuchHalfEdge`], or [`EditError::Full`]. The mesh is unchanged.
+    /// Returns [`EditError::WrongCorner`] if `x` has no face or `y` is not on the same face; [`EditError::Adjacent`] if
+    /// the corners are the same, adjacent, or at the same vertex; [`EditError::DuplicateEdge`] if the vertices share an
+    /// edge outside the face; [`EditError::NoSuchHalfEdge`]; or [`EditError::Full`]. The mesh is unchanged.
     ///
     /// # Examples
     ///
@@ -68,10 +67,10 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// Returns [`EditError::DuplicateEdge`] if the vertices share an edge, [`EditError::NoCut`] if no face
-    /// has both as corners, or if they are the same, [`EditError::SeveralCuts`] if several faces have both as
-    /// corners, or one face contains a vertex twice, [`EditError::NoSuchVertex`], or [`EditError::Full`]. The
-    /// mesh is unchanged.
+    /// Returns [`EditError::DuplicateEdge`] if the vertices share an edge; [`EditError::NoCut`] if no face has both
+    /// vertices as corners, or if `v` is `w`; [`EditError::SeveralCuts`] if several faces have both vertices as
+    /// corners, or if one face contains one of the vertices twice; [`EditError::NoSuchVertex`]; or [`EditError::Full`].
+    /// The mesh is unchanged.
     ///
     /// [`split_face`]: Self::split_face
     pub fn connect_vertices(&mut self, v: VertexId, w: VertexId) -> Result<EdgeId, EditError> {

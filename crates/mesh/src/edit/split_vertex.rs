@@ -115,7 +115,7 @@ mod tests {
     use crate::{COLOR, FaceId, UV, VertexId, shapes};
     use glam::{DVec2, DVec4};
 
-    /// Returns the faces by id, each starting at its lowest corner.
+    /// Returns the faces in order of ids, each with its vertices, starting at the vertex with the lowest id.
     fn faces(mesh: &Mesh) -> Vec<(FaceId, Vec<VertexId>)> {
         let corners = |f| {
             let mut corners: Vec<VertexId> = mesh.face_vertices(f).collect();

@@ -17,12 +17,12 @@ impl Mesh {
     ///       /   \                   /   \
     /// ```
     ///
-    /// a and a' become one vertex, and so do b and b'; either pair can already be one vertex. In each pair, the
-    /// vertex with the lower id remains and keeps its position and values; the other vertex dies. The edge with the
-    /// lower id remains, keeps its values and gets both faces; the other edge dies. Corners keep their values, so
-    /// different UVs form a seam. If the boundary edges next to `h` and `g` would become a hole with two edges,
-    /// they are stitched too, because a list of polygons cannot represent such a hole. To close a cut, stitch one pair
-    /// of edges after the other, starting at an end of the cut.
+    /// a and a' become one vertex, and so do b and b'. The two vertices of one of these pairs can already be the same
+    /// vertex. In each pair, the vertex with the lower id remains and keeps its position and values; the other vertex
+    /// dies. The edge with the lower id remains, keeps its values and gets both faces; the other edge dies. Corners
+    /// keep their values, so different UVs form a seam. If the boundary edges next to `h` and `g` would become a hole
+    /// with two edges, they are stitched too, because a list of polygons cannot represent such a hole. To close a cut,
+    /// stitch one pair of edges after the other, starting at an end of the cut.
     ///
     /// The order of `h` and `g` does not matter. The orientation of the faces always matches, because both
     /// half-edges have the surface on their right.
@@ -140,7 +140,7 @@ impl Mesh {
     /// Merges the edges of two half-edges without faces. The edge with the lower id remains.
     fn merge_edges(&mut self, [h, g]: Pair) -> EdgeId {
         let (kept, removed) = (h.min(g), h.max(g));
-        // One half of the removed edge has a face. The kept half-edge takes the place of this half.
+        // `old` is the half of the removed edge that has a face. The half-edge `kept` replaces `old` around this face.
         let old = removed.twin();
         let (before, after, face) = (self.prev(old), self.next(old), self.face(old));
         self.set_next(before, kept);

@@ -171,7 +171,7 @@ numbers! {
     /// A distance along a direction, in scene units. A negative distance goes in the opposite direction.
     #[derive(Default)]
     Distance: Unbounded, Unbounded;
-    /// An angle in degrees. May be more than a full turn.
+    /// An angle in degrees. Can be more than a full turn.
     #[derive(Default)]
     Angle: Unbounded, Unbounded;
     /// An angle between two directions, in degrees: from 0 to 180.

@@ -7,8 +7,9 @@ use mesh::{Domain, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 
 use crate::{OpError, Refusal};
 
-/// Returns the edges and the edge loops through them. An edge loop continues straight across each interior vertex that
-/// has four edges. An edge loop that starts at a boundary edge follows the boundary.
+/// Returns one flag for each edge of the mesh: whether the edge is in `edges` or on an edge loop through one of them.
+/// An edge loop continues straight across each interior vertex that has four edges. An edge loop that starts at a
+/// boundary edge follows the boundary.
 pub(super) fn edge_loops(mesh: &Mesh, edges: &[EdgeId]) -> Vec<bool> {
     follow(mesh, edges, |h| {
         if mesh.is_boundary_edge(h.edge()) {
@@ -24,8 +25,8 @@ pub(super) fn edge_loops(mesh: &Mesh, edges: &[EdgeId]) -> Vec<bool> {
     })
 }
 
-/// Returns the edges and the edge rings through them. An edge ring passes through each face with four corners, from an
-/// edge to the opposite edge.
+/// Returns one flag for each edge of the mesh: whether the edge is in `edges` or on an edge ring through one of them.
+/// An edge ring passes through each face with four corners, from an edge to the opposite edge.
 pub(super) fn edge_rings(mesh: &Mesh, edges: &[EdgeId]) -> Vec<bool> {
     follow(mesh, edges, |h| {
         let f = mesh.face(h)?;

@@ -84,7 +84,7 @@ impl Attributes {
     /// Reports errors in the selections of a step. A `Tagged(..)` or a `Where(..)` is an error if one of the meshes
     /// certainly does not have its tag or attribute. A `Where(..)` without a bound is an error, too.
     pub(super) fn needs(&self, step: &RecipeStep, plan: &Plan, found: &mut Vec<Diagnostic>) {
-        // If the recipe expects a refusal, the missing tag may be the reason for the refusal.
+        // If the recipe expects a refusal, the missing tag can be the expected reason for the refusal.
         if plan.incomplete || step.refused.is_some() {
             return;
         }

@@ -1,4 +1,5 @@
-//! Checks a recipe without running it: plans each step on the forecast of the scene before that step.
+//! Checks a recipe without running it: plans each step, starting from the predicted state of the scene before that
+//! step.
 
 mod attributes;
 mod selections;
@@ -36,12 +37,14 @@ pub struct StepForecast {
     pub bytes: Range,
     /// The data that the step will certainly lose.
     pub losses: Vec<Loss>,
-    /// The data that the step may lose. Losses that depend on the values of points and attributes are not listed.
+    /// The data that the step possibly loses. Losses that depend on the values of points and attributes are not listed.
     /// Examples are losses because of coincident vertices or of numbers that are not finite.
     pub possible_losses: Vec<Loss>,
-    /// The number of files in [`Forecast::inputs`] that the steps up to this step read.
+    /// How many entries of [`Forecast::inputs`] come from this step and the steps before it. These entries come first
+    /// in the list.
     pub n_inputs: usize,
-    /// The number of files in [`Forecast::outputs`] that the steps up to this step write.
+    /// How many entries of [`Forecast::outputs`] come from this step and the steps before it. These entries come first
+    /// in the list.
     pub n_outputs: usize,
 }
 

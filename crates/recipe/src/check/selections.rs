@@ -1,5 +1,5 @@
-//! Checks the numbers and names in selections. Reports elements and materials that a mesh certainly does not have, and
-//! objects that do not exist.
+//! Checks the element ids and the names in selections. Reports elements and materials that a mesh certainly does not
+//! have, and objects that do not exist.
 //!
 //! A selection can be nested in any parameter, so selections are found by their syntax.
 
@@ -22,7 +22,7 @@ enum Named<'v> {
 /// Reports each element and each material that a selection of the step names, if one of the meshes of the step
 /// certainly does not have it. Also reports each object that a selection names but that does not exist.
 pub(super) fn missing_elements(step: &RecipeStep, plan: &Plan, found: &mut Vec<Diagnostic>) {
-    // If the recipe expects a refusal, the missing element may be the reason for the refusal.
+    // If the recipe expects a refusal, the missing element can be the expected reason for the refusal.
     if plan.incomplete || step.refused.is_some() {
         return;
     }

@@ -18,7 +18,7 @@ pub struct AttributeDifference {
 /// How an attribute of one mesh differs from the same attribute of another mesh.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ColumnDifference {
-    /// Every value is the same.
+    /// All corresponding values are equal.
     None,
     /// Only the first mesh has the attribute.
     OnlyFirst,

@@ -1,5 +1,5 @@
-//! Lists the elements of a mesh in a fixed order. Two meshes are compared by comparing the elements at the same
-//! positions in their lists.
+//! Lists the elements of a mesh in a fixed order. Two meshes are compared by comparing the elements at the same indices
+//! of their lists.
 
 use mesh::{EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 

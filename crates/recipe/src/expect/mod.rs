@@ -383,7 +383,7 @@ pub enum Expectation {
 pub enum OtherMesh {
     /// The name of an object of the scene.
     Object(String),
-    /// The first mesh in a file. The path of a file, relative to the recipe's folder.
+    /// The first mesh in a file. The value is the path of the file, relative to the recipe's folder.
     File(String),
 }
 

@@ -130,9 +130,9 @@ fn with_written_file(
     Violation::unmet(format!("{}; the written file {why}", violation.message))
 }
 
-/// Whether the objects of a copy of the written file would be the same if the copy has the name of the reference file
-/// and is alone in its folder. Returns `false` for an OBJ file with a material library, because the copy is read
-/// without the library. Returns true if the written file cannot be read as objects.
+/// Whether a copy of the written file would contain the same objects if the copy had the name of the reference file and
+/// were alone in its folder. Returns `false` for an OBJ file with a material library, because the copy is read without
+/// the library. Returns true if the written file cannot be read as objects.
 fn stands_alone(written: &Path, golden: &Path, bytes: &[u8], subject: Subject) -> bool {
     let Ok(scene) = subject.reader.scene(written, subject.files) else {
         return true;

@@ -125,7 +125,7 @@ pub enum ActualValue {
 pub struct Subject<'a> {
     /// The scene.
     pub scene: &'a Scene,
-    /// The names of the objects to check. If `None`, all objects.
+    /// The names of the objects to check. If `None`, all objects are checked.
     pub on: Option<&'a [String]>,
     /// The input and output folders, and the store of files.
     pub files: &'a Files,

@@ -9,7 +9,7 @@
 //!
 //! When a recipe is read, such a step is replaced by the steps inside it. A called recipe works on the current scene,
 //! reads files from its own folder, and can use only its own parameters and ids. The expectations of a called recipe
-//! are checked after the steps of this recipe.
+//! are checked after the steps of the called recipe.
 
 use std::path::Path;
 
@@ -26,7 +26,7 @@ use ron_tree::{Span, Value, ValueKind};
 /// The maximum depth to which calls can be nested.
 const MAX_CALLS: usize = 32;
 
-/// The number of steps as which each call counts, in addition to the steps of the called recipe. Because calls count as
+/// Each call counts as this number of steps, in addition to the steps of the called recipe. Because calls count as
 /// steps, the maximum number of steps also limits the time for reading called recipes.
 const STEPS_PER_CALL: usize = 20;
 

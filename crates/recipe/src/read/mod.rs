@@ -1,11 +1,12 @@
 //! Reads a recipe: converts its text to operations with their parameters, and reports all errors at once.
 //!
-//! There are three stages. The text is parsed into a tree. After a syntax error, parsing continues. Each step is
-//! checked against the schema of its operation. Each valid step is deserialized into the struct of its operation. An
-//! error in one step does not hide errors in other steps.
+//! There are three stages. First, the text is parsed into a tree; parsing continues after a syntax error. Second, each
+//! step is checked against the schema of its operation. Third, each valid step is deserialized into the struct of its
+//! operation. An error in one step does not hide errors in other steps.
 //!
-//! If a step contains steps ([`flow`]), it is replaced here by the steps inside it. Later stages therefore receive a
-//! list without nesting. A called recipe has its own scope when it is read, with its own parameters and ids.
+//! If a step contains steps ([`flow`]), reading replaces it by the steps inside it. The check and the run therefore
+//! receive a list of steps without nesting. A called recipe has its own scope when it is read, with its own parameters
+//! and ids.
 
 mod expectations;
 mod flow;
@@ -66,8 +67,7 @@ pub fn read(source: &Source, registry: &Registry, values: Values) -> Reading {
     read_by(&Schemas::new(registry), &Disk, source, values)
 }
 
-/// Like [`read`](read()), but reads called recipes from `store`. Uses `schemas`, which the reading of other recipes can
-/// share.
+/// Like [`read`](read()), but reads called recipes from `store`. Calls that read different recipes can share `schemas`.
 pub fn read_by(schemas: &Schemas, store: &dyn Store, source: &Source, values: Values) -> Reading {
     let mut shared = Shared {
         schemas,
@@ -155,8 +155,8 @@ fn canonical(store: &dyn Store, path: &Path) -> PathBuf {
 #[derive(Clone)]
 struct Draft {
     step: RecipeStep,
-    /// The id of the step itself, and the ids of all calls, repetitions and conditions whose last step it is. Only ids
-    /// that are written in the same text as the step are included.
+    /// The id of the step itself, and the ids of all calls, repetitions and conditions in which this step is the last
+    /// step. Only ids that are written in the same text as the step are included.
     ends: Vec<String>,
     /// The expectations that are checked after the step.
     then: Vec<RecipeExpectation>,

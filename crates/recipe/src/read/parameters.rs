@@ -176,7 +176,7 @@ impl Reader<'_, '_> {
     }
 
     /// Warns about each parameter that is never used: no `arg(..)`, no `If` and no placeholder in a path refers to it.
-    /// If the recipe has errors, does nothing, because a parameter may be used in a part that could not be read.
+    /// Does nothing if the recipe has errors, because the parts that could not be read possibly use the parameter.
     pub(super) fn unused(&mut self, params: Option<&Value>) {
         if self.diagnostics.iter().any(Diagnostic::is_error) {
             return;

@@ -85,7 +85,7 @@ impl Reader<'_, '_> {
             run = inner;
         }
         let Some((name, span)) = run.name() else {
-            // If an error was already reported, that error may be the reason for the missing name.
+            // If an error was already reported, the missing name is possibly a consequence of that error.
             if !run.has_errors() && self.diagnostics.len() == before {
                 let message = format!("expected an operation, found {}", run.describe());
                 self.error(run.span, message, "");
@@ -206,9 +206,9 @@ impl Reader<'_, '_> {
     }
 }
 
-/// Improves the help text of errors about unknown parameters. If the parameter is a field of the step or of the
-/// expectation around the call, such as `on`, the help text says where to write it. `inner` is the name of the field
-/// that contains the call: `run` or `that`.
+/// Improves the help text of errors about unknown parameters. If the parameter has the name of a field of the step or
+/// of the expectation around the call, such as `on`, the help text says where to write this field. `inner` is the name
+/// of the field that contains the call: `run` or `that`.
 pub(super) fn explain_outer_fields(
     wrong: &mut [Diagnostic],
     call: &Value,

@@ -84,7 +84,7 @@ pub struct StepResult {
     pub report: Report,
     /// If the recipe expects a refusal: the reason why the step was refused.
     pub refused: Option<Refusal>,
-    /// The numbers of vertices, edges and faces of all meshes together.
+    /// The number of vertices, of edges, and of faces of all meshes together.
     pub counts: [usize; 3],
 }
 

@@ -161,7 +161,7 @@ impl<'s> Schema<'s> {
         self.all(keyword).next().is_some()
     }
 
-    /// Whether a value may omit the name of its variant.
+    /// Whether a value can omit the name of its variant.
     pub(super) fn is_shorthand(&self) -> bool {
         self.all("x-shorthand").any(|is| is == &Json::Bool(true))
     }

@@ -15,9 +15,9 @@
 //!
 //! [`read_sweep`] reads the text, and [`Sweep::grid`] checks its values against the parameters that the recipe
 //! declares. Both [`read_sweep`] and [`Sweep::grid`] report all errors at once. The lists of `zip` have the same
-//! length, and the values at the same position in all of them form a row. The cells are all combinations of one value
-//! from each list of `over` and one row of `zip`. From cell to cell, the row of `zip` changes fastest, then the value
-//! from the last list of `over`.
+//! length, and the n-th values of all these lists form a row. The cells are all combinations of one value from each
+//! list of `over` and one row of `zip`. From cell to cell, the row of `zip` changes fastest, then the value from the
+//! last list of `over`.
 
 mod metric;
 mod values;

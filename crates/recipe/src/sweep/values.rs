@@ -21,8 +21,8 @@ enum Values {
         from: f64,
         /// The last number.
         to: f64,
-        /// The number of values, including the first and the last. If omitted, all whole numbers from the first to the
-        /// last.
+        /// The number of values, including the first and the last. If omitted, the values are all whole numbers from
+        /// the first to the last.
         #[serde(default)]
         #[schemars(range(min = 1))]
         steps: Option<u32>,
@@ -134,7 +134,8 @@ fn range(
     })
 }
 
-/// Returns the number of whole numbers from one number to another, including both. The result is at most [`u32::MAX`].
+/// Returns how many whole numbers there are from one number to another, including both. The result is at most
+/// [`u32::MAX`].
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

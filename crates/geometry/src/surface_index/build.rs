@@ -3,7 +3,8 @@
 use mesh::{DVec3, FaceId, HalfEdgeId, Mesh, parallel};
 use progress::{Cancelled, Progress};
 
-use super::{Node, Origin, Slab, SurfaceIndex, Triangle};
+use super::oriented::{are_thin, longest_side, sum};
+use super::{Node, Oriented, Origin, Slab, SurfaceIndex, Triangle};
 use crate::triangulate::Cutter;
 
 /// The maximum number of triangles of a leaf.
@@ -99,10 +100,14 @@ impl SurfaceIndex {
         let mut keys: Vec<Key> = (0..).zip(&triangles).map(|(i, t)| (center(t), i)).collect();
         let mut nodes = vec![Node::EMPTY; n_nodes(keys.len())];
         let mut slabs = vec![Slab::EVERYTHING; nodes.len()];
+        let thin = are_thin(triangles.len(), triangles.iter().map(|t| &t.positions));
+        let n_oriented = if thin { nodes.len() } else { 0 };
+        let mut oriented = vec![Oriented::EVERYTHING; n_oriented];
         Subtree {
             keys: &mut keys,
             nodes: &mut nodes,
             slabs: &mut slabs,
+            oriented: &mut oriented,
             first: 0,
             node: 0,
         }
@@ -111,6 +116,7 @@ impl SurfaceIndex {
         Ok(Some(Self {
             nodes,
             slabs,
+            oriented,
             positions: parallel::collect(keys.len(), |i| sorted(i).positions),
             origins: parallel::collect(keys.len(), |i| Origin::of(sorted(i))),
         }))
@@ -122,6 +128,8 @@ struct Subtree<'a> {
     keys: &'a mut [Key],
     nodes: &'a mut [Node],
     slabs: &'a mut [Slab],
+    /// Empty if the nodes have no oriented boxes.
+    oriented: &'a mut [Oriented],
     /// The position of the first key in the list of all keys.
     first: usize,
     /// The position of the first node in the list of all nodes.
@@ -129,15 +137,20 @@ struct Subtree<'a> {
 }
 
 impl Subtree<'_> {
-    /// Builds the nodes. Returns the sum, over all triangles, of the unit normal times twice the area.
+    /// Builds the nodes. Returns two sums over all triangles: of the unit normal times twice the area, and of the
+    /// longest side, in one of its two directions.
     fn build(
         self,
         triangles: &[Triangle],
         ask: &(dyn Fn() -> Result<(), Cancelled> + Sync),
-    ) -> Result<DVec3, Cancelled> {
+    ) -> Result<[DVec3; 2], Cancelled> {
         let n = self.keys.len();
         let ([root, nodes @ ..], [slab, slabs @ ..]) = (self.nodes, self.slabs) else {
             unreachable!("a subtree has a root");
+        };
+        let (mut own, oriented) = match self.oriented {
+            [own, others @ ..] => (Some(own), others),
+            none => (None, none),
         };
         root.first = number(self.first);
         root.last = number(self.first + n);
@@ -151,8 +164,13 @@ impl Subtree<'_> {
                 .clone()
                 .map(|[a, b, c]| (b - a).cross(c - a))
                 .sum();
+            let sides = triangles.clone().map(longest_side);
+            let along = sides.fold(DVec3::ZERO, sum);
+            if let Some(own) = &mut own {
+                **own = Oriented::of(triangles.clone(), n, normal, along);
+            }
             *slab = Slab::of(triangles, n, normal);
-            return Ok(normal);
+            return Ok([normal, along]);
         }
         let (min, max) = bounds(self.keys.iter().map(|key| key.0));
         let axis = (max - min).max_position();
@@ -167,10 +185,12 @@ impl Subtree<'_> {
         root.right = number(self.node + 1 + right);
         let (left_nodes, right_nodes) = nodes.split_at_mut(right);
         let (left_slabs, right_slabs) = slabs.split_at_mut(right);
+        let (left_oriented, right_oriented) = oriented.split_at_mut(right.min(oriented.len()));
         let left = Subtree {
             keys: low,
             nodes: &mut *left_nodes,
             slabs: left_slabs,
+            oriented: left_oriented,
             first: self.first,
             node: self.node + 1,
         };
@@ -178,6 +198,7 @@ impl Subtree<'_> {
             keys: high,
             nodes: &mut *right_nodes,
             slabs: right_slabs,
+            oriented: right_oriented,
             first: self.first + middle,
             node: self.node + 1 + right,
         };
@@ -190,16 +211,17 @@ impl Subtree<'_> {
         } else {
             (left.build(triangles, ask), right.build(triangles, ask))
         };
-        let normal = left? + right?;
+        let ([left, left_along], [right, right_along]) = (left?, right?);
+        let (normal, along) = (left + right, sum(left_along, right_along));
         root.min = left_nodes[0].min.min(right_nodes[0].min);
         root.max = left_nodes[0].max.max(right_nodes[0].max);
         let keys = self.keys.iter();
-        *slab = Slab::of(
-            keys.map(|&(_, i)| &triangles[i as usize].positions),
-            n,
-            normal,
-        );
-        Ok(normal)
+        let triangles = keys.map(|&(_, i)| &triangles[i as usize].positions);
+        if let Some(own) = &mut own {
+            **own = Oriented::of(triangles.clone(), n, normal, along);
+        }
+        *slab = Slab::of(triangles, n, normal);
+        Ok([normal, along])
     }
 }
 

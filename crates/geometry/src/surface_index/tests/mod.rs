@@ -1,6 +1,7 @@
 //! Compares the index with brute force.
 
 mod intersect;
+mod oriented;
 mod ray;
 mod slab;
 mod winding;

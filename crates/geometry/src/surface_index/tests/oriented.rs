@@ -6,7 +6,9 @@ fn cone(n: u32) -> Mesh {
     let rim = shapes::cylinder(n, false);
     let mut positions = rim.positions()[..n as usize].to_vec();
     positions.push(DVec3::new(0.3, 0.2, 5.0));
-    positions.iter_mut().for_each(|p| *p = tilted(*p));
+    for p in &mut positions {
+        *p = tilted(*p);
+    }
     let triangles: Vec<[u32; 3]> = (0..n).map(|i| [i, (i + 1) % n, n]).collect();
     Mesh::from_polygons(positions, &triangles).unwrap().0
 }

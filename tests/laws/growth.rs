@@ -354,6 +354,43 @@ fn operations_take_at_most_two_point_three_times_as_long_on_twice_the_mesh() {
     assert_none(&failures);
 }
 
+/// The distance of surfaces of long, thin triangles that are not parallel to an axis.
+#[test]
+#[ignore = "measures times for about a minute"]
+fn distances_of_thin_triangles_take_at_most_two_point_three_times_as_long_on_twice_the_mesh() {
+    let failures = on_one_thread(|| {
+        let scene = |n: usize| {
+            let around = u32::try_from(n / 2).expect("ids have 32 bits");
+            let mut tilted = shapes::fans(&shapes::cylinder(around, false));
+            for p in tilted.positions_mut() {
+                *p = DVec3::new(0.6 * p.x - 0.8 * p.z, p.y, 0.8 * p.x + 0.6 * p.z);
+            }
+            let mut other = tilted.clone();
+            other
+                .positions_mut()
+                .iter_mut()
+                .for_each(|p| *p += DVec3::new(0.003, 0.002, 0.005));
+            let mut scene = Scene::new();
+            for (name, mesh) in [("a", tilted), ("b", other)] {
+                scene.insert(Object::mesh(name, mesh)).expect("two names");
+            }
+            scene
+        };
+        let work = |scene: Scene| {
+            let mesh = |i: usize| scene.objects()[i].as_mesh().expect("a mesh");
+            geometry::distance::Distance::between(mesh(0), mesh(1), None).is_some()
+        };
+        let failure = match growth(scene, work) {
+            Growth::Refused => Some("was not measured".to_owned()),
+            Growth::TooLong => Some("takes too long".to_owned()),
+            Growth::By(factor) => (factor > MAX_GROWTH)
+                .then(|| format!("takes {factor:.2} times as long for a mesh four times as large")),
+        };
+        Vec::from_iter(failure)
+    });
+    assert_none(&failures);
+}
+
 #[test]
 #[ignore = "measures times for about ten minutes"]
 fn expectations_take_at_most_two_point_three_times_as_long_on_twice_the_mesh() {

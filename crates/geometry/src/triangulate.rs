@@ -17,11 +17,14 @@
 
 mod flips;
 mod monotone;
+mod sort;
 
 use earcut::Earcut;
 use flips::Flips;
+use sort::sort_unless;
 
 use mesh::{DVec3, FaceId, Mesh};
+use progress::Cancelled;
 
 /// The indices of three corners of a face, in ascending order.
 pub type Triangle = [u32; 3];
@@ -35,6 +38,8 @@ const MAX_EARS: usize = 4096;
 /// The smallest number of corners for which the cut can be cancelled. Faces with fewer corners than this take little
 /// time.
 const MIN_CANCELLED: usize = 256;
+/// The number of corners that are read between two checks for cancellation.
+const CHECK: usize = 1 << 16;
 /// The largest number of corners for which a face is cut. A face with more corners than this becomes a fan.
 const MAX_CORNERS: usize = 10_000_000;
 
@@ -147,14 +152,19 @@ impl Cutter {
     /// Returns how `f` is cut. For a face with many corners, `is_cancelled` is called many times. When `is_cancelled`
     /// returns `true`, the cut is not completed: the face becomes a fan.
     pub fn cut_unless(&mut self, is_cancelled: &dyn Fn() -> bool, mesh: &Mesh, f: FaceId) -> Cut {
-        self.points.clear();
-        let corners = mesh.face_vertices(f).map(|v| mesh.position(v));
-        self.points.extend(corners);
+        // If the cut is cancelled, the corners are read nevertheless, because the number of corners is needed.
+        let ask = || {
+            is_cancelled();
+            Ok(())
+        };
+        let _ = self.read_points(mesh, f, &ask);
         let n = self.points.len();
         if n <= 3 {
             return Cut::Keep;
         }
+        let is_cancelled = &|| n >= MIN_CANCELLED && is_cancelled();
         normalize(&mut self.points);
+        is_cancelled();
         let lowest = mesh.face_vertices(f).zip(0..).min().map_or(0, |(_, i)| i);
         if let [a, b, c, d] = self.points[..] {
             return quad([a, b, c, d], lowest);
@@ -165,28 +175,63 @@ impl Cutter {
         Cut::Polygon { triangles, is_fan }
     }
 
-    /// Whether the corners of `f` lie in a plane and form a convex polygon without straight corners.
-    pub(crate) fn is_flat_and_convex(&mut self, mesh: &Mesh, f: FaceId) -> bool {
+    /// Replaces the points by the corners of `f`.
+    ///
+    /// # Errors
+    ///
+    /// Returns the error of `ask`, which is called after every [`CHECK`] corners.
+    fn read_points(
+        &mut self,
+        mesh: &Mesh,
+        f: FaceId,
+        ask: &dyn Fn() -> Result<(), Cancelled>,
+    ) -> Result<(), Cancelled> {
         self.points.clear();
-        let corners = mesh.face_vertices(f).map(|v| mesh.position(v));
-        self.points.extend(corners);
+        for v in mesh.face_vertices(f) {
+            self.points.push(mesh.position(v));
+            if self.points.len().is_multiple_of(CHECK) {
+                ask()?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether the corners of `f` lie in a plane and form a convex polygon without straight corners.
+    ///
+    /// # Errors
+    ///
+    /// Returns the error of `ask`, which is called several times.
+    pub(crate) fn is_flat_and_convex(
+        &mut self,
+        mesh: &Mesh,
+        f: FaceId,
+        ask: &dyn Fn() -> Result<(), Cancelled>,
+    ) -> Result<bool, Cancelled> {
+        self.read_points(mesh, f, ask)?;
+        ask()?;
         normalize(&mut self.points);
+        ask()?;
         let Some(normal) = doubled_area(&self.points).try_normalize() else {
-            return false;
+            return Ok(false);
         };
         // The first point is the origin.
         if self.points.iter().any(|p| normal.dot(*p).abs() > TOLERANCE) {
-            return false;
+            return Ok(false);
         }
+        ask()?;
         let n = self.points.len();
         let side = |i: usize| self.points[(i + 1) % n] - self.points[i % n];
-        let turns_left = (0..n).all(|i| normal.dot(side(i).cross(side(i + 1))) > 0.0);
+        let turns_left = |i: usize| normal.dot(side(i).cross(side(i + 1))) > 0.0;
+        if !(0..n).all(turns_left) {
+            return Ok(false);
+        }
+        ask()?;
         // If the sides of a polygon turn by 360° in total, their direction along an axis changes exactly twice.
         let (axis, _) = normal.any_orthonormal_pair();
         let signs = (0..n).map(|i| axis.dot(side(i))).filter(|s| *s != 0.0);
         let signs: Vec<bool> = signs.map(|s| s > 0.0).collect();
         let changes = (0..signs.len()).filter(|&i| signs[i] != signs[(i + 1) % signs.len()]);
-        turns_left && changes.count() == 2
+        Ok(changes.count() == 2)
     }
 
     /// Triangulates the points, and improves the triangles by flips. Returns `None` if the points cannot be
@@ -201,7 +246,7 @@ impl Cutter {
         self.flat.clear();
         let project = |p: &DVec3| [x.dot(*p), y.dot(*p)];
         self.flat.extend(self.points.iter().map(project));
-        if n >= MIN_CANCELLED && is_cancelled() {
+        if is_cancelled() {
             return None;
         }
         let triangles = if n > MAX_EARS {
@@ -209,9 +254,15 @@ impl Cutter {
         } else {
             clip(&mut self.earcut, &mut self.indices, &self.flat)?
         };
+        if is_cancelled() {
+            return None;
+        }
         let mut refined = triangles.clone();
         self.flips.improve(&self.flat, &mut refined, is_cancelled);
-        Some(if is_triangulation(n, &refined) {
+        if is_cancelled() {
+            return None;
+        }
+        Some(if is_triangulation_unless(is_cancelled, n, &refined)? {
             refined
         } else {
             triangles
@@ -381,8 +432,18 @@ fn insert_skipped_corners(n: usize, triangles: &mut Vec<Triangle>) {
 /// Whether sorted triangles are a triangulation of a polygon with `n` corners: there are n - 2 triangles, each
 /// side of the polygon belongs to one triangle, and each diagonal belongs to two triangles on opposite sides.
 fn is_triangulation(n: usize, triangles: &[Triangle]) -> bool {
+    is_triangulation_unless(&|| false, n, triangles) == Some(true)
+}
+
+/// Whether sorted triangles are a triangulation; see [`is_triangulation`]. Returns `None` if `is_cancelled` returns
+/// `true`.
+fn is_triangulation_unless(
+    is_cancelled: &dyn Fn() -> bool,
+    n: usize,
+    triangles: &[Triangle],
+) -> Option<bool> {
     if triangles.len() + 2 != n {
-        return false;
+        return Some(false);
     }
     let n = u32::try_from(n).expect("corners fit 32 bits");
     // Each triangle has two sides that run from a lower to a higher corner index, and one side that runs from a higher
@@ -399,15 +460,16 @@ fn is_triangulation(n: usize, triangles: &[Triangle]) -> bool {
     // directions.
     let whole = [0, n - 1];
     let Some(place) = descending.iter().position(|&side| side == whole) else {
-        return false;
+        return Some(false);
     };
     descending.swap_remove(place);
     descending.extend((1..n).map(|i| [i - 1, i]));
-    ascending.sort_unstable();
-    descending.sort_unstable();
-    ascending == descending
+    sort_unless(is_cancelled, &mut ascending, Ord::cmp)?;
+    sort_unless(is_cancelled, &mut descending, Ord::cmp)?;
+    let is_valid = ascending == descending
         && ascending.windows(2).all(|w| w[0] != w[1])
-        && ascending.iter().all(|[a, b]| a < b)
+        && ascending.iter().all(|[a, b]| a < b);
+    Some(is_valid)
 }
 
 #[cfg(test)]

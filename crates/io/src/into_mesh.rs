@@ -3,7 +3,10 @@
 use std::path::Path;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
-use mesh::{BuildError, BuildOutput, Column, Domain, Elements, Mesh, Rule, Values, parallel};
+use mesh::{
+    BuildError, BuildOutput, Column, Domain, Elements, Mesh, Rule, Values, morph_value_of,
+    parallel, uv_set,
+};
 use scene::{Material, holds_tangents};
 
 use crate::clean::{SourcePolygons, clean};
@@ -16,7 +19,8 @@ use crate::{NonManifold, Orientation, Policies, Polygons, ReadOptions};
 impl Polygons {
     /// Builds a mesh of these polygons, and returns it with the materials. A corner attribute becomes a vertex
     /// attribute if the corners of each vertex have the same value, and no vertex attribute has the same name. Tangents
-    /// and texture coordinates stay on the corners. Texture coordinates are the attributes whose names begin with `uv`.
+    /// and texture coordinates stay on the corners, and so do the changes of texture coordinates by morph targets. Texture
+    /// coordinates are the attributes whose names begin with `uv`.
     ///
     /// # Errors
     ///
@@ -45,6 +49,8 @@ impl Polygons {
             let vertices = built.mesh.attributes();
             if domain == Domain::Corner
                 && !column.name.starts_with("uv")
+                && morph_value_of(&column.name)
+                    .is_none_or(|(changed, _)| uv_set(changed).is_none())
                 && !holds_tangents(&column)
                 && vertices.column(Domain::Vertex, &column.name).is_none()
                 && let Some(values) = vertex_values(&built.mesh, &column.values, |a, b| {

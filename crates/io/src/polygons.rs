@@ -137,7 +137,7 @@ impl Polygons {
         let n = self.positions.len();
         pose.morph(&self.attributes, &mut self.positions);
         let vertex_of = |corner: usize| self.corners[corner] as usize;
-        for (domain, column) in pose.morphed_directions(&self.attributes, vertex_of) {
+        for (domain, column) in pose.morphed_attributes(&self.attributes, vertex_of) {
             self.attributes.insert(domain, column);
         }
         let maps = pose.blended(&self.attributes, n);

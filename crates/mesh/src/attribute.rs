@@ -20,7 +20,8 @@ use crate::{EdgeId, FaceId, HalfEdgeId, VertexId};
 pub use columns::{Attributes, Column, Sources};
 pub use rig::{
     is_morph_direction, is_rig_name, joint_name, joint_of, morph_name, morph_normal_name,
-    morph_normal_of, morph_of, morph_tangent_name, morph_tangent_of,
+    morph_normal_of, morph_of, morph_tangent_name, morph_tangent_of, morph_value_name,
+    morph_value_of, uv_set,
 };
 pub(crate) use values::pop_value;
 pub use values::{Value, Values};

@@ -131,7 +131,8 @@ pub use attribute::{
     Attribute, Attributes, COLOR, CORNER_NORMAL, CORNER_TANGENT, CREASE, Column, MATERIAL, Rule,
     SMOOTHING, Sources, TANGENT, UV, VERTEX_NORMAL, VERTEX_SHARPNESS, Value, Values,
     is_morph_direction, is_rig_name, joint_name, joint_of, morph_name, morph_normal_name,
-    morph_normal_of, morph_of, morph_tangent_name, morph_tangent_of,
+    morph_normal_of, morph_of, morph_tangent_name, morph_tangent_of, morph_value_name,
+    morph_value_of, uv_set,
 };
 pub use build::{BuildError, BuildOutput, BuildReport, Elements, NonManifold, Repair, build};
 pub use compact::Renumbering;

@@ -79,6 +79,7 @@ mod tests {
             "joint:3",
             "morph:0",
             "morph_normal:0",
+            "morph_uv:0",
         ] {
             assert!(AttributeName::try_from(name.to_owned()).is_err(), "{name}");
         }

@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use glam::{DAffine3, DMat3, DVec3, DVec4};
+use glam::{DAffine3, DMat3, DVec2, DVec3, DVec4};
 use mesh::{
     Attributes, CORNER_TANGENT, Column, Domain, HalfEdgeId, Mesh, Rule, VERTEX_NORMAL, Value as _,
-    morph_normal_of, morph_tangent_of, parallel,
+    Values, morph_normal_of, morph_tangent_of, morph_value_of, parallel,
 };
 
 use crate::transformed::{LinearMap, holds_tangents, mapped, transformed};
@@ -85,6 +85,78 @@ impl Pose {
         Some(parallel::collect(n, blend))
     }
 
+    /// Returns the attributes in this pose, before joints move the mesh, that differ from those in `attributes`: the
+    /// normals and tangents of the mesh and of its morph targets ([`Pose::morphed_directions`]), and the texture
+    /// coordinates and colors of the mesh ([`Pose::morphed_values`]).
+    pub fn morphed_attributes(
+        &self,
+        attributes: &Attributes,
+        vertex_of: impl Fn(usize) -> usize + Sync,
+    ) -> Vec<(Domain, Column)> {
+        let mut columns = self.morphed_directions(attributes, &vertex_of);
+        columns.extend(self.morphed_values(attributes, &vertex_of));
+        columns
+    }
+
+    /// Returns the texture coordinates and colors of the mesh in this pose: the sums of the old values and the weighted
+    /// changes of the morph targets. Colors are clamped to 0 to 1, as in glTF 2.0, section 3.7.2.2. If the values or one
+    /// of their changes are stored on the corners, the new values are stored on the corners, too. Columns that do not
+    /// change are left out. `vertex_of` returns the vertex of a corner.
+    fn morphed_values(
+        &self,
+        attributes: &Attributes,
+        vertex_of: impl Fn(usize) -> usize + Sync,
+    ) -> Vec<(Domain, Column)> {
+        // Attributes of corners take precedence over attributes of vertices with the same name.
+        let mut columns: BTreeMap<&str, (Domain, &Column)> = BTreeMap::new();
+        for domain in [Domain::Vertex, Domain::Corner] {
+            let own = attributes.of(domain).iter();
+            columns.extend(own.map(|column| (column.name.as_str(), (domain, column))));
+        }
+        let mut changes: BTreeMap<&str, Vec<(f64, Domain, &Values)>> = BTreeMap::new();
+        for (name, &(domain, column)) in &columns {
+            let weight = |target: usize| self.weights.get(target).copied().unwrap_or_default();
+            if let Some((changed, target)) = morph_value_of(name)
+                && weight(target) != 0.0
+            {
+                let of_name = changes.entry(changed).or_default();
+                of_name.push((weight(target), domain, &column.values));
+            }
+        }
+        let changed = changes.into_iter().filter_map(|(name, changes)| {
+            let &(own, column) = columns.get(name)?;
+            let mut domains = changes.iter().map(|change| change.1);
+            let at_corners = own == Domain::Corner || domains.any(|d| d == Domain::Corner);
+            let domain = if at_corners { Domain::Corner } else { own };
+            let n = attributes.of(domain).first()?.values.len();
+            let place = |from: Domain, i: usize| if from == domain { i } else { vertex_of(i) };
+            let values = match &column.values {
+                Values::Vec2(old) => Values::Vec2(parallel::collect(n, |i| {
+                    changes
+                        .iter()
+                        .fold(old[place(own, i)], |sum, (weight, from, change)| {
+                            let change = DVec2::of(change).map(|change| change[place(*from, i)]);
+                            sum + *weight * change.unwrap_or_default()
+                        })
+                })),
+                Values::Vec4(old) => Values::Vec4(parallel::collect(n, |i| {
+                    let sum =
+                        changes
+                            .iter()
+                            .fold(old[place(own, i)], |sum, (weight, from, change)| {
+                                let change =
+                                    DVec4::of(change).map(|change| change[place(*from, i)]);
+                                sum + *weight * change.unwrap_or_default()
+                            });
+                    sum.clamp(DVec4::ZERO, DVec4::ONE)
+                })),
+                _ => return None,
+            };
+            Some((domain, column.with_values(values)))
+        });
+        changed.collect()
+    }
+
     /// Returns the normals and tangents of the mesh and of its morph targets in this pose, before joints move them.
     /// These columns replace the columns of the same names in `attributes`. Columns that do not change are left out. If
     /// one of the old columns of normals has values for corners, all new columns of normals have values for corners;
@@ -93,7 +165,7 @@ impl Pose {
     /// The new normal is the normalized sum of the old normal and the weighted differences between the normals of the
     /// morph targets and the old normal, as in glTF 2.0, section 3.7.2.2. The differences themselves do not change. If
     /// the sum is zero, the old normal stays. Tangents are computed like normals, and their signs stay.
-    pub fn morphed_directions(
+    fn morphed_directions(
         &self,
         attributes: &Attributes,
         vertex_of: impl Fn(usize) -> usize + Sync,
@@ -218,7 +290,7 @@ pub(crate) fn posed(mesh: &Mesh, pose: &Pose, to_scene: &DAffine3) -> Mesh {
     let attributes = mesh.attributes();
     pose.morph(attributes, morphed.positions_mut());
     let vertex_of = |corner| mesh.origin(HalfEdgeId::new(corner)).index();
-    for (domain, column) in pose.morphed_directions(attributes, vertex_of) {
+    for (domain, column) in pose.morphed_attributes(attributes, vertex_of) {
         morphed.remove_column(Domain::Vertex, &column.name);
         morphed.insert_column(domain, column);
     }

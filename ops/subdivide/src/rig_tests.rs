@@ -1,10 +1,13 @@
 //! Tests that a subdivided character deforms like the original, because posing and linear subdivision commute.
 
 use geometry::shapes;
-use mesh::{Column, DMat3, DVec3, Domain, Mesh, Rule, Values, joint_name, morph_name};
+use mesh::{
+    Column, DMat3, DVec2, DVec3, Domain, Mesh, Rule, UV, Values, joint_name, morph_name,
+    morph_value_name,
+};
 use op::test::{applied, read};
 
-use crate::{CatmullClark, Midpoint};
+use crate::{CatmullClark, LoopSubdivide, Midpoint};
 
 /// A sphere with weights of three joints and the deltas of a morph target. If `is_rigid`, each face and its neighbors
 /// follow all joints with the same weights.
@@ -120,5 +123,64 @@ fn weights_of_new_vertices_are_means_and_add_up_to_1() {
         }
         let sum: f64 = after.iter().map(|(_, weights)| weights[middle]).sum();
         assert!((sum - 1.0).abs() < 1e-12);
+    }
+}
+
+/// Returns texture coordinates of corners with a seam: the corners of the upper faces have other values than those of
+/// the lower faces.
+fn with_seam(mesh: &Mesh, value: impl Fn(DVec3, bool) -> DVec2) -> Vec<DVec2> {
+    let corner = |h: mesh::HalfEdgeId| {
+        let face = mesh.face(h)?;
+        let is_upper = mesh.face_center(face).z > 0.0;
+        Some(value(mesh.position(mesh.origin(h)), is_upper))
+    };
+    let corners = (0..mesh.n_half_edges()).map(mesh::HalfEdgeId::new);
+    corners.map(|h| corner(h).unwrap_or_default()).collect()
+}
+
+/// Morph targets add changes to texture coordinates. Subdivision handles the changes like the texture coordinates, so
+/// subdividing and adding changes commute.
+#[test]
+fn changes_of_texture_coordinates_are_subdivided_like_texture_coordinates() {
+    let name = morph_value_name(UV.name, 0);
+    let mut mesh = shapes::octahedron();
+    let uvs = with_seam(&mesh, |p, is_upper| {
+        DVec2::new(p.x, p.y) + DVec2::splat(f64::from(u8::from(is_upper)))
+    });
+    let changes = with_seam(&mesh, |p, is_upper| {
+        DVec2::new(p.y * p.z, 0.5 * p.x) - DVec2::splat(0.25 * f64::from(u8::from(is_upper)))
+    });
+    let rule = Rule::Interpolate;
+    mesh.set(UV, uvs);
+    let values = Values::Vec2(changes);
+    let column = Column {
+        name: name.clone(),
+        rule,
+        values,
+    };
+    mesh.insert_column(Domain::Corner, column);
+    let changed = |mesh: &Mesh| {
+        let column = mesh.attributes().column(Domain::Corner, &name).unwrap();
+        let Values::Vec2(changes) = &column.values else {
+            panic!("texture coordinates");
+        };
+        let uvs = mesh.get(UV).unwrap().iter().zip(changes);
+        let uvs = uvs.map(|(uv, change)| uv + 0.7 * change).collect();
+        let mut mesh = mesh.clone();
+        mesh.set(UV, uvs);
+        mesh
+    };
+    let fine = |mesh: &Mesh| {
+        [
+            applied(&read::<LoopSubdivide>("(levels: 2)").unwrap(), mesh.clone()),
+            applied(&read::<CatmullClark>("(levels: 2)").unwrap(), mesh.clone()),
+        ]
+    };
+    for (last, first) in fine(&mesh).iter().map(changed).zip(fine(&changed(&mesh))) {
+        let (last, first) = (last.get(UV).unwrap(), first.get(UV).unwrap());
+        assert_eq!(last.len(), first.len());
+        let differs = |(a, b): (&DVec2, &DVec2)| a.distance(*b) > 1e-12;
+        assert!(!last.iter().zip(first).any(differs));
+        assert!(last.iter().any(|uv| uv.length() > 0.5));
     }
 }

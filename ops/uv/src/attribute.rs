@@ -1,7 +1,7 @@
 //! The code that the operations on texture coordinates share: the attribute, the page and the errors.
 
 use geometry::uv::{Page, UvError};
-use mesh::{CORNER_TANGENT, Column, DVec2, Domain, UV, Value};
+use mesh::{CORNER_TANGENT, Column, DVec2, Domain, UV, Value, morph_value_of};
 use op::Refusal;
 use op::prelude::*;
 
@@ -41,9 +41,15 @@ pub(crate) fn padding_problem(page: Page) -> Option<Problem> {
 pub(crate) fn plan(plan: &mut MeshPlan, uv: &str) {
     plan.provide(Domain::Corner, uv);
     plan.drop_attribute(Domain::Corner, CORNER_TANGENT.name);
+    (plan.attributes).retain(|attribute| !changes(&attribute.name, uv));
 }
 
-/// Sets the attribute `uv`, and removes tangents, which depend on it.
+/// Whether the attribute `name` has the changes that a morph target makes to the attribute `uv`.
+fn changes(name: &str, uv: &str) -> bool {
+    morph_value_of(name).is_some_and(|(changed, _)| changed == uv)
+}
+
+/// Sets the attribute `uv`, and removes tangents and changes by morph targets, which depend on it.
 pub(crate) fn set(mesh: &mut Mesh, uv: &str, uvs: Vec<DVec2>, report: &mut Report) {
     let values = DVec2::wrap(uvs);
     let column = Column {
@@ -59,6 +65,17 @@ pub(crate) fn set(mesh: &mut Mesh, uv: &str, uvs: Vec<DVec2>, report: &mut Repor
         report
             .notes
             .push("removed the tangents, which depend on the texture coordinates".to_owned());
+    }
+    let columns = mesh.attributes().iter();
+    let outdated = columns.filter(|(_, column)| changes(&column.name, uv));
+    let outdated: Vec<_> = outdated
+        .map(|(domain, column)| (domain, column.name.clone()))
+        .collect();
+    for (domain, name) in outdated {
+        mesh.remove_column(domain, &name);
+        report.notes.push(format!(
+            "removed `{name}`, the changes of `{uv}` by a morph target"
+        ));
     }
 }
 

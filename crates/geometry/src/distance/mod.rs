@@ -205,7 +205,7 @@ impl OneSided {
             let faces = (b * BLOCK..slots.min((b + 1) * BLOCK)).map(FaceId::new);
             for f in faces.filter(|&f| from.has_face(f)) {
                 triangles.clear();
-                triangulate(from, f, &mut cutter, &mut triangles);
+                triangulate(from, f, &mut cutter, &mut triangles, ask)?;
                 for (i, triangle) in triangles.iter().enumerate() {
                     if i % 64 == 0 {
                         ask()?;

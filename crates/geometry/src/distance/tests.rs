@@ -357,3 +357,53 @@ fn a_measurement_can_be_cancelled_at_any_report() {
         assert_eq!(Distance::between_with(&a, &b, None, &stop), Err(Cancelled));
     }
 }
+
+/// The nearest-point searches of these surfaces need oriented boxes.
+#[test]
+fn the_bounds_hold_for_surfaces_of_thin_triangles() {
+    let tilted = |mesh: Mesh| {
+        moved(mesh, |p| {
+            DVec3::new(0.6 * p.x - 0.8 * p.z, p.y, 0.8 * p.x + 0.6 * p.z)
+        })
+    };
+    let long = |n| {
+        tilted(moved(shapes::cylinder(n, false), |p| {
+            p * DVec3::new(1.0, 1.0, 5.0)
+        }))
+    };
+    let strip = |n| {
+        tilted(moved(shapes::grid(n, 1), |p| {
+            p * DVec3::new(0.02, 1.0, 1.0)
+        }))
+    };
+    let offset = DVec3::new(0.03, 0.02, 0.05);
+    for (a, b) in [
+        (long(64), moved(long(64), |p| p + offset)),
+        (long(64), long(40)),
+        (strip(70), moved(strip(50), |p| p + offset)),
+        (
+            shapes::fans(&shapes::uv_sphere(60, 3)),
+            tilted(shapes::fans(&shapes::uv_sphere(60, 3))),
+        ),
+    ] {
+        let (a, b) = (shapes::fans(&a), shapes::fans(&b));
+        let tolerance = 1e-3;
+        let found = between(&a, &b, tolerance);
+        let rows = 24;
+        for (side, mesh, sampled) in [
+            (&found.forth, &a, sampled_distance(&a, &b, rows)),
+            (&found.back, &b, sampled_distance(&b, &a, rows)),
+        ] {
+            assert!(side.at_most >= sampled - 1e-12, "{side:?} {sampled}");
+            // No point is further from a sample than the longest side divided by the number of rows.
+            let longest = mesh
+                .edges()
+                .map(|e| mesh.length(e.half_edge()))
+                .fold(0.0, f64::max);
+            assert!(
+                side.largest <= sampled + longest / f64::from(rows),
+                "{side:?} {sampled}"
+            );
+        }
+    }
+}

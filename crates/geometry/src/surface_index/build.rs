@@ -1,9 +1,12 @@
 //! Building the tree.
 
+use std::cell::Cell;
+
 use mesh::{DVec3, FaceId, HalfEdgeId, Mesh, parallel};
 use progress::{Cancelled, Progress};
 
-use super::{Node, Origin, Slab, SurfaceIndex, Triangle};
+use super::oriented::{are_thin, longest_side, sum};
+use super::{Node, Oriented, Origin, Slab, SurfaceIndex, Triangle};
 use crate::triangulate::Cutter;
 
 /// The maximum number of triangles of a leaf.
@@ -21,6 +24,9 @@ type Key = (DVec3, u32);
 /// A flat convex face with at least this number of corners is cut in half recursively.
 const MANY_CORNERS: usize = 64;
 
+/// The number of triangles that are copied between two progress reports.
+const PART: usize = 1 << 18;
+
 /// The number of triangles between two progress reports.
 const REPORT: usize = 16_384;
 
@@ -30,12 +36,17 @@ const REPORT: usize = 16_384;
 /// corners is an exception: it is cut in half recursively. For example, if the corners of a flat convex face lie on a
 /// circle, `cutter` makes long and thin triangles. A point is then inside the bounding boxes of many of these
 /// triangles.
+///
+/// # Errors
+///
+/// Returns the error of `ask`, which is called many times for a face with many corners.
 pub(crate) fn triangulate(
     mesh: &Mesh,
     face: FaceId,
     cutter: &mut Cutter,
     triangles: &mut Vec<Triangle>,
-) {
+    ask: &dyn Fn() -> Result<(), Cancelled>,
+) -> Result<(), Cancelled> {
     let triangle = |corners: [HalfEdgeId; 3]| {
         let vertices = corners.map(|h| mesh.origin(h));
         Triangle {
@@ -48,30 +59,55 @@ pub(crate) fn triangulate(
     let mut corners = mesh.face_half_edges(face);
     if corners.clone().nth(4).is_some() {
         let corners: Vec<HalfEdgeId> = corners.collect();
-        if corners.len() >= MANY_CORNERS && cutter.is_flat_and_convex(mesh, face) {
-            return halve(&corners, &mut |corners| triangles.push(triangle(corners)));
+        if corners.len() >= MANY_CORNERS {
+            ask()?;
+            if cutter.is_flat_and_convex(mesh, face, ask)? {
+                return halve(&corners, &mut |corners| {
+                    triangles.push(triangle(corners));
+                    if triangles.len().is_multiple_of(REPORT) {
+                        ask()?;
+                    }
+                    Ok(())
+                });
+            }
         }
-        let cut = cutter.cut(mesh, face);
-        triangles.extend(
-            cut.triangles()
-                .iter()
-                .map(|t| triangle(t.map(|i| corners[i as usize]))),
-        );
+        let is_cancelled = Cell::new(false);
+        let stops = || {
+            is_cancelled.set(is_cancelled.get() || ask().is_err());
+            is_cancelled.get()
+        };
+        let cut = cutter.cut_unless(&stops, mesh, face);
+        if is_cancelled.get() {
+            return Err(Cancelled);
+        }
+        for cut in cut.triangles().chunks(REPORT) {
+            triangles.extend(cut.iter().map(|t| triangle(t.map(|i| corners[i as usize]))));
+            if cut.len() == REPORT {
+                ask()?;
+            }
+        }
     } else if let (Some(first), Some(mut last)) = (corners.next(), corners.next()) {
         triangles.extend(corners.map(|h| triangle([first, std::mem::replace(&mut last, h), h])));
     }
+    Ok(())
 }
 
 /// Calls `triangle` with the corners of the triangles of a polygon. The first triangle separates the polygon into two
 /// halves. Each half is then divided in the same way.
-fn halve(corners: &[HalfEdgeId], triangle: &mut impl FnMut([HalfEdgeId; 3])) {
-    let [first, .., last] = *corners else { return };
+fn halve(
+    corners: &[HalfEdgeId],
+    triangle: &mut impl FnMut([HalfEdgeId; 3]) -> Result<(), Cancelled>,
+) -> Result<(), Cancelled> {
+    let [first, .., last] = *corners else {
+        return Ok(());
+    };
     let middle = corners.len() / 2;
     if corners.len() > 2 {
-        triangle([first, corners[middle], last]);
-        halve(&corners[..=middle], triangle);
-        halve(&corners[middle..], triangle);
+        triangle([first, corners[middle], last])?;
+        halve(&corners[..=middle], triangle)?;
+        halve(&corners[middle..], triangle)?;
     }
+    Ok(())
 }
 
 impl SurfaceIndex {
@@ -88,7 +124,8 @@ impl SurfaceIndex {
                 progress.report(WHAT, 0, 2)?;
                 next_report = triangles.len() + REPORT;
             }
-            triangulate(mesh, f, &mut cutter, &mut triangles);
+            let ask = || progress.report(WHAT, 0, 2);
+            triangulate(mesh, f, &mut cutter, &mut triangles, &ask)?;
         }
         if triangles.is_empty() {
             return Ok(None);
@@ -96,23 +133,34 @@ impl SurfaceIndex {
         progress.report(WHAT, 1, 2)?;
         let center =
             |t: &Triangle| t.positions[0] / 3.0 + t.positions[1] / 3.0 + t.positions[2] / 3.0;
+        let ask = || progress.report(WHAT, 1, 2);
         let mut keys: Vec<Key> = (0..).zip(&triangles).map(|(i, t)| (center(t), i)).collect();
+        ask()?;
         let mut nodes = vec![Node::EMPTY; n_nodes(keys.len())];
+        ask()?;
         let mut slabs = vec![Slab::EVERYTHING; nodes.len()];
+        ask()?;
+        let thin = are_thin(triangles.len(), triangles.iter().map(|t| &t.positions));
+        ask()?;
+        let n_oriented = if thin { nodes.len() } else { 0 };
+        let mut oriented = vec![Oriented::EVERYTHING; n_oriented];
+        ask()?;
         Subtree {
             keys: &mut keys,
             nodes: &mut nodes,
             slabs: &mut slabs,
+            oriented: &mut oriented,
             first: 0,
             node: 0,
         }
-        .build(&triangles, &|| progress.report(WHAT, 1, 2))?;
+        .build(&triangles, &ask)?;
         let sorted = |i: usize| &triangles[keys[i].1 as usize];
         Ok(Some(Self {
             nodes,
             slabs,
-            positions: parallel::collect(keys.len(), |i| sorted(i).positions),
-            origins: parallel::collect(keys.len(), |i| Origin::of(sorted(i))),
+            oriented,
+            positions: collect(keys.len(), |i| sorted(i).positions, &ask)?,
+            origins: collect(keys.len(), |i| Origin::of(sorted(i)), &ask)?,
         }))
     }
 }
@@ -122,6 +170,8 @@ struct Subtree<'a> {
     keys: &'a mut [Key],
     nodes: &'a mut [Node],
     slabs: &'a mut [Slab],
+    /// Empty if the nodes have no oriented boxes.
+    oriented: &'a mut [Oriented],
     /// The position of the first key in the list of all keys.
     first: usize,
     /// The position of the first node in the list of all nodes.
@@ -129,15 +179,20 @@ struct Subtree<'a> {
 }
 
 impl Subtree<'_> {
-    /// Builds the nodes. Returns the sum, over all triangles, of the unit normal times twice the area.
+    /// Builds the nodes. Returns two sums over all triangles: of the unit normal times twice the area, and of the
+    /// longest side, in one of its two directions.
     fn build(
         self,
         triangles: &[Triangle],
         ask: &(dyn Fn() -> Result<(), Cancelled> + Sync),
-    ) -> Result<DVec3, Cancelled> {
+    ) -> Result<[DVec3; 2], Cancelled> {
         let n = self.keys.len();
         let ([root, nodes @ ..], [slab, slabs @ ..]) = (self.nodes, self.slabs) else {
             unreachable!("a subtree has a root");
+        };
+        let (mut own, oriented) = match self.oriented {
+            [own, others @ ..] => (Some(own), others),
+            none => (None, none),
         };
         root.first = number(self.first);
         root.last = number(self.first + n);
@@ -151,12 +206,20 @@ impl Subtree<'_> {
                 .clone()
                 .map(|[a, b, c]| (b - a).cross(c - a))
                 .sum();
+            let sides = triangles.clone().map(longest_side);
+            let along = sides.fold(DVec3::ZERO, sum);
+            if let Some(own) = &mut own {
+                **own = Oriented::of(triangles.clone(), n, normal, along);
+            }
             *slab = Slab::of(triangles, n, normal);
-            return Ok(normal);
+            return Ok([normal, along]);
         }
         let (min, max) = bounds(self.keys.iter().map(|key| key.0));
         let axis = (max - min).max_position();
         let middle = n / 2;
+        if n > TASK {
+            ask()?;
+        }
         // Triangles whose centers have the same coordinate along the axis are ordered by their indices. So no two keys
         // are equal, and the two halves do not depend on the order of the keys.
         self.keys.select_nth_unstable_by(middle, |a, b| {
@@ -167,10 +230,12 @@ impl Subtree<'_> {
         root.right = number(self.node + 1 + right);
         let (left_nodes, right_nodes) = nodes.split_at_mut(right);
         let (left_slabs, right_slabs) = slabs.split_at_mut(right);
+        let (left_oriented, right_oriented) = oriented.split_at_mut(right.min(oriented.len()));
         let left = Subtree {
             keys: low,
             nodes: &mut *left_nodes,
             slabs: left_slabs,
+            oriented: left_oriented,
             first: self.first,
             node: self.node + 1,
         };
@@ -178,6 +243,7 @@ impl Subtree<'_> {
             keys: high,
             nodes: &mut *right_nodes,
             slabs: right_slabs,
+            oriented: right_oriented,
             first: self.first + middle,
             node: self.node + 1 + right,
         };
@@ -190,17 +256,33 @@ impl Subtree<'_> {
         } else {
             (left.build(triangles, ask), right.build(triangles, ask))
         };
-        let normal = left? + right?;
+        let ([left, left_along], [right, right_along]) = (left?, right?);
+        let (normal, along) = (left + right, sum(left_along, right_along));
         root.min = left_nodes[0].min.min(right_nodes[0].min);
         root.max = left_nodes[0].max.max(right_nodes[0].max);
         let keys = self.keys.iter();
-        *slab = Slab::of(
-            keys.map(|&(_, i)| &triangles[i as usize].positions),
-            n,
-            normal,
-        );
-        Ok(normal)
+        let triangles = keys.map(|&(_, i)| &triangles[i as usize].positions);
+        if let Some(own) = &mut own {
+            **own = Oriented::of(triangles.clone(), n, normal, along);
+        }
+        *slab = Slab::of(triangles, n, normal);
+        Ok([normal, along])
     }
+}
+
+/// Returns `value(0)` to `value(n - 1)`. Runs in parallel. Stops if `ask` returns an error.
+fn collect<T: Send>(
+    n: usize,
+    value: impl Fn(usize) -> T + Sync,
+    ask: &(dyn Fn() -> Result<(), Cancelled> + Sync),
+) -> Result<Vec<T>, Cancelled> {
+    let mut values = Vec::with_capacity(n);
+    for first in (0..n).step_by(PART) {
+        ask()?;
+        let part = parallel::collect(PART.min(n - first), |i| value(first + i));
+        values.extend(part);
+    }
+    Ok(values)
 }
 
 /// Returns the number of nodes of a tree over `n` triangles.

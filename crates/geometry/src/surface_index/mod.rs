@@ -13,7 +13,7 @@
 //!
 //! The index is a binary tree of axis-aligned boxes. The triangles of a node are sorted along the longest side of the
 //! bounding box of their centers; each child gets half of the triangles. A node also has a slab: two parallel planes
-//! around its triangles. The tree depends only on the mesh, not on the number of threads.
+//! around its triangles. If many triangles are thin, nodes also have oriented boxes. The tree depends only on the mesh, not on the number of threads.
 //!
 //! A face with four corners is divided into a fan of two triangles. A face with more corners is divided by
 //! [`triangulate`](mod@crate::triangulate).
@@ -21,6 +21,7 @@
 mod build;
 mod intersect;
 mod nearest;
+mod oriented;
 mod pairs;
 mod ray;
 mod slab;
@@ -33,6 +34,7 @@ use progress::{Cancelled, NoProgress, Progress};
 pub(crate) use build::triangulate;
 pub use intersect::{self_intersecting_faces, triangles_intersect};
 pub use nearest::Nearest;
+use oriented::Oriented;
 pub use ray::RayHit;
 use slab::Slab;
 pub use triangle::{nearest_on_triangle, triangle_distance};
@@ -45,6 +47,8 @@ pub struct SurfaceIndex {
     nodes: Vec<Node>,
     /// The slab of each node.
     slabs: Vec<Slab>,
+    /// The oriented box of each node. Empty if the surface has only a few thin triangles.
+    oriented: Vec<Oriented>,
     /// The corners of the triangles, in the order of the tree.
     positions: Vec<[DVec3; 3]>,
     origins: Vec<Origin>,

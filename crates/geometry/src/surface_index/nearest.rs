@@ -110,13 +110,16 @@ impl SurfaceIndex {
             let Some(mut children) = self.visit(p, i, &mut best) else {
                 continue;
             };
+            if self.has_thin_triangles() {
+                children = children.map(|child| self.tighter(p, child));
+            }
             // The nearer child is visited first.
             if children[0].1 <= children[1].1 {
                 children.swap(0, 1);
             }
             for mut child in children {
-                if visits > BOXES_ONLY && child.1 < best.squared {
-                    child.1 = self.slab_distance_squared(p, child.0, child.1);
+                if visits > BOXES_ONLY && child.1 < best.squared && !self.has_thin_triangles() {
+                    child = self.tighter(p, child);
                 }
                 if child.1 < best.squared {
                     stack[height] = child;
@@ -204,14 +207,25 @@ impl SurfaceIndex {
             if visits > 3 * MAX_NODES {
                 return (best, Some(squared), visits);
             }
-            for (child, squared) in self.visit(p, i, &mut best).into_iter().flatten() {
-                let squared = self.slab_distance_squared(p, child, squared);
+            for child in self.visit(p, i, &mut best).into_iter().flatten() {
+                let (child, squared) = self.tighter(p, child);
                 if squared < best.squared {
                     waiting.push(Reverse((squared.to_bits(), child)));
                 }
             }
         }
         (best, None, visits)
+    }
+
+    /// Returns a child with a lower bound on its squared distance from `p`. The bound is at least as large as the given
+    /// squared distance to the box of the child.
+    fn tighter(&self, p: DVec3, (child, squared): (usize, f64)) -> (usize, f64) {
+        let bound = if self.has_thin_triangles() {
+            self.oriented_distance_squared(p, child, squared)
+        } else {
+            self.slab_distance_squared(p, child, squared)
+        };
+        (child, bound)
     }
 
     /// Tests the triangles of a leaf, or returns the children of an inner node with their squared distances.

@@ -13,12 +13,13 @@
 
 use mesh::DVec2;
 
+use super::sort::sort_unless;
 use super::{Triangle, with_sorted_corners};
 
 /// The largest number of flips for each corner. The number of flips can grow with the square of the number of corners,
 /// for example in a long corridor that bends. Polygons with at most 4096 corners never reach the limit.
 const MAX_FLIPS: usize = 1024;
-/// The number of flips after which cancellation is checked again.
+/// The number of examined diagonals after which cancellation is checked again.
 const CHECK: usize = 1 << 16;
 /// Marks a side of the polygon in the list of mates. Such a side belongs to only one triangle, so it has no mate.
 const NONE: u32 = u32::MAX;
@@ -44,10 +45,15 @@ impl Flips {
     pub(super) fn improve(
         &mut self,
         points: &[[f64; 2]],
-        triangles: &mut [Triangle],
+        triangles: &mut Vec<Triangle>,
         is_cancelled: &dyn Fn() -> bool,
     ) {
-        self.find_mates(triangles);
+        if self.find_mates(is_cancelled, triangles).is_none() {
+            return;
+        }
+        if self.sides.len() > CHECK && is_cancelled() {
+            return;
+        }
         let corners = triangles.as_flattened_mut();
         self.stack.clear();
         self.is_queued.clear();
@@ -58,30 +64,45 @@ impl Flips {
                 self.queue(mate);
             }
         }
-        let mut n_flips = 0;
+        if corners.len() > CHECK && is_cancelled() {
+            return;
+        }
+        let (mut n_flips, mut n_examined) = (0, 0_usize);
         while let Some(side) = self.stack.pop() {
             self.is_queued[side as usize] = false;
-            if self.flip(points, corners, side) {
-                n_flips += 1;
-                let is_over = n_flips >= MAX_FLIPS * points.len();
-                if is_over || n_flips.is_multiple_of(CHECK) && is_cancelled() {
-                    break;
-                }
+            n_flips += usize::from(self.flip(points, corners, side));
+            n_examined += 1;
+            let is_over = n_flips >= MAX_FLIPS * points.len();
+            if is_over || n_examined.is_multiple_of(CHECK) && is_cancelled() {
+                break;
             }
         }
         for triangle in triangles.iter_mut() {
             *triangle = with_sorted_corners(*triangle);
         }
-        triangles.sort_unstable();
+        // If the sort is cancelled, the triangles stay valid.
+        let _ = sort_unless(is_cancelled, triangles, Ord::cmp);
     }
 
-    fn find_mates(&mut self, triangles: &[Triangle]) {
-        let sides = triangles
-            .iter()
-            .flat_map(|&[a, b, c]| [[a, b], [b, c], [a, c]]);
+    /// Finds the mates of all sides. Returns `None` if `is_cancelled` returns `true`.
+    fn find_mates(
+        &mut self,
+        is_cancelled: &dyn Fn() -> bool,
+        triangles: &[Triangle],
+    ) -> Option<()> {
         self.sides.clear();
-        self.sides.extend(sides.zip(0..));
-        self.sides.sort_unstable();
+        let mut index = 0..;
+        for part in triangles.chunks(CHECK) {
+            if triangles.len() > CHECK && is_cancelled() {
+                return None;
+            }
+            let sides = part.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [a, c]]);
+            self.sides.extend(sides.zip(&mut index));
+        }
+        sort_unless(is_cancelled, &mut self.sides, Ord::cmp)?;
+        if self.sides.len() > CHECK && is_cancelled() {
+            return None;
+        }
         self.mates.clear();
         self.mates.resize(self.sides.len(), NONE);
         for pair in self.sides.windows(2) {
@@ -91,6 +112,7 @@ impl Flips {
                 self.mates[other as usize] = side;
             }
         }
+        Some(())
     }
 
     fn queue(&mut self, side: u32) {

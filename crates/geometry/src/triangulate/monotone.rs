@@ -15,12 +15,12 @@
 //! Source: de Berg and others, "Computational Geometry: Algorithms and Applications", 2008, chapter 3.
 
 use std::cmp::Ordering::{self, Greater, Less};
-use std::cmp::Reverse;
 use std::collections::BTreeSet;
 
 use mesh::DVec2;
 
-use super::{Triangle, is_triangulation, with_sorted_corners};
+use super::sort::sort_unless;
+use super::{Triangle, is_triangulation_unless, with_sorted_corners};
 use crate::predicates::orient2d;
 
 /// The number of corners after which the triangulation checks for cancellation again.
@@ -34,7 +34,7 @@ pub(super) fn triangulate(
     points: &[[f64; 2]],
     is_cancelled: &dyn Fn() -> bool,
 ) -> Option<Vec<Triangle>> {
-    let polygon = Polygon::new(points);
+    let polygon = Polygon::new(points, is_cancelled)?;
     let mut diagonals = polygon.diagonals(is_cancelled)?.into_iter().peekable();
     let mut triangles = Vec::with_capacity(points.len());
     // Diagonals do not cross, so they are nested like brackets. `open` has the corners before corner `j` that no
@@ -50,8 +50,8 @@ pub(super) fn triangulate(
         open.push(j);
     }
     polygon.triangulate_piece(&open, &mut triangles)?;
-    triangles.sort_unstable();
-    is_triangulation(points.len(), &triangles).then_some(triangles)
+    sort_unless(is_cancelled, &mut triangles, Ord::cmp)?;
+    is_triangulation_unless(is_cancelled, points.len(), &triangles)?.then_some(triangles)
 }
 
 struct Polygon<'a> {
@@ -64,21 +64,22 @@ struct Polygon<'a> {
 }
 
 impl<'a> Polygon<'a> {
-    fn new(points: &'a [[f64; 2]]) -> Self {
+    /// Sorts the corners. Returns `None` if `is_cancelled` returns `true`.
+    fn new(points: &'a [[f64; 2]], is_cancelled: &dyn Fn() -> bool) -> Option<Self> {
         let mut order: Vec<u32> = (0..).zip(points).map(|(i, _)| i).collect();
-        order.sort_unstable_by(|&i, &j| {
+        sort_unless(is_cancelled, &mut order, |&i, &j| {
             let [[ax, ay], [bx, by]] = [i, j].map(|i| points[i as usize]);
             by.total_cmp(&ay).then(ax.total_cmp(&bx)).then(i.cmp(&j))
-        });
+        })?;
         let mut rank = vec![0; points.len()];
         for (place, &i) in (0..).zip(&order) {
             rank[i as usize] = place;
         }
-        Self {
+        Some(Self {
             points,
             order,
             rank,
-        }
+        })
     }
 
     fn at(&self, corner: u32) -> DVec2 {
@@ -133,7 +134,9 @@ impl<'a> Polygon<'a> {
                 helpers[v as usize] = v;
             }
         }
-        diagonals.sort_unstable_by_key(|&[i, j]| (j, Reverse(i)));
+        sort_unless(is_cancelled, &mut diagonals, |&[i, j], &[k, l]| {
+            j.cmp(&l).then(k.cmp(&i))
+        })?;
         Some(diagonals)
     }
 
@@ -240,6 +243,7 @@ mod tests {
     use std::f64::consts::TAU;
 
     use super::*;
+    use crate::triangulate::is_triangulation;
 
     fn circle(angle: f64, radius: f64) -> [f64; 2] {
         [radius * libm::cos(angle), radius * libm::sin(angle)]

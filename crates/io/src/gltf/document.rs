@@ -11,6 +11,7 @@ use serde_json::{Map, Value};
 use super::budget::Budget;
 use super::draco_json::{self, DRACO};
 use super::meshopt::{self, Compressed, MESHOPT};
+use super::morph_values::{ValueChange, value_changes};
 use super::node_json::{LIGHTS, NodeJson};
 use super::rig_json::{AnimationJson, SkinJson};
 use super::surface::{
@@ -51,6 +52,8 @@ pub(super) struct Document {
     pub(super) meshes: Vec<Mesh>,
     /// The default weights of the morph targets of each mesh.
     pub(super) mesh_weights: Vec<Vec<f64>>,
+    /// For each primitive of each mesh, the changes that its morph targets make to texture coordinates and colors.
+    pub(super) value_changes: Vec<Vec<Vec<ValueChange>>>,
     pub(super) nodes: Vec<NodeJson>,
     pub(super) skins: Vec<SkinJson>,
     pub(super) animations: Vec<AnimationJson>,
@@ -90,6 +93,7 @@ impl Document {
             materials: pieces(json, "materials", budget)?,
             meshes: pieces(json, "meshes", budget)?,
             mesh_weights: mesh_weights(json, budget)?,
+            value_changes: value_changes(list(json, "meshes")?, budget)?,
             nodes: pieces(json, "nodes", budget)?,
             skins: pieces(json, "skins", budget)?,
             animations: pieces(json, "animations", budget)?,
@@ -337,7 +341,12 @@ fn roots(json: &Value, notes: &mut Notes) -> Result<Vec<usize>, Fault> {
         .collect()
 }
 
-fn index(value: &Value, pointer: &str) -> Result<usize, Fault> {
+/// Parses an index. `pointer` is its location.
+///
+/// # Errors
+///
+/// Returns an error if the value is not an index.
+pub(super) fn index(value: &Value, pointer: &str) -> Result<usize, Fault> {
     let index = value.as_u64().and_then(|index| usize::try_from(index).ok());
     index.ok_or_else(|| Fault::json(pointer, format!("expected an index, found {value}")))
 }

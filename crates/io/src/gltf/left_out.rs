@@ -8,6 +8,7 @@ use gltf_json::validation::Checked;
 use serde_json::Value;
 
 use super::document::Document;
+use super::morph_values::is_changeable;
 use super::surface::MaterialJson;
 use crate::note::Notes;
 
@@ -158,7 +159,7 @@ fn morph_attributes(json: &Value, is_used: &[bool]) -> BTreeMap<String, usize> {
             let is_read = match name.as_str() {
                 "POSITION" => true,
                 "NORMAL" | "TANGENT" => has(name),
-                _ => false,
+                _ => is_changeable(primitive, name),
             };
             if !is_read {
                 *counts.entry(name.clone()).or_default() += 1;

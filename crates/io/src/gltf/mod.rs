@@ -29,8 +29,9 @@
 //! | `POSITION` of a morph target | a vertex attribute [`mesh::morph_name`] with the deltas |
 //! | `NORMAL` of a morph target | a vertex or corner attribute [`mesh::morph_normal_name`] with the changed normals: each value is the sum of a normal and its change |
 //! | `TANGENT` of a morph target | a corner attribute [`mesh::morph_tangent_name`] with the changed tangents; the signs are those of the tangents of the mesh |
+//! | `TEXCOORD_n` and `COLOR_0` of a morph target | corner attributes [`mesh::morph_value_name`] with the changes of `uvn` or `color`, with -v instead of v; for `color`, a vertex attribute if the corners of each vertex agree |
 //! | skins, animations | kept in the graph; the numbers are rounded to 32 bits |
-//! | `COLOR_1`, other attributes of morph targets | left out, with a note |
+//! | `COLOR_1`, attributes of morph targets that the primitive does not have | left out, with a note |
 //! | `material` | face attribute `material`, and materials of the object |
 //! | textures, samplers, images | textures of the materials, with their names: the path of an image file, or the bytes of an image |
 //! | `extras` of materials | kept in the material unchanged |
@@ -103,6 +104,7 @@ mod fill;
 mod left_out;
 mod materials;
 mod meshopt;
+mod morph_values;
 mod names;
 mod node_json;
 mod nodes;

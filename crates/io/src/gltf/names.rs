@@ -9,6 +9,7 @@
 //! file becomes the attribute `_uv`. The writer writes the attribute `_uv` as `__uv`, which is read as `_uv` again.
 
 use gltf_json::mesh::Semantic;
+use mesh::uv_set;
 
 /// Returns the name that an attribute of glTF gets in a mesh, or `None` if the attribute is not read.
 pub(super) fn attribute_name(semantic: &Semantic) -> Option<String> {
@@ -37,16 +38,6 @@ fn is_reserved(name: &str) -> bool {
     let known = "normal color tangent material smoothing crease position";
     let is_rig = mesh::is_rig_name(name);
     name.is_empty() || is_rig || known.split(' ').any(|one| one == name) || uv_set(name).is_some()
-}
-
-/// Returns the index of the set of texture coordinates with this name: 0 for `uv`, 1 for `uv1`, and so on.
-pub(super) fn uv_set(name: &str) -> Option<u32> {
-    let digits = name.strip_prefix("uv")?;
-    if digits.is_empty() {
-        return Some(0);
-    }
-    let n: u32 = digits.parse().ok()?;
-    (n > 0 && n.to_string() == digits).then_some(n)
 }
 
 /// Returns the name that a custom attribute gets in glTF, or `None` if the name is reserved.

@@ -16,6 +16,7 @@ use super::deformers::Deformers;
 use super::document::Document;
 use super::left_out::note_left_out;
 use super::materials::{image_paths, material_name};
+use super::morph_values::ValueChanges;
 use super::names::attribute_name;
 use super::nodes::placed_meshes;
 use super::primitives::attributes;
@@ -118,6 +119,7 @@ fn peek_mesh(
     let primitives = &reader.document.meshes[index].primitives;
     names.extend(Directions::normals(primitives).names());
     names.extend(Directions::tangents(primitives).names());
+    names.extend(ValueChanges::new(&reader.document.value_changes[index]).names());
     for (i, primitive) in primitives.iter().enumerate() {
         let here = format!("/meshes/{index}/primitives/{i}");
         match primitive.mode {

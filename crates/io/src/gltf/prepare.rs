@@ -92,7 +92,9 @@ impl<'a> PreparedObject<'a> {
 
     /// The number of sets of texture coordinates.
     pub(super) fn n_uvs(&self) -> u32 {
-        let is_uv = |stream: &&Stream| matches!(stream.semantic, Semantic::TexCoords(_));
+        let is_uv = |stream: &&Stream| {
+            stream.target.is_none() && matches!(stream.semantic, Semantic::TexCoords(_))
+        };
         let count = self.streams.iter().filter(is_uv).count();
         u32::try_from(count).unwrap_or(u32::MAX)
     }

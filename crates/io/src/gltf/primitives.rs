@@ -15,6 +15,7 @@ use mesh::{
 use super::deform::{Directions, Repairs, expect_len, joints, morphs};
 use super::deformers::Deformers;
 use super::document::get;
+use super::morph_values::ValueChanges;
 use super::names::attribute_name;
 use super::views::Reader;
 use crate::fault::Fault;
@@ -56,10 +57,11 @@ pub(super) fn triangles(
     let mut left_out = LeftOut::default();
     let mut has_materials = false;
     let primitives = &reader.document.meshes[index].primitives;
-    let morphed = (
-        Directions::normals(primitives),
-        Directions::tangents(primitives),
-    );
+    let morphed = Morphed {
+        normals: Directions::normals(primitives),
+        tangents: Directions::tangents(primitives),
+        values: ValueChanges::new(&reader.document.value_changes[index]),
+    };
     for (i, primitive) in primitives.iter().enumerate() {
         let here = format!("/meshes/{index}/primitives/{i}");
         let Checked::Valid(mode) = primitive.mode else {
@@ -77,11 +79,13 @@ pub(super) fn triangles(
             }
             Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan => {}
         }
-        let (base, count) = match known.entry((attributes(primitive), targets(primitive))) {
+        let changes = morphed.values.of_primitive(i);
+        let (base, count) = match known.entry((attributes(primitive), targets(primitive), changes))
+        {
             Entry::Occupied(part) => *part.get(),
             Entry::Vacant(new) => *new.insert(all.push_vertices(
                 reader,
-                primitive,
+                (i, primitive),
                 deformers,
                 &morphed,
                 &here,
@@ -111,6 +115,38 @@ pub(super) fn triangles(
     }
     left_out.note(notes);
     Ok(all)
+}
+
+/// The attributes of a mesh that morph targets change, except positions.
+struct Morphed<'a> {
+    normals: Directions,
+    tangents: Directions,
+    values: ValueChanges<'a>,
+}
+
+impl Morphed<'_> {
+    /// Reads the changed normals and tangents of a primitive with `n` vertices and the attributes `own`.
+    ///
+    /// # Errors
+    ///
+    /// Returns an error if an accessor is invalid.
+    fn directions(
+        &self,
+        reader: &Reader,
+        primitive: &Primitive,
+        own: &Attributes,
+        n: usize,
+        here: &str,
+        repairs: &mut Repairs,
+    ) -> Result<Vec<Column>, Fault> {
+        let old = own.column(Domain::Corner, CORNER_NORMAL.name);
+        let old = old.and_then(|column| DVec3::of(&column.values));
+        let mut columns = (self.normals).read(reader, primitive, old, n, here, repairs)?;
+        let old = own.column(Domain::Corner, CORNER_TANGENT.name);
+        let old = old.and_then(|column| DVec4::of(&column.values));
+        columns.extend((self.tangents).read(reader, primitive, old, n, here, repairs)?);
+        Ok(columns)
+    }
 }
 
 /// The accessors of the attributes of a primitive.
@@ -149,14 +185,14 @@ impl Triangles {
         ((VERTEX + deformers) * n + (CORNER + values) * self.corners.len()) as u64
     }
 
-    /// Appends the vertices of a primitive. `morphed` are the normals and tangents of the mesh that morph targets
-    /// change. Returns the index of the first vertex, and the number of vertices.
+    /// Appends the vertices of the primitive with this number. `morphed` are the attributes of the mesh that morph
+    /// targets change. Returns the index of the first vertex, and the number of vertices.
     fn push_vertices(
         &mut self,
         reader: &Reader,
-        primitive: &Primitive,
+        (number, primitive): (usize, &Primitive),
         deformers: Deformers,
-        (normals, tangents): &(Directions, Directions),
+        morphed: &Morphed,
         here: &str,
         left_out: &mut LeftOut,
     ) -> Result<(u32, u32), Fault> {
@@ -228,13 +264,9 @@ impl Triangles {
         for column in joints.into_iter().chain(morphs) {
             own.insert(Domain::Vertex, column);
         }
-        let old = own.column(Domain::Corner, CORNER_NORMAL.name);
-        let old = old.and_then(|column| DVec3::of(&column.values));
-        let mut morphed = normals.read(reader, primitive, old, n, here, repairs)?;
-        let old = own.column(Domain::Corner, CORNER_TANGENT.name);
-        let old = old.and_then(|column| DVec4::of(&column.values));
-        morphed.extend(tangents.read(reader, primitive, old, n, here, repairs)?);
-        for column in morphed {
+        let mut changed = morphed.directions(reader, primitive, &own, n, here, repairs)?;
+        changed.extend(morphed.values.read(reader, number, n, here, repairs)?);
+        for column in changed {
             own.insert(Domain::Corner, column);
         }
         let all = |attributes: &Attributes| attributes.of(Domain::Vertex).len();

@@ -1,8 +1,11 @@
 //! Determines which attributes of a mesh a glTF file stores.
 
-use mesh::{Domain, Values, joint_of, morph_name, morph_normal_of, morph_of, morph_tangent_of};
+use mesh::{
+    Domain, Values, joint_of, morph_name, morph_normal_of, morph_of, morph_tangent_of,
+    morph_value_of, uv_set,
+};
 
-use super::names::{custom_semantic, uv_set};
+use super::names::custom_semantic;
 use crate::Storage;
 
 /// Returns how much of an attribute a file stores. `has` says whether the mesh has another attribute.
@@ -34,6 +37,16 @@ pub(crate) fn storage(
             let has_deltas = has(Domain::Vertex, &morph_name(target));
             kept_if(has_deltas && has_normals() && has(Domain::Corner, "tangent"))
         }
+        (Domain::Vertex | Domain::Corner, _, Values::Vec2(_) | Values::Vec4(_))
+            if morph_value_of(name).is_some() =>
+        {
+            let (changed, target) = morph_value_of(name).unwrap_or_default();
+            let has_changed = match values {
+                Values::Vec2(_) => uv_set(changed).is_some() && has_uvs(changed, has),
+                _ => changed == "color" && Domain::ALL[..2].iter().any(|&d| has(d, changed)),
+            };
+            kept_if(has_changed && has(Domain::Vertex, &morph_name(target)) && !is_hidden)
+        }
         (Domain::Edge | Domain::Face, ..) | (.., Values::Int(_) | Values::Tag(_)) => Lost,
         (_, "normal", Values::Vec3(_)) => kept_if(!is_hidden),
         // Numbers above 1 are lost.
@@ -46,13 +59,21 @@ pub(crate) fn storage(
         }
         (Domain::Corner, "tangent", Values::Vec4(_)) => kept_if(has_normals()),
         (Domain::Corner, _, Values::Vec2(_)) if uv_set(name).is_some() => {
-            let lower = 0..uv_set(name).unwrap_or_default();
-            let name_of = |set| match set {
-                0 => "uv".to_owned(),
-                set => format!("uv{set}"),
-            };
-            kept_if(lower.into_iter().all(|set| has(domain, &name_of(set))))
+            kept_if(has_uvs(name, has))
         }
         _ => kept_if(custom_semantic(name).is_some() && !is_hidden),
     }
+}
+
+/// Whether a mesh has these texture coordinates and all sets before them. `has` says whether the mesh has an attribute.
+fn has_uvs(name: &str, has: &dyn Fn(Domain, &str) -> bool) -> bool {
+    let lower = 0..uv_set(name).unwrap_or_default();
+    let name_of = |set| match set {
+        0 => "uv".to_owned(),
+        set => format!("uv{set}"),
+    };
+    has(Domain::Corner, name)
+        && lower
+            .into_iter()
+            .all(|set| has(Domain::Corner, &name_of(set)))
 }

@@ -5,10 +5,10 @@ use gltf_json::accessor::Type;
 use gltf_json::mesh::Semantic;
 use mesh::{
     Column, Domain, FaceId, HalfEdgeId, Mesh, Values, VertexId, joint_of, morph_normal_of,
-    morph_of, morph_tangent_of,
+    morph_of, morph_tangent_of, morph_value_of, uv_set,
 };
 
-use super::names::{custom_semantic, uv_set};
+use super::names::{attribute_name, custom_semantic};
 use crate::Format;
 use crate::file_vertices::is_mark;
 use crate::loss::Losses;
@@ -36,7 +36,9 @@ enum Meaning<'a> {
     /// the corners.
     TangentDelta(&'a Column),
     Uv,
+    UvDelta,
     Color,
+    ColorDelta,
     Custom,
 }
 
@@ -71,6 +73,7 @@ pub(super) fn streams<'a>(
         let stream = streams.iter().find(|stream| stream.semantic == semantic)?;
         Some((stream.domain, stream.column))
     };
+    let changes = value_deltas(mesh, &streams, &has_target);
     let normals = find(&streams, Semantic::Normals);
     if normals.is_none() {
         // Readers ignore tangents without normals.
@@ -87,13 +90,17 @@ pub(super) fn streams<'a>(
     if let Some((_, column)) = tangents {
         streams.extend(deltas(mesh, Meaning::TangentDelta(column), &has_target));
     }
+    streams.extend(changes);
     losses.add_columns(mesh, Format::Gltf, |domain, column| {
         let is_material = domain == Domain::Face && column.name == mesh::MATERIAL.name;
         is_deformer(domain, column)
             || is_mark(domain, column)
-            // If a morph target is not written, the loss of the target includes its normals and tangents.
+            // If a morph target is not written, the loss of the target includes its other attributes.
             || normals.is_some() && morph_normal_of(&column.name).is_some()
             || tangents.is_some() && morph_tangent_of(&column.name).is_some()
+            || morph_value_of(&column.name).is_some_and(|(changed, _)| {
+                streams.iter().any(|stream| stream.is_named(changed))
+            })
             || is_material && matches!(column.values, Values::Int(_))
             || streams
                 .iter()
@@ -129,6 +136,43 @@ fn deltas<'a>(
                     kind: Type::Vec3,
                     meaning,
                     target,
+                    domain,
+                    column,
+                });
+            }
+        }
+    }
+    deltas
+}
+
+/// Returns the streams of the changes that morph targets make to texture coordinates and colors. `streams` are those of
+/// the mesh. In glTF, a morph target can change only the attributes that the mesh has.
+fn value_deltas<'a>(
+    mesh: &'a Mesh,
+    streams: &[Stream<'a>],
+    has_target: &impl Fn(usize) -> bool,
+) -> Vec<Stream<'a>> {
+    let mut deltas: Vec<Stream> = Vec::new();
+    for domain in [Domain::Corner, Domain::Vertex] {
+        for column in mesh.attributes().of(domain) {
+            let Some((changed, target)) = morph_value_of(&column.name) else {
+                continue;
+            };
+            let base = streams.iter().find(|stream| stream.is_named(changed));
+            let Some(base) = base.filter(|_| has_target(target)) else {
+                continue;
+            };
+            let (kind, meaning) = match (base.meaning, &column.values) {
+                (Meaning::Uv, Values::Vec2(_)) => (Type::Vec2, Meaning::UvDelta),
+                (Meaning::Color, Values::Vec4(_)) => (Type::Vec4, Meaning::ColorDelta),
+                _ => continue,
+            };
+            if deltas.iter().all(|other| other.column.name != column.name) {
+                deltas.push(Stream {
+                    semantic: base.semantic.clone(),
+                    kind,
+                    meaning,
+                    target: Some(target),
                     domain,
                     column,
                 });
@@ -176,6 +220,11 @@ fn stream(domain: Domain, column: &Column, n_uvs: u32) -> Option<Stream<'_>> {
 }
 
 impl Stream<'_> {
+    /// Whether this is the stream of the attribute of the mesh with this name.
+    fn is_named(&self, name: &str) -> bool {
+        self.target.is_none() && attribute_name(&self.semantic).as_deref() == Some(name)
+    }
+
     /// Returns the value at a corner, and whether it equals the value of the mesh. The value has as many components as
     /// the kind of the stream requires.
     pub(super) fn at(&self, mesh: &Mesh, v: VertexId, h: HalfEdgeId) -> ([f32; 4], bool) {
@@ -198,7 +247,8 @@ impl Stream<'_> {
                 let color = value.map(inside);
                 narrow(color, color == value)
             }
-            Meaning::Custom => narrow(value, true),
+            Meaning::UvDelta => narrow([x, -y, 0.0, 0.0], true),
+            Meaning::ColorDelta | Meaning::Custom => narrow(value, true),
         }
     }
 
@@ -216,7 +266,9 @@ impl Stream<'_> {
                 "zero, not finite, or with an invalid sign, so replaced by a valid tangent"
             }
             Meaning::Color => "outside the range from 0 to 1, so clamped",
-            Meaning::Uv | Meaning::Custom => "not finite when rounded to 32 bits, so written as 0",
+            Meaning::Uv | Meaning::UvDelta | Meaning::ColorDelta | Meaning::Custom => {
+                "not finite when rounded to 32 bits, so written as 0"
+            }
         }
     }
 }

@@ -37,6 +37,7 @@ impl Accessors {
     pub(crate) fn floats(&mut self, values: &[f32], kind: &str) -> usize {
         let width = match kind {
             "SCALAR" => 1,
+            "VEC2" => 2,
             "VEC3" => 3,
             "VEC4" => 4,
             _ => 16,

@@ -15,6 +15,7 @@ mod gltf_materials;
 mod gltf_meshopt;
 mod gltf_morph_normals;
 mod gltf_morph_tangents;
+mod gltf_morph_values;
 mod gltf_nodes;
 mod gltf_packed;
 mod gltf_read;

@@ -11,14 +11,21 @@
 //!
 //! The attribute `morph_tangent:t` has the tangents of the corners when morph target t has the weight 1, with the rule
 //! and the signs of [`CORNER_TANGENT`](crate::CORNER_TANGENT).
+//!
+//! The attributes `morph_uv:t`, `morph_uv1:t` and so on, and `morph_color:t`, have the changes that morph target t makes
+//! to the attribute `uv`, `uv1` or `color` if its weight is 1. Like `morph:t`, they store differences and follow the rule
+//! [`Rule::Interpolate`](crate::Rule::Interpolate).
 
 use super::{Attributes, Values};
-use crate::{DVec3, Domain};
+use crate::{COLOR, DVec3, Domain, UV};
 
 const JOINT: &str = "joint:";
 const MORPH: &str = "morph:";
 const MORPH_NORMAL: &str = "morph_normal:";
 const MORPH_TANGENT: &str = "morph_tangent:";
+/// The attributes with changes of texture coordinates or colors have this prefix, the name of the changed attribute, a
+/// colon and the number of the morph target.
+const MORPH_VALUE: &str = "morph_";
 
 /// Returns the name of the attribute with the weights of a joint, one `f64` for each vertex.
 pub fn joint_name(joint: usize) -> String {
@@ -38,6 +45,12 @@ pub fn morph_normal_name(target: usize) -> String {
 /// Returns the name of the attribute with the tangents that the mesh has when a morph target has the weight 1.
 pub fn morph_tangent_name(target: usize) -> String {
     format!("{MORPH_TANGENT}{target}")
+}
+
+/// Returns the name of the attribute with the changes that a morph target makes to the texture coordinates or colors in
+/// the attribute with the name `changed`.
+pub fn morph_value_name(changed: &str, target: usize) -> String {
+    format!("{MORPH_VALUE}{changed}:{target}")
 }
 
 /// Returns the joint whose weights the attribute with this name stores; `None` if the name is not that of a joint.
@@ -63,6 +76,22 @@ pub fn morph_tangent_of(name: &str) -> Option<usize> {
     number(name.strip_prefix(MORPH_TANGENT)?)
 }
 
+/// Returns the name of the texture coordinates or colors that the attribute with this name changes, and the morph
+/// target; `None` if an attribute with this name does not store changes of texture coordinates or colors.
+pub fn morph_value_of(name: &str) -> Option<(&str, usize)> {
+    let (changed, target) = name.strip_prefix(MORPH_VALUE)?.split_once(':')?;
+    let has_changes = changed == COLOR.name || uv_set(changed).is_some();
+    Some((changed, number(target).filter(|_| has_changes)?))
+}
+
+/// Returns the index of the set of texture coordinates with this name: 0 for `uv`, 1 for `uv1`, and so on.
+pub fn uv_set(name: &str) -> Option<u32> {
+    match name.strip_prefix(UV.name)? {
+        "" => Some(0),
+        digits => u32::try_from(number(digits)?).ok().filter(|&set| set > 0),
+    }
+}
+
 /// Whether an attribute with this name stores normals or tangents of a morph target.
 pub fn is_morph_direction(name: &str) -> bool {
     morph_normal_of(name).or(morph_tangent_of(name)).is_some()
@@ -71,7 +100,7 @@ pub fn is_morph_direction(name: &str) -> bool {
 /// Whether this is the name of an attribute of a joint or a morph target.
 pub fn is_rig_name(name: &str) -> bool {
     let numbers = [joint_of, morph_of, morph_normal_of, morph_tangent_of];
-    numbers.iter().any(|number| number(name).is_some())
+    numbers.iter().any(|number| number(name).is_some()) || morph_value_of(name).is_some()
 }
 
 /// Parses a number that is written without leading zeros; `None` for any other text.
@@ -117,6 +146,23 @@ mod tests {
             assert_eq!(morph_of(&morph_name(n)), Some(n));
             assert_eq!(morph_normal_of(&morph_normal_name(n)), Some(n));
             assert_eq!(morph_tangent_of(&morph_tangent_name(n)), Some(n));
+            for changed in ["uv", "uv1", "uv12", "color"] {
+                let name = morph_value_name(changed, n);
+                assert_eq!(morph_value_of(&name), Some((changed, n)));
+                assert!(is_rig_name(&name));
+            }
+        }
+        for name in [
+            "morph_uv",
+            "morph_uv0:1",
+            "morph_uv01:1",
+            "morph_uv:01",
+            "morph_color1:0",
+            "morph_:0",
+            "morph_normal:0",
+            "uv:0",
+        ] {
+            assert_eq!(morph_value_of(name), None, "{name}");
         }
         for name in [
             "joint:", "joint:01", "joint:+1", "joint:-1", "morph:0", "joint", "joint:a",

@@ -97,3 +97,25 @@ fn a_page_without_room_is_refused() {
     assert!(refused.to_string().contains("larger `page`"), "{refused}");
     assert!(op::test::read::<Unwrap>("(page: 15)").is_err());
 }
+
+#[test]
+fn changes_by_morph_targets_are_removed_with_the_texture_coordinates_that_they_change() {
+    let mut mesh = shapes::cube();
+    for name in ["uv", "uv1", "morph_uv:0", "morph_uv:2", "morph_uv1:0"] {
+        let column = mesh::Column {
+            name: name.to_owned(),
+            rule: mesh::Rule::Interpolate,
+            values: mesh::Value::wrap(vec![mesh::DVec2::X; mesh.n_half_edges()]),
+        };
+        mesh.insert_column(Domain::Corner, column);
+    }
+    let after = applied_as_planned(&step("()"), &mesh);
+    let names: Vec<_> = after.attributes().iter().map(|(_, c)| &*c.name).collect();
+    assert_eq!(names, ["morph_uv1:0", "uv", "uv1"]);
+    let (_, report) = try_applied(&step("()"), mesh).unwrap();
+    let removed = report
+        .notes
+        .iter()
+        .filter(|note| note.contains("`morph_uv:"));
+    assert_eq!(removed.count(), 2, "{:?}", report.notes);
+}

@@ -1,6 +1,7 @@
 //! Compares the index with brute force.
 
 mod intersect;
+mod oriented;
 mod ray;
 mod slab;
 mod winding;
@@ -183,4 +184,44 @@ fn a_dead_vertex_has_no_nearest_point() {
     mesh.delete_vertex(v).unwrap();
     let found = index.nearest_to_vertices(&mesh, &NoProgress).unwrap();
     assert!(found[0].is_none() && found[1].is_some());
+}
+
+/// Counts its calls and stops after a number of calls.
+struct Stop {
+    allowed: usize,
+    calls: std::sync::atomic::AtomicUsize,
+}
+
+impl Progress for Stop {
+    fn advance(&self, _: &str, _: u64, _: u64) -> bool {
+        let calls = &self.calls;
+        calls.fetch_add(1, std::sync::atomic::Ordering::Relaxed) < self.allowed
+    }
+}
+
+/// The first face is flat and convex, so that it is halved. The second face is cut into monotone pieces.
+#[test]
+fn the_index_of_a_face_with_many_corners_can_be_cancelled_at_any_call() {
+    let n = 100_000_u32;
+    for radius in [[1.0, 1.0], [1.0, 0.9]] {
+        let at = |i: u32| {
+            let (y, x) = libm::sincos(std::f64::consts::TAU * f64::from(i) / f64::from(n));
+            let radius = radius[(i / (n / 10) % 2) as usize];
+            DVec3::new(radius * x, radius * y, 0.0)
+        };
+        let corners: Vec<u32> = (0..n).collect();
+        let points = (0..n).map(at).collect();
+        let (mesh, _) = Mesh::from_polygons(points, &[corners]).unwrap();
+        let run = |allowed| {
+            let calls = 0.into();
+            let stop = Stop { allowed, calls };
+            let index = SurfaceIndex::with_progress(&mesh, &stop);
+            (index.is_ok(), stop.calls.into_inner())
+        };
+        let (is_done, calls) = run(usize::MAX);
+        assert!(is_done && calls >= 20, "{calls}");
+        for allowed in (0..calls).step_by(calls.div_ceil(8)) {
+            assert!(!run(allowed).0, "{allowed}");
+        }
+    }
 }

@@ -1,0 +1,127 @@
+//! Oriented boxes around the triangles of the nodes, for surfaces with thin triangles.
+//!
+//! ```text
+//!   +---------+      The bounding boxes of long, thin triangles that are not parallel to an axis overlap, so a point is
+//!   |      //||      inside the boxes of many nodes. A box whose sides are parallel to the normal and to the longest
+//!   |    // //|      sides of the triangles fits them tightly.
+//!   |  // //  |
+//!   |// //    |
+//!   +---------+
+//! ```
+
+use mesh::DVec3;
+
+use super::SurfaceIndex;
+
+/// Nodes with more triangles than this number have no oriented box, because their triangles seldom have similar
+/// directions.
+const MOST: usize = 512;
+
+/// A triangle is thin if its longest side is at least this number of times as long as its height.
+const THIN: f64 = 16.0;
+
+/// A surface has oriented boxes if at least one of this number of triangles is thin.
+const SHARE: usize = 64;
+
+/// A box around triangles. Its sides are parallel to `normal`, to `along` and to the cross product of these two
+/// perpendicular unit vectors.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Oriented {
+    normal: DVec3,
+    along: DVec3,
+    /// The smallest and the largest coordinate along each of the three directions.
+    low: DVec3,
+    high: DVec3,
+}
+
+impl Oriented {
+    /// A box that contains everything.
+    pub(super) const EVERYTHING: Self = Self {
+        normal: DVec3::Z,
+        along: DVec3::X,
+        low: DVec3::NEG_INFINITY,
+        high: DVec3::INFINITY,
+    };
+
+    /// Returns the box of `n` triangles. `normal` is the sum of their area vectors, and `along` is the sum of the
+    /// results of [`longest_side`], or a multiple of this sum.
+    pub(super) fn of<'a>(
+        triangles: impl Iterator<Item = &'a [DVec3; 3]>,
+        n: usize,
+        normal: DVec3,
+        along: DVec3,
+    ) -> Self {
+        let Some(along) = along.try_normalize().filter(|_| n <= MOST) else {
+            return Self::EVERYTHING;
+        };
+        // The normal is made perpendicular twice, because the first result has rounding errors if it is short.
+        let perpendicular = |v: DVec3| (v - along.dot(v) * along).try_normalize();
+        let normal = normal.try_normalize().and_then(perpendicular);
+        let normal = normal.and_then(perpendicular);
+        let mut oriented = Self {
+            normal: normal.unwrap_or_else(|| along.any_orthonormal_vector()),
+            along,
+            ..Self::EVERYTHING
+        };
+        let points = triangles.flatten().map(|&p| oriented.coordinates(p));
+        let empty = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        (oriented.low, oriented.high) =
+            points.fold(empty, |(low, high), p| (low.min(p), high.max(p)));
+        oriented
+    }
+
+    fn coordinates(&self, p: DVec3) -> DVec3 {
+        let across = self.normal.cross(self.along);
+        DVec3::new(self.normal.dot(p), self.along.dot(p), across.dot(p))
+    }
+
+    /// Returns a lower bound on the squared distance from `p` to the triangles in the box.
+    fn distance_squared(&self, p: DVec3) -> f64 {
+        let at = self.coordinates(p);
+        let nearest = at.max(self.low).min(self.high);
+        // This margin covers the rounding errors of the coordinates.
+        let rounding = 4e-15 * (p.abs().element_sum() + nearest.abs().element_sum());
+        let gap = (at - nearest).abs() - DVec3::splat(rounding);
+        gap.max(DVec3::ZERO).length_squared() * (1.0 - 1e-14)
+    }
+}
+
+impl SurfaceIndex {
+    /// Whether the nodes have oriented boxes.
+    pub(super) fn has_thin_triangles(&self) -> bool {
+        !self.oriented.is_empty()
+    }
+
+    /// Returns a lower bound on the squared distance from `p` to the triangles of a node. `squared` is the squared
+    /// distance to the box of the node. The index must have oriented boxes.
+    pub(super) fn oriented_distance_squared(&self, p: DVec3, i: usize, squared: f64) -> f64 {
+        self.oriented[i].distance_squared(p).max(squared)
+    }
+}
+
+/// Whether many of the triangles are thin.
+pub(super) fn are_thin<'a>(n: usize, triangles: impl Iterator<Item = &'a [DVec3; 3]>) -> bool {
+    let is_thin = |t: &&[DVec3; 3]| {
+        let [a, b, c] = **t;
+        longest_side(t).length_squared() >= THIN * (b - a).cross(c - a).length()
+    };
+    triangles.filter(is_thin).count() * SHARE >= n
+}
+
+/// Returns the longest side of a triangle. Of the two opposite directions, one is chosen.
+pub(super) fn longest_side([a, b, c]: &[DVec3; 3]) -> DVec3 {
+    let sides = [b - a, c - b, a - c];
+    let longer = |s: DVec3, t: DVec3| {
+        if t.length_squared() > s.length_squared() {
+            t
+        } else {
+            s
+        }
+    };
+    sides.into_iter().fold(DVec3::ZERO, longer)
+}
+
+/// Returns the sum of two sums of [`longest_side`]. Their directions can be opposite.
+pub(super) fn sum(a: DVec3, b: DVec3) -> DVec3 {
+    if a.dot(b) < 0.0 { a - b } else { a + b }
+}

@@ -13,7 +13,8 @@
 //!
 //! The index is a binary tree of axis-aligned boxes. The triangles of a node are sorted along the longest side of the
 //! bounding box of their centers; each child gets half of the triangles. A node also has a slab: two parallel planes
-//! around its triangles. If many triangles are thin, nodes also have oriented boxes. The tree depends only on the mesh, not on the number of threads.
+//! around its triangles. If many triangles are thin, nodes also have oriented boxes. The tree depends only on the mesh,
+//! not on the number of threads.
 //!
 //! A face with four corners is divided into a fan of two triangles. A face with more corners is divided by
 //! [`triangulate`](mod@crate::triangulate).

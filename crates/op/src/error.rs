@@ -121,7 +121,7 @@ pub enum OpError {
         elements: Vec<Element>,
         /// The locations of the elements.
         places: Vec<ErrorLocation>,
-        /// Whether the operation has the parameter `on_refusal`, so that a recipe can skip the refused elements.
+        /// Whether the operation has the parameter `on_refusal`, so that a recipe can continue after the refusal.
         can_skip: bool,
     },
     /// A parameter has a value that the scene does not allow.
@@ -153,7 +153,7 @@ impl OpError {
         }
     }
 
-    /// Marks a refusal as one that the value `Skip` of the parameter `on_refusal` would avoid.
+    /// Marks a refusal of an operation with the parameter `on_refusal`.
     #[must_use]
     pub fn skippable(mut self) -> Self {
         if let Self::Refused { can_skip, .. } = &mut self {
@@ -165,7 +165,7 @@ impl OpError {
     /// Returns advice for the user who wrote the step, if there is any.
     pub fn help(&self) -> Option<&'static str> {
         let can_skip = matches!(self, Self::Refused { can_skip: true, .. });
-        can_skip.then_some("to skip the elements at which this happens, add `on_refusal: Skip`")
+        can_skip.then_some("to continue in such cases, add `on_refusal: Skip`")
     }
 
     /// Creates the error for a coordinate that is not finite. The message names the operation and the parameters that

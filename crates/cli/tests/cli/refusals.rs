@@ -51,7 +51,7 @@ fn five_different_mistakes_are_five_errors_and_nothing_runs() {
 }
 
 #[test]
-fn a_refused_edit_says_how_to_skip_it_if_the_step_can() {
+fn a_refusal_says_how_to_continue_if_the_step_can() {
     for (steps, can_skip) in [
         ("Tetrahedron(), FlipEdges(edges: All)", true),
         (
@@ -62,11 +62,12 @@ fn a_refused_edit_says_how_to_skip_it_if_the_step_can() {
             "Grid(columns: 2, rows: 2), DeleteFaces(faces: Faces([0, 3]))",
             true,
         ),
-        ("Tetrahedron(), Simplify(faces: 2)", false),
+        ("Tetrahedron(), Simplify(faces: 2)", true),
+        ("Tetrahedron(), BridgeLoops(first: 0, second: 3)", false),
     ] {
         let text = format!("(recipe: 1, steps: [{steps}])");
         let ended = fails(&Folder::with_recipe(&text));
-        let help = "help: to skip the elements at which this happens, add `on_refusal: Skip`\n";
+        let help = "help: to continue in such cases, add `on_refusal: Skip`\n";
         assert_eq!(ended.stderr.contains(help), can_skip, "{ended:#?}");
     }
 }

@@ -49,8 +49,7 @@ impl Polygons {
             let vertices = built.mesh.attributes();
             if domain == Domain::Corner
                 && !column.name.starts_with("uv")
-                && morph_value_of(&column.name)
-                    .is_none_or(|(changed, _)| uv_set(changed).is_none())
+                && morph_value_of(&column.name).is_none_or(|(changed, _)| uv_set(changed).is_none())
                 && !holds_tangents(&column)
                 && vertices.column(Domain::Vertex, &column.name).is_none()
                 && let Some(values) = vertex_values(&built.mesh, &column.values, |a, b| {

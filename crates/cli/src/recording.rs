@@ -1,4 +1,5 @@
-//! A store that records which files are read or looked for. So the command `watch` knows which files a recipe reads.
+//! A store that records which files are read or looked for. The command `watch` uses it to find out which files a
+//! recipe reads.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -18,7 +19,7 @@ pub(crate) struct RecordingDisk(Mutex<Recorded>);
 struct Recorded {
     /// The paths as given.
     given: BTreeSet<PathBuf>,
-    /// The same paths, each with the canonical path of its folder: absolute, with all links resolved.
+    /// The same paths, in which the folder of each path is canonical: absolute, with all links resolved.
     real: BTreeSet<PathBuf>,
 }
 

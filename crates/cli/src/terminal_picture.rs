@@ -126,7 +126,7 @@ fn kitty(png: &[u8]) -> Vec<u8> {
 
 fn sixel(image: &Image) -> Vec<u8> {
     let mut palette = Palette::of(std::slice::from_ref(image));
-    // The parameter P2 = 1 of the protocol: pixels that are not set keep their color.
+    // The parameter P2 = 1 of the Sixel protocol means that pixels that are not set keep their color.
     let mut text = format!("\x1bP0;1;0q\"1;1;{};{}", image.width, image.height);
     for (i, color) in palette.colors().iter().enumerate() {
         // In percent.

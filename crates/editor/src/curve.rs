@@ -9,7 +9,7 @@ use crate::panel::number;
 use crate::pick::{PICK_RADIUS, Projection};
 
 /// Returns the control points of a curve or of patches, in the space of the object. A patch has 16 points, row by row.
-/// Empty for other objects.
+/// For all other objects, the list is empty.
 pub fn control_points(object: &Object) -> Vec<DVec3> {
     match &object.geometry {
         Geometry::Curve(curve) => curve.points().iter().map(|p| p.extend(0.0)).collect(),

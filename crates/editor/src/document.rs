@@ -197,7 +197,7 @@ impl Document {
             .map(|state| state.label.as_str())
     }
 
-    /// Goes back to the text before the last change. Returns whether there was one.
+    /// Goes back to the text before the last change. Returns whether there was a change to undo.
     pub fn undo(&mut self) -> bool {
         let can = self.current > 0;
         if can {
@@ -207,7 +207,7 @@ impl Document {
         can
     }
 
-    /// Redoes the change that was undone last. Returns whether there was one.
+    /// Redoes the change that was undone last. Returns whether there was a change to redo.
     pub fn redo(&mut self) -> bool {
         let can = self.current + 1 < self.history.len();
         if can {
@@ -246,7 +246,8 @@ impl Document {
         Ok(())
     }
 
-    /// If another program has changed the file while the text had unsaved changes, returns this conflict.
+    /// Returns the conflict if another program has changed the file while the text had unsaved changes, and `None`
+    /// otherwise.
     pub fn conflict(&self) -> Option<&Conflict> {
         self.conflict.as_ref()
     }
@@ -286,7 +287,8 @@ impl Document {
         let theirs = match recipe::Source::open_in(store, &self.path) {
             Ok(source) => source.text,
             Err(error) => {
-                // The file may be half-written: it is read again if it changes before a later check.
+                // The other program has possibly not written the whole file yet. If the file has changed again at a
+                // later check, it is read again.
                 self.seen = seen;
                 return Some(FileChange::Unreadable(error.to_string()));
             }

@@ -1,5 +1,5 @@
-//! Plays the local edits of a step one by one, forwards and backwards. For each edit, also finds the pointers of
-//! half-edges that it changes.
+//! Plays the local edits of a step one by one, forwards and backwards. For each edit, also finds out which pointers of
+//! half-edges the edit changes.
 
 use std::sync::Arc;
 
@@ -23,7 +23,7 @@ const LOOP: &str = "LoopSubdivide";
 pub struct Play {
     mesh: Mesh,
     edits: Vec<PlayedEdit>,
-    /// For each edit, the change that undoes the edit if it is done, or does it if it is not.
+    /// For each edit that is done, the change that undoes it. For each edit that is not done, the change that does it.
     changes: Vec<Option<Change>>,
     at: usize,
 }
@@ -37,7 +37,8 @@ pub struct PlayedEdit {
     pub edge: Option<EdgeId>,
     /// If the edit was refused, the reason.
     pub refused: Option<EditError>,
-    /// The half-edges around the edge whose pointers change, in the order of their numbers.
+    /// The changes of pointers: one entry for each half-edge around the edge whose pointers change, in the order of the
+    /// half-edges' indices.
     pub pointers: Vec<PointerChange>,
 }
 
@@ -192,8 +193,8 @@ impl Play {
         self.changes.push(change);
     }
 
-    /// Returns the mesh after the edits that are done. The numbers of removed elements are not used again, so there can
-    /// be gaps between the numbers of the mesh's elements.
+    /// Returns the mesh after the edits that are done. The indices of removed elements are not used again, so there can
+    /// be gaps between the indices of the mesh's elements.
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
     }
@@ -353,7 +354,7 @@ fn edges(
     }
 }
 
-/// Returns the half-edges around an edge, in the order of their numbers. The result has the half-edges that start or
+/// Returns the half-edges around an edge, in the order of their indices. The result has the half-edges that start or
 /// end at an end of the edge, and the half-edges of the faces at both ends.
 fn half_edges_around(mesh: &Mesh, edge: EdgeId) -> Vec<HalfEdgeId> {
     if !mesh.has_edge(edge) {

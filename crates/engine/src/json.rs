@@ -53,9 +53,9 @@ pub fn losses(losses: &[Loss]) -> Vec<Json> {
     losses.iter().map(json).collect()
 }
 
-/// Returns the event `done` of a step. The event contains the label of the step, the numbers of elements after the
-/// step, the report of the step and its time. `number` is the index of the step, counted from 0. The field `number` of
-/// the event is counted from 1.
+/// Returns the event `done` of a step. The event contains the label of the step, how many elements the scene has after
+/// the step, the report of the step, and the time that the step took. `number` is the index of the step, counted
+/// from 0. The field `number` of the event is counted from 1.
 pub fn step_done(number: usize, done: &StepDone) -> Json {
     json!({
         "event": "done",

@@ -85,7 +85,7 @@ impl StepKeys {
         }
     }
 
-    /// Returns the key of the last step; the key before the first step if the recipe has no steps.
+    /// Returns the key of the last step. If the recipe has no steps, returns the key before the first step.
     pub fn end(&self) -> StepKey {
         self.steps.last().copied().unwrap_or(self.start)
     }

@@ -127,7 +127,7 @@ impl<'r> Engine<'r> {
     ///
     /// # Errors
     ///
-    /// [`SourceError`] if the file cannot be read, is too long, or is not UTF-8 text.
+    /// Returns [`SourceError`] if the file cannot be read, is too long, or is not UTF-8 text.
     pub fn open(&self, path: &Path) -> Result<Source, SourceError> {
         Source::open_in(&*self.store, path)
     }

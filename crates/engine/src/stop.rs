@@ -35,7 +35,7 @@ impl Loaded {
     ///
     /// # Errors
     ///
-    /// [`UnknownStep`] if no step or call has the id or label.
+    /// Returns [`UnknownStep`] if no step or call has the id or label.
     pub fn stop(&mut self, stop: Stop) -> Result<String, UnknownStep> {
         let steps = &self.recipe.steps;
         let unknown = |id: &str| {

@@ -133,7 +133,7 @@ fn at_vertices(
     })
 }
 
-/// Returns the value of each vertex, by index; `none` for dead vertices.
+/// Returns the value of each vertex, by index. Dead vertices get the value `none`.
 fn fill_vertices<T: Copy + Send + Sync>(
     mesh: &Mesh,
     none: T,

@@ -55,7 +55,7 @@ const SHAPE_WEIGHT: f64 = 1e-6;
 ///
 /// Returns [`EditError::DuplicateEdge`] if every triangulation needs an edge that already exists. For a hole of more
 /// than 500 edges, this error means only that the search did not find a triangulation without an existing edge. Also
-/// returns [`EditError::Full`] and the errors of [`Mesh::fill_hole`]. The mesh is unchanged.
+/// returns [`EditError::Full`] and the errors of [`Mesh::fill_hole`]. After an error, the mesh is unchanged.
 pub fn fill_hole_triangles(mesh: &mut Mesh, h: HalfEdgeId) -> Result<Vec<FaceId>, EditError> {
     let ears = ears(mesh, &mesh.rim(h)?)?;
     mesh.fill_hole_by_ears(h, &ears)

@@ -141,7 +141,7 @@ impl Laplacian {
     }
 }
 
-/// Returns the exponent of the largest power of two that is not above the largest absolute coordinate; 0 if all
+/// Returns the exponent of the largest power of two that is not above the largest absolute coordinate. Returns 0 if all
 /// coordinates are 0 or one is infinite.
 pub(crate) fn exponent(points: &[DVec3]) -> i32 {
     match parallel::fold(
@@ -165,8 +165,8 @@ fn lengths([a, b, c]: [DVec3; 3]) -> [f64; 3] {
     [b.distance(c), c.distance(a), a.distance(b)]
 }
 
-/// Returns half the cotangents of the angles, and the area, of a triangle. The length of each side is increased
-/// by `more`.
+/// Returns half the cotangent of each angle of a triangle, and the area of the triangle. The length of each side is
+/// first increased by `more`.
 fn half_cotangents(corners: [DVec3; 3], more: f64) -> ([f64; 3], f64) {
     if more == 0.0 {
         let [a, b, c] = corners;

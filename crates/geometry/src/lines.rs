@@ -3,10 +3,10 @@
 
 use mesh::{CREASE, Column, Domain, EdgeId, FaceId, Mesh, Values, VertexId, parallel};
 
-/// How a vertex may move.
+/// How a vertex is allowed to move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
-    /// The vertex is on no line, and may move anywhere.
+    /// The vertex is on no line, and is allowed to move anywhere.
     Inside,
     /// The vertex is on one line. In simplification, a vertex on a line moves only when it merges with a neighbor on
     /// the line. In remeshing, a vertex on a line moves along the line.
@@ -50,7 +50,7 @@ pub(crate) fn lines(mesh: &Mesh, features: &[EdgeId]) -> Vec<bool> {
     lines
 }
 
-/// Returns how each vertex may move. The mesh must be [dense](mesh::Mesh::is_dense).
+/// Returns how each vertex is allowed to move. The mesh must be [dense](mesh::Mesh::is_dense).
 pub(crate) fn kinds(mesh: &Mesh, lines: &[bool], pinned: &[VertexId]) -> Vec<Kind> {
     let columns = mesh.attributes().of(Domain::Edge);
     let mut kinds: Vec<Kind> = parallel::collect(mesh.n_vertices(), |v| {

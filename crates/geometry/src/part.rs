@@ -18,7 +18,7 @@ use mesh::{Connectivity, Domain, EdgeId, FaceId, HalfEdgeId, Mesh, Sources, Vert
 use crate::components;
 
 /// Returns the component index of each face, by face index. Components are numbered from 0 in the order of the lowest
-/// face id of each component. Dead faces have `usize::MAX`.
+/// face id of each component. The index of a dead face is `usize::MAX`.
 pub fn face_components(mesh: &Mesh) -> Vec<usize> {
     let of_vertex = components(mesh);
     let mut number = vec![usize::MAX; of_vertex.len()];

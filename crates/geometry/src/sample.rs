@@ -48,7 +48,7 @@ pub fn samples(
     }
     // The largest radius of `count` disks in a plane of this area, in the densest arrangement.
     let radius = (area / (2.0 * 3.0_f64.sqrt() * count as f64)).sqrt();
-    // Two points that are closer than `least` are treated as if they had this distance, which improves the result.
+    // Two points that are closer than `least` are treated as if their distance were `least`, which improves the result.
     let ratio = 1.0 / CANDIDATES as f64;
     let least = 2.0 * radius * (1.0 - ratio * ratio.sqrt()) * 0.65;
     let grid = Grid::new(&candidates, 2.0 * radius);

@@ -1,4 +1,4 @@
-//! Thickness and ambient occlusion, by rays.
+//! Computes the thickness and the ambient occlusion of meshes by casting rays.
 
 use std::f64::consts::TAU;
 
@@ -12,8 +12,8 @@ use crate::surface_index::SurfaceIndex;
 
 /// The distance from the surface at which rays start, relative to the diagonal of the bounding box.
 const OFFSET: f64 = 1e-7;
-/// A ray for the thickness starts on the face, near the vertex. The distance between the vertex and the start of the
-/// ray is at most twice this fraction of the length of the shorter edge of the corner.
+/// A ray for the thickness starts on the face, near the vertex. The distance from the vertex is at most twice this
+/// fraction of the length of the shorter of the two edges that meet at the corner.
 const INWARD: f64 = 1e-3;
 /// The number of vertices in a block. One thread processes a block.
 const BLOCK: usize = 256;
@@ -23,9 +23,9 @@ const BLOCK: usize = 256;
 /// thickness is the length of the shortest ray. The thickness is infinite if no ray meets the surface again, for
 /// example on a flat sheet, or if all faces around the vertex have zero area.
 ///
-/// In a plate, the thickness is the distance between the two sides of the plate, even at its edges and corners. Where
-/// parts of the surface overlap, a ray does not end when it enters another part. Walls thinner than 1e-7 times the
-/// diagonal of the bounding box are not found. The mesh must be [dense](mesh::Mesh::is_dense).
+/// For a plate, the thickness at every vertex is the distance between the two sides of the plate, even at its edges and
+/// corners. Where closed parts of the surface overlap, a ray does not end when it enters another part. Walls thinner
+/// than 1e-7 times the diagonal of the bounding box are not found. The mesh must be [dense](mesh::Mesh::is_dense).
 ///
 /// # Errors
 ///
@@ -45,7 +45,7 @@ pub fn thickness(mesh: &Mesh, progress: &dyn Progress) -> Result<Vec<f64>, Cance
     })
 }
 
-/// Returns the length of the ray that runs inward from the corner of `h` at a right angle to its face.
+/// Returns the length of the ray that runs inward from the corner of `h` at a right angle to the face `f`.
 fn behind(mesh: &Mesh, index: &SurfaceIndex, h: HalfEdgeId, f: FaceId, offset: f64) -> f64 {
     let normal = mesh.face_normal(f);
     if normal == DVec3::ZERO {

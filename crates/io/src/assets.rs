@@ -1,4 +1,4 @@
-//! Access to the files that a model file refers to. These files must be inside the folder of the model file.
+//! Gives access to the files that a model file refers to. These files must be inside the folder of the model file.
 
 use std::collections::BTreeSet;
 use std::io;
@@ -11,7 +11,7 @@ use store::{Store, StoreError, folder_of};
 ///
 /// # Errors
 ///
-/// The reason why the path is refused. The reason is a text such as `is empty`, which follows the path in a message.
+/// Returns the reason why the path is refused, as a text such as `is empty`. In messages, this text follows the path.
 pub(crate) fn inside(name: &str) -> Result<PathBuf, &'static str> {
     if name.is_empty() {
         return Err("is empty");
@@ -28,7 +28,7 @@ pub(crate) fn inside(name: &str) -> Result<PathBuf, &'static str> {
                     return Err("leads out of the folder of the file");
                 }
             }
-            // The colon belongs to a drive (`C:`), a scheme (`file:`), or a named stream of a file on Windows.
+            // A colon can belong to a drive (`C:`), a scheme (`file:`), or a named stream of a file on Windows.
             _ if part.contains(':') => return Err("names a drive or a scheme"),
             _ if part.contains(char::is_control) => return Err("has control characters"),
             _ => parts.push(part),
@@ -45,8 +45,8 @@ pub(crate) fn inside(name: &str) -> Result<PathBuf, &'static str> {
 ///
 /// # Errors
 ///
-/// The reason why the URI is refused. The reason is a text such as `has a backslash`, which follows the URI in a
-/// message.
+/// Returns the reason why the URI is refused, as a text such as `has a backslash`. In messages, this text follows the
+/// URI.
 pub(crate) fn inside_uri(uri: &str) -> Result<PathBuf, &'static str> {
     if uri.contains('\\') {
         return Err("has a backslash");
@@ -108,7 +108,7 @@ pub struct FileDependency {
     /// The path of the file.
     pub path: PathBuf,
     /// True if the program read the file or tried to read it, false if the program only checked whether the file
-    /// exists. A file that the program tried to read may be missing.
+    /// exists. A file that the program tried to read is possibly missing.
     pub is_read: bool,
 }
 
@@ -153,7 +153,8 @@ impl<'a> Assets<'a> {
     ///
     /// # Errors
     ///
-    /// Returns an error if the file is missing, is not a regular file, or a link leads out of the folder.
+    /// Returns an error if the file is missing or is not a regular file, or if a link in its path leads out of the
+    /// folder.
     pub(crate) fn read(&mut self, name: &Path, limit: u64) -> io::Result<Vec<u8>> {
         let path = self.place(name);
         self.seen.insert(FileDependency {

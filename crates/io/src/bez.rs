@@ -1,4 +1,5 @@
-//! `.bez`: bicubic Bezier patches, and `.bzc`: a Bezier curve in the plane. Both contain only numbers.
+//! Reads and writes `.bez` files, which contain bicubic Bezier patches, and `.bzc` files, which contain a Bezier curve
+//! in the plane. Both kinds of files contain only numbers.
 //!
 //! ```text
 //! 2                                   the number of patches
@@ -25,7 +26,7 @@ use crate::{Format, SingleFile};
 ///
 /// # Errors
 ///
-/// The position of the first error.
+/// Returns the first error in the file, with its position.
 pub(crate) fn read_patches(bytes: &[u8]) -> Result<Geometry, Fault> {
     patches(bytes).map(Geometry::Patches)
 }
@@ -57,7 +58,7 @@ fn patches(bytes: &[u8]) -> Result<Vec<Patch>, Fault> {
 ///
 /// # Errors
 ///
-/// The position of the first error.
+/// Returns the first error in the file, with its position.
 pub(crate) fn read_curve(bytes: &[u8]) -> Result<Geometry, Fault> {
     curve(bytes).map(Geometry::Curve)
 }

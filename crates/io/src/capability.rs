@@ -1,4 +1,4 @@
-//! The table of what each format can store. The writers and the plans of recipes use the same table.
+//! Defines what each format can store. Both the writers and the checks of recipes before a run use these definitions.
 
 use mesh::{COLOR, CORNER_NORMAL, Domain, MATERIAL, SMOOTHING, UV, VERTEX_NORMAL, Values, counted};
 

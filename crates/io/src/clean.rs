@@ -10,8 +10,8 @@ use crate::polygons::gather;
 use crate::{CleanupPolicy, Policies, Polygons};
 use mesh::parallel;
 
-/// A face is degenerate if its area is at most this multiple of the square of its longest side. The bound allows for
-/// rounding errors: the computed area of a zero-area face is rarely exactly zero.
+/// A face is degenerate if its area is at most this fraction of the square of its longest side. The fraction is not 0,
+/// because the computed area of a zero-area face is rarely exactly 0.
 const DEGENERATE_RATIO: f64 = 1e-14;
 
 /// The number of groups of faces. Faces are grouped by hash, and each face is compared only with faces of its
@@ -68,7 +68,7 @@ pub(crate) fn clean(
     kept
 }
 
-/// Adds a note about changed or removed elements. The note has the positions of the elements.
+/// Adds a note about changed or removed elements. The note contains the positions of the elements.
 fn note(
     polygons: &Polygons,
     code: &'static str,
@@ -192,7 +192,8 @@ fn sum_of_hashes(corners: &[u32]) -> u64 {
     hashes.fold(corners.len() as u64, u64::wrapping_add)
 }
 
-/// Returns the vertices of the corners, starting at the lowest vertex and going toward the lower of its two neighbors.
+/// Returns the vertices of the corners in circular order, starting at the vertex with the lowest index. Of its two
+/// neighbors, the one with the lower index comes next.
 fn canonical(corners: &[u32]) -> Vec<u32> {
     let Some(start) = (0..corners.len()).min_by_key(|&i| corners[i]) else {
         return Vec::new();

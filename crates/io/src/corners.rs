@@ -15,7 +15,8 @@ const MAX_COMPARED: usize = 64;
 pub(crate) struct CornerNumbers {
     /// For each half-edge of a face, the first half-edge that starts at the same vertex and has the same value.
     same: Vec<AtomicU32>,
-    /// For each half-edge that is the first one with its value, the number of the value, from 0.
+    /// For each half-edge that is the first one at its vertex with its value, the number of this value. Numbers start
+    /// at 0.
     numbers: Vec<AtomicU32>,
     /// For each value, in the order of the numbers, the first half-edge with that value.
     firsts: Vec<HalfEdgeId>,
@@ -82,8 +83,8 @@ impl CornerNumbers {
     }
 }
 
-/// Returns a value for each vertex, if all corners of each vertex have the same value according to `same`. Otherwise,
-/// returns `None`. Vertices without a corner get zero.
+/// Returns a value for each vertex. Returns `None` if `same` is false for two corners of a vertex. Vertices without a
+/// corner get zero.
 pub(crate) fn vertex_values(
     mesh: &Mesh,
     values: &Values,

@@ -1,4 +1,4 @@
-//! CSV: a table of the vertices, faces or corners of a mesh. Write only.
+//! Writes CSV files, which contain a table of the vertices, faces or corners of a mesh. These files cannot be read.
 //!
 //! | column | content |
 //! | --- | --- |
@@ -11,7 +11,7 @@
 //!
 //! Lines end with a line feed, and fields with commas, quotes or line breaks are quoted (RFC 4180). Numbers have the
 //! fewest digits that restore the same 64-bit number. Numbers that are not finite are written as `nan`, `inf` and
-//! `-inf`. If an attribute has the name of another column, a number is appended to its name.
+//! `-inf`. If the name of an attribute is already the name of another column, a number is appended to it.
 
 use mesh::{Domain, FaceId, HalfEdgeId, Mesh};
 use scene::{Geometry, Object, Scene};
@@ -101,8 +101,8 @@ impl Parts {
         Self(scene.objects().iter().map(part).collect())
     }
 
-    /// Returns the part that contains a row: the last part for which `has_started` is true. If there are several parts,
-    /// also appends the name of this part to the row.
+    /// Returns the part that contains the current row, which is the last part for which `has_started` is true. If there
+    /// are several parts, also appends the name of this part to the row.
     fn push(&self, out: &mut Vec<u8>, has_started: impl Fn(&Part) -> bool) -> &Part {
         let part = &self.0[self.0.partition_point(has_started) - 1];
         if self.0.len() > 1 {
@@ -177,7 +177,7 @@ fn header(mesh: &Mesh, rows: Rows, parts: &Parts) -> Vec<u8> {
     (line.join(",") + "\n").into_bytes()
 }
 
-/// Returns a name as a field.
+/// Returns a name as a field of the table, in quotes if necessary.
 fn quoted(name: &str) -> String {
     if name.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", name.replace('"', "\"\""))

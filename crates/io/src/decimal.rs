@@ -22,7 +22,7 @@ pub(crate) fn leading_number(text: &[u8]) -> Option<(f64, usize)> {
 pub(crate) fn up_to_eight_digits(text: &[u8], at: usize) -> (u64, usize) {
     let word = eight_bytes(text, at) ^ 0x3030_3030_3030_3030;
     // In the lowest byte that is not a digit, the high bit is set. In all bytes below that byte, the high bit is 0. In
-    // the bytes above the lowest non-digit, the high bits can be wrong, so only the lowest set bit is used.
+    // the bytes above it, the high bits can be wrong, so only the lowest set bit is used.
     let non_digits = (word.wrapping_add(0x7676_7676_7676_7676) | word) & 0x8080_8080_8080_8080;
     let count = non_digits.trailing_zeros() / 8;
     if count == 0 {
@@ -36,8 +36,8 @@ pub(crate) fn up_to_eight_digits(text: &[u8], at: usize) -> (u64, usize) {
     (low.wrapping_add(high) >> 32, count as usize)
 }
 
-/// Returns the bytes that begin at `at` as a word, with the first byte as the lowest. Bytes beyond the end of the
-/// text are 0.
+/// Returns the eight bytes that begin at `at` as a 64-bit word, with the first byte as the lowest byte of the word.
+/// Bytes beyond the end of the text are 0.
 #[inline]
 fn eight_bytes(text: &[u8], at: usize) -> u64 {
     if let Some(&[a, b, c, d, e, f, g, h]) = text.get(at..at + 8) {
@@ -62,7 +62,8 @@ pub(crate) fn push_number(out: &mut Vec<u8>, x: f64) {
     }
 }
 
-/// Appends text of at most 24 bytes. Copies of constant length are inlined, which is faster than a call.
+/// Appends a text of at most 24 bytes. The text is copied in pieces of constant length, because the compiler inlines
+/// such copies.
 #[inline]
 fn push_short(out: &mut Vec<u8>, text: &[u8]) {
     let (room, start) = if let Some(start) = text.first_chunk::<16>() {

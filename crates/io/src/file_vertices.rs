@@ -17,7 +17,8 @@ pub(crate) struct FileVertices {
     /// The vertices to write, and for each vertex of the mesh, the index with which it is written. `None` if the mesh
     /// has no copies.
     originals: Option<(Vec<u32>, Vec<u32>)>,
-    /// For each copy, the index with which it is written, and the copy. Sorted.
+    /// For each copy, a pair of the index with which it is written, and the index of the copy in the mesh. The pairs
+    /// are sorted.
     copies: Vec<(u32, u32)>,
     n: usize,
 }
@@ -98,12 +99,12 @@ impl FileVertices {
     }
 }
 
-/// Whether an attribute is the mark of copies for [`FileVertices`].
+/// Whether an attribute is the one that marks the copies of split vertices, [`COPY_DISTANCE`].
 pub(crate) fn is_mark(domain: Domain, column: &Column) -> bool {
     domain == Domain::Vertex && column.name == COPY_DISTANCE
 }
 
-/// Removes the marks of copies from all meshes.
+/// Removes the attribute [`COPY_DISTANCE`] from all meshes.
 pub(crate) fn without_marks(scene: Cow<Scene>) -> Cow<Scene> {
     let has_marks = |object: &Object| {
         let mesh = object.as_mesh();

@@ -24,9 +24,9 @@ pub enum Format {
     Stl,
     /// Object file format (Geomview): polygons as text.
     Off,
-    /// COLLADA: polygons, materials and placed objects as XML. Read only.
+    /// COLLADA: polygons, materials and objects with transforms, as XML. Read only.
     Dae,
-    /// A whole Meshwright scene, bit for bit.
+    /// A whole Meshwright scene, stored without any loss.
     Mws,
     /// Bicubic Bezier patches as text.
     Bez,
@@ -65,9 +65,9 @@ impl Format {
         TABLE[self as usize].1
     }
 
-    /// The format with the extension of `path`, in upper or lower case; `None` if the extension is unknown or missing.
-    /// The name of a file compressed with gzip ends in `.gz` after the extension of its format. Files of the formats
-    /// `.glb`, `.mws` and `.npz` cannot be compressed.
+    /// Returns the format with the extension of `path`. Upper and lower case are not distinguished. Returns `None` if
+    /// the extension is unknown or missing. The name of a file compressed with gzip ends in `.gz` after the extension
+    /// of its format. Files of the formats `.glb`, `.mws` and `.npz` cannot be compressed.
     pub fn from_path(path: &Path) -> Option<Self> {
         let plain = gzip::plain(path);
         let extension = plain.extension()?;

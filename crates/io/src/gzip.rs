@@ -44,7 +44,7 @@ pub(crate) fn unpacked(path: &Path, bytes: Vec<u8>, most: u64) -> Result<Vec<u8>
         message,
     };
     let mut out = Vec::new();
-    // The memory grows with the content that is actually decompressed, so a wrong size in the file has no effect.
+    // Memory is allocated only for content that was decompressed, so a wrong size in the file has no effect.
     let mut decoder = MultiGzDecoder::new(&bytes[..]).take(most.saturating_add(1));
     let read = decoder.read_to_end(&mut out);
     read.map_err(|why| error(format!("the compressed content is damaged: {why}")))?;
@@ -84,7 +84,7 @@ pub(crate) fn head(store: &dyn Store, path: &Path, most: u64) -> Result<Vec<u8>,
 ///
 /// # Errors
 ///
-/// Returns the errors of `out` and of `write`.
+/// Returns an error if `out` or `write` fails.
 pub(crate) fn compress(
     out: &mut (dyn Write + Send),
     write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<u64>,

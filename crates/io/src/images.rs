@@ -1,4 +1,4 @@
-//! Handles the images of materials. When a model is read, images are searched for in the folders of its material
+//! Handles the images of materials. When a model is read, its images are searched for in the folders of its material
 //! libraries and in the folder of the model. When a scene is written, images are embedded or copied.
 
 use std::borrow::Cow;
@@ -97,7 +97,7 @@ fn note_left_out(path: &str, why: &str, notes: &mut Notes) {
 ///
 /// # Errors
 ///
-/// The reason why the image file cannot be used.
+/// Returns the reason why the image file cannot be used.
 fn located(path: &str, assets: &mut Assets) -> Result<PathBuf, String> {
     let mut folders = assets.image_folders.clone();
     folders.push(PathBuf::new());
@@ -116,7 +116,7 @@ fn located(path: &str, assets: &mut Assets) -> Result<PathBuf, String> {
 ///
 /// # Errors
 ///
-/// The reason why the image is left out.
+/// Returns the reason why the image is left out.
 fn find(path: &str, assets: &mut Assets, room: &mut u64) -> Result<Image, String> {
     let name = located(path, assets)?;
     let bytes = assets.read(&name, room.saturating_add(1));
@@ -185,15 +185,15 @@ pub(crate) fn sniffed(bytes: &[u8]) -> Option<&'static str> {
     }
 }
 
-/// A scene, and the image files that must be written with it. For OBJ and glTF, every image of the scene is either
-/// embedded or a path.
+/// A scene, and the image files that must be written with it. For OBJ and glTF, the scene contains either the bytes or
+/// the path of each image.
 pub(crate) struct Settled<'a> {
     pub(crate) scene: Cow<'a, Scene>,
     pub(crate) files: Vec<(PathBuf, Content<'static>)>,
 }
 
-/// Decides for each image of a scene whether the image is embedded, the image is copied, or only its path is written.
-/// Creates the folders of copied images.
+/// Decides for each image of a scene whether it is embedded or copied, or whether only its path is written. Creates the
+/// folders of copied images.
 ///
 /// # Errors
 ///

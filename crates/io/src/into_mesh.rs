@@ -24,7 +24,7 @@ impl Polygons {
     ///
     /// # Errors
     ///
-    /// [`ReadError::Mesh`] if the polygons do not form a valid mesh or the policies refuse them.
+    /// Returns [`ReadError::Mesh`] if the polygons do not form a valid mesh or the policies refuse them.
     pub(crate) fn into_mesh(
         mut self,
         path: &Path,
@@ -67,7 +67,8 @@ impl Polygons {
     ///
     /// # Errors
     ///
-    /// If there are too many elements, or if the polygons do not form a manifold and the policies refuse such polygons.
+    /// Returns an error if there are too many elements, or if the polygons do not form a manifold and the policies
+    /// refuse such polygons.
     fn build(
         &mut self,
         path: &Path,
@@ -141,8 +142,8 @@ struct Sources {
     n_positions: usize,
     /// The original vertex of each copy. Copies come after the original vertices.
     copies: Vec<usize>,
-    /// For each half-edge, the index of its corner plus 1, or 0 if the half-edge has no face. Each entry is written
-    /// once.
+    /// For each half-edge, 1 plus the index of its corner in the input, or 0 if the half-edge has no face. Each entry
+    /// is written once.
     corners: Vec<AtomicU32>,
     /// For each face, the index of its polygon. `None` if faces and polygons have the same indices.
     faces: Option<Vec<u32>>,

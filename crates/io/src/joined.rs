@@ -16,7 +16,7 @@ use crate::writing::dense;
 pub(crate) struct Joined<'a> {
     /// The mesh without removed elements. The meshes of several objects are appended in order.
     pub(crate) mesh: Cow<'a, Mesh>,
-    /// The object name that losses contain, which is the name of the first object.
+    /// The object name in reports of losses. It is the name of the first object.
     pub(crate) name: String,
     pub(crate) losses: Vec<Loss>,
 }

@@ -2,7 +2,7 @@
 //! and NPZ files.
 //!
 //! [`read()`] reads the objects of a file, and [`write()`] writes a scene to files. [`peek()`] returns the kinds of the
-//! objects in a file and the counts of their elements, without building meshes. The extension of the file name
+//! objects in a file and the numbers of their elements, without building meshes. The extension of the file name
 //! determines the [`Format`]:
 //!
 //! | extension | content | module |
@@ -124,10 +124,10 @@ use save::{Content, save};
 /// How to read a file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ReadOptions {
-    /// The name for objects that have no name in the file. If an `.mws` file contains a single object, this name also
-    /// replaces the name of that object. If `None`, objects without a name get the name of the file without its
-    /// extension, and the objects of an `.mws` file keep their names. In glTF and COLLADA files, an object has the name
-    /// of its node or, if the node has no name, of its mesh.
+    /// The name for objects that have no name in the file. If the file is an `.mws` file with a single object, the
+    /// object gets this name even if it has a name. If `None`, objects without a name get the name of the file without
+    /// its extension, and all objects of an `.mws` file keep their names. In glTF and COLLADA files, an object has the
+    /// name of its node or, if the node has no name, of its mesh.
     pub name: Option<String>,
     /// How to handle polygons that do not form a clean mesh.
     pub policies: Policies,
@@ -135,9 +135,9 @@ pub struct ReadOptions {
     pub placements: Placements,
     /// Whether reading fails if anything in the file would be left out.
     pub strict: bool,
-    /// Whether reading marks copies of vertices. Reading makes copies when it splits vertices so that the mesh becomes
-    /// a manifold. If the mesh is then written to an `.obj`, `.ply`, `.off`, `.gltf` or `.glb` file, the marked copies
-    /// are merged again. The written file then has the same vertices as the file that was read. This option is for
+    /// Whether reading marks the copies of vertices. When a mesh is not a manifold, reading splits vertices into
+    /// copies. If the mesh is then written to an `.obj`, `.ply`, `.off`, `.gltf` or `.glb` file, the marked copies are
+    /// merged again. The written file then has the same vertices as the file that was read. This option is for
     /// conversions without edits.
     pub keep_vertices: bool,
     /// The memory budget in bytes. The budget is the maximum size of all images together, and also the maximum size of
@@ -217,12 +217,13 @@ pub fn read(store: &dyn Store, path: &Path, options: &ReadOptions) -> Result<Loa
     Ok(loaded)
 }
 
-/// Reads the objects of a file from its bytes. `path` determines the format, appears in errors, and locates the files
-/// that this file refers to. [`Loaded::files`] lists only these files, whereas [`read()`] also lists `path`.
+/// Reads the objects of a file from its bytes. The format is determined by `path`, which also appears in errors and
+/// locates the files that this file refers to. [`Loaded::files`] lists only the files that this file refers to, whereas
+/// [`read()`] also lists `path`.
 ///
 /// # Errors
 ///
-/// The errors of [`read()`].
+/// Returns an error in the same cases as [`read()`].
 pub fn read_bytes(
     store: &dyn Store,
     path: &Path,
@@ -268,7 +269,7 @@ pub fn read_bytes(
 ///
 /// # Errors
 ///
-/// The errors of [`read()`], except those that are found only when a mesh is built.
+/// Returns an error in the same cases as [`read()`], except for errors that are found only when a mesh is built.
 pub fn read_polygons(
     store: &dyn Store,
     path: &Path,
@@ -363,13 +364,13 @@ fn fail_if_left_out(path: &Path, notes: &[Note]) -> Result<(), ReadError> {
     })
 }
 
-/// Returns the objects that reading a file would give, with their counts. If the file has headers, the counts are taken
-/// from the headers.
+/// Returns the objects that reading a file would give, with the numbers of their elements. If the format has a header
+/// with these numbers, they are taken from the header.
 ///
 /// Also returns notes about the content that reading would leave out, as far as it is known without reading.
 ///
-/// Bezier and `.mws` files are checked completely. In glTF files, only the JSON is checked. OBJ files are not checked,
-/// because their statements are only counted.
+/// Bezier and `.mws` files are checked completely. In glTF files, only the JSON is checked. OBJ files are not checked:
+/// their statements are only counted.
 ///
 /// # Errors
 ///
@@ -496,8 +497,8 @@ fn write_placed(
         files: mut all,
     } = images::settle(store, path, format, scene, options)?;
     // In the scene, the copies of split vertices are marked. The writers of OBJ, PLY, OFF and glTF use these marks to
-    // merge the copies again. For all other formats, the marks of split vertices are removed. Either the readers of
-    // these formats merge the copies by position, or the files contain all copies.
+    // merge the copies again. For all other formats, the marks are removed. Files of these formats contain all copies,
+    // and some readers merge them by position.
     let scene = &*if keeps_vertices(path) {
         scene
     } else {
@@ -537,7 +538,8 @@ fn write_placed(
     })
 }
 
-/// Whether the file can store a mesh that is not manifold, so that [`ReadOptions::keep_vertices`] has an effect.
+/// Whether files with the format of `path` can store a mesh that is not a manifold. Only for these formats,
+/// [`ReadOptions::keep_vertices`] has an effect.
 pub fn keeps_vertices(path: &Path) -> bool {
     let format = Format::from_path(path);
     matches!(

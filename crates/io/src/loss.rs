@@ -1,4 +1,4 @@
-//! Losses: the content of a scene that a written file does not store.
+//! Describes losses, which are content of a scene that a written file does not store.
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -23,7 +23,8 @@ pub struct Loss {
     pub reason: String,
 }
 
-/// The names of parts of a mesh that are not single attributes, although their losses have a domain.
+/// The names of lost parts that are not attributes. Unlike for other such parts, the losses of these parts have a
+/// domain.
 const NOT_ATTRIBUTES: [&str; 4] = ["influences", "joint weights", "morph targets", "polygon"];
 
 impl Loss {
@@ -142,7 +143,7 @@ impl<'a> Losses<'a> {
         self.add_columns_of_rows(mesh, format, Rows::default(), is_stored);
     }
 
-    /// Like [`add_columns`](Self::add_columns), for a table with these rows.
+    /// Like [`add_columns`](Self::add_columns), but for a `.csv` table with these rows.
     pub(crate) fn add_columns_of_rows(
         &mut self,
         mesh: &Mesh,

@@ -1,4 +1,4 @@
-//! `.mws`: a complete Meshwright scene, stored exactly.
+//! Reads and writes `.mws` files, which store a complete Meshwright scene without any loss.
 //!
 //! ```text
 //! MWS1            4 bytes
@@ -7,8 +7,8 @@
 //! ..              the canonical form of the scene; the digest of the scene is computed from it
 //! ```
 //!
-//! Reading restores everything: the order of all elements, every attribute with its rule, names, and materials with
-//! their content. Other programs do not read this format.
+//! Reading restores everything: the order of all elements, names, materials with their content, and every attribute,
+//! including the rule for its values at new elements. Other programs do not read this format.
 
 use scene::{Graph, NoArrays, Scene};
 
@@ -37,8 +37,8 @@ pub(crate) fn read(
     })
 }
 
-/// Returns the objects that reading would give, with their counts. Decodes the whole file, because the file is refused
-/// if any part is invalid.
+/// Returns the objects that reading would give, with the numbers of their elements. Decodes the whole file, because the
+/// file is refused if any part is invalid.
 pub(crate) fn peek(
     bytes: &[u8],
     name: Option<&str>,
@@ -96,7 +96,7 @@ pub(crate) fn provenance(bytes: &[u8]) -> Option<String> {
     (!text.is_empty()).then(|| text.to_owned())
 }
 
-/// Splits a file into the provenance and the canonical form.
+/// Splits a file into the provenance and the encoded scene. Returns `None` if the file is not an `.mws` file.
 fn split(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
     let rest = bytes.strip_prefix(MAGIC)?;
     let (length, rest) = rest.split_first_chunk()?;
@@ -174,7 +174,7 @@ mod tests {
         for i in 0..whole.len() {
             let mut changed = whole.clone();
             changed[i] ^= 1 << (i % 8);
-            // A modified file may be refused. If it can still be decoded, its meshes must be valid.
+            // The modified file is either refused or decoded. If it is decoded, its meshes must be valid.
             if let Ok(scene) = scene_of(&changed, None, Placements::Keep) {
                 for mesh in scene.objects().iter().filter_map(|o| o.as_mesh()) {
                     assert_eq!(mesh.defects(), [], "byte {i}");

@@ -1,4 +1,5 @@
-//! Notes: the content that reading changed or left out. All such content is reported, except comments and headers.
+//! Describes notes, which report the content that reading changed or left out. All such content is reported, except
+//! comments and headers.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
@@ -16,13 +17,14 @@ pub struct Note {
     pub kind: NoteKind,
     /// The file that the note is about: the requested file or a file that it refers to.
     pub path: PathBuf,
-    /// The first line that the note is about, from 1. Only in text files.
+    /// The first line that the note is about, counted from 1. `None` if the file is not a text file or the line is not
+    /// known.
     pub line: Option<usize>,
     /// The number of elements, statements or other things that the note is about.
     pub count: usize,
-    /// The text that follows the count, such as `statements 'vp' left out`, in the plural if the count can exceed 1.
-    /// The text names the elements, statements or other things, and says how the reader handled them. If the count is
-    /// 1, [`Display`](fmt::Display) writes the first noun in the singular.
+    /// The text that follows the count, such as `statements 'vp' left out`. It is in the plural if the count can
+    /// exceed 1. The text names the elements, statements or other things, and says how the reader handled them. If the
+    /// count is 1, [`Display`](fmt::Display) writes the first noun in the singular.
     pub what: String,
     /// The affected elements of the file, if they are known.
     pub elements: Option<Elements>,
@@ -338,7 +340,7 @@ impl Notes {
 #[derive(Default)]
 pub(crate) struct Names {
     taken: BTreeSet<String>,
-    /// For each name, the last number that was appended to it.
+    /// For each name, the number that was appended to it last.
     last: BTreeMap<String, usize>,
 }
 

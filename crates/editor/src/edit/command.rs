@@ -20,8 +20,8 @@ pub struct Command {
     /// The selection that becomes the value of the first parameter that selects elements, if this parameter has no
     /// value.
     pub selection: Option<SelectionText>,
-    /// The object that the step acts on. If `None`, the step acts on the object of the selection if the scene has
-    /// several meshes, and on all objects otherwise.
+    /// The object that the step acts on. If `None`, the step acts on all objects; but if the scene has several meshes
+    /// and the command has a selection, it acts on the object of the selection.
     pub on: Option<String>,
 }
 
@@ -74,8 +74,9 @@ pub enum CommandError {
 }
 
 impl SelectionText {
-    /// Returns the selection for the operation `name`. If the step `before` is of the same operation, one step is
-    /// enough: returns the selection of `before`. Otherwise returns `self`.
+    /// Returns the selection for the operation `name`. If the step `before` has the same operation, a single step is
+    /// enough. In this case, the returned selection is the one in the step `before`. Otherwise, returns a copy of
+    /// `self`.
     fn without_tag(&self, name: &str) -> Self {
         let elements = self.before.as_deref().and_then(|before| {
             let step = parse(before).value;
@@ -291,8 +292,9 @@ impl Editor {
     ///
     /// # Errors
     ///
-    /// [`CommandError`]. The text is then unchanged. A command that has a selection can be applied only if the scene at
-    /// the step cursor is known, because the selection refers to elements of this scene.
+    /// Returns [`CommandError`] if the command cannot be applied. The text is then unchanged. A command that has a
+    /// selection can be applied only if the scene at the step cursor is known, because the selection refers to elements
+    /// of this scene.
     pub fn apply(&mut self, command: &Command) -> Result<(), CommandError> {
         if command.selection.is_some() && self.preview.is_none() && !self.view().is_current {
             return Err(CommandError::NoScene);

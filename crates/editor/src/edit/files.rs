@@ -20,7 +20,8 @@ impl Editor {
     ///
     /// # Errors
     ///
-    /// Returns [`OpenError`] if the file cannot be read or is neither a recipe nor a model. The document stays.
+    /// Returns [`OpenError`] if the file cannot be read or is neither a recipe nor a model. The editor then keeps its
+    /// current document.
     pub fn open(&mut self, path: &Path) -> Result<(), OpenError> {
         let is_recipe = path
             .extension()

@@ -84,13 +84,13 @@ pub struct Editor {
     /// The scene that is shown as long as the scene at the step cursor is not known.
     shown: Arc<Scene>,
     picked: Option<Picked>,
-    /// Whether the scene that is shown has all picked elements. In a preview, some of the picked elements may be
-    /// missing for a while.
+    /// Whether the scene that is shown has all picked elements. During a preview, some of the picked elements can be
+    /// missing from the scene.
     has_picked: bool,
     /// The selections that describe the picked elements.
     proposals: Proposals,
-    /// The selection that describes the picked elements until another selection is requested. The user has typed it, or
-    /// it describes one picked element.
+    /// The selection that describes the picked elements until another selection is requested. Either the user has typed
+    /// this selection, or a single element is picked and this selection describes it.
     first_proposal: Option<Proposal>,
     proposal: usize,
     indexes: Indexes,
@@ -114,7 +114,7 @@ pub enum OpenError {
 /// The things that have changed since the last call of [`Editor::poll`].
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Update {
-    /// Whether the scene at the cursor may have changed.
+    /// Whether the scene at the cursor has possibly changed.
     pub scene: bool,
     /// Whether the state of the run changed.
     pub run: bool,
@@ -185,7 +185,7 @@ impl Editor {
         &self.registry
     }
 
-    /// Returns the spatial indexes of meshes that are used to pick elements.
+    /// Returns the spatial indexes, which are used to pick elements of meshes.
     pub fn indexes(&self) -> &Indexes {
         &self.indexes
     }
@@ -380,7 +380,7 @@ impl Editor {
     fn result(&self) -> (Option<&Snapshot>, bool) {
         let n = self.cursor + self.preview_steps;
         let (last, is_known) = self.run.result_after(n);
-        // The steps of a recipe with errors may be missing, because they could not be read.
+        // If the recipe has errors, steps can be missing here, because they could not be read.
         let is_before_first = n == 0 && !self.outline.steps.is_empty();
         let is_read = is_before_first
             || !self.run.has_errors()
@@ -403,8 +403,8 @@ impl Editor {
         };
         if !Arc::ptr_eq(&self.shown, &shown) {
             self.shown = shown;
-            // In another scene, the same elements may need another selection, or may not exist. A preview keeps the
-            // picked elements and their selection.
+            // In another scene, it is possible that the picked elements need another selection, or do not exist. A
+            // preview keeps the picked elements and their selection.
             if self.preview.is_none() {
                 self.keep_picked();
             } else {

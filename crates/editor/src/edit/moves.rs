@@ -58,7 +58,7 @@ impl By {
         }
     }
 
-    /// Combines two movements to one movement with the same effect. Returns `None` if they cannot be combined.
+    /// Combines two movements into one movement with the same effect. Returns `None` if they cannot be combined.
     fn then(self, next: Self) -> Option<Self> {
         Some(match (self, next) {
             (Self::Offset(a), Self::Offset(b)) => {

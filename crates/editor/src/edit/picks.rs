@@ -113,8 +113,8 @@ impl Editor {
         matches!(&self.proposals, Proposals::Searching(thread) if !thread.is_finished())
     }
 
-    /// Whether there may be another selection that describes the picked elements. The selections are computed only when
-    /// they are requested, because their computation takes long in a large mesh.
+    /// Whether another selection that describes the picked elements possibly exists. The result is not certain, because
+    /// the selections are computed only when they are requested. Their computation takes long in a large mesh.
     pub fn may_have_other_proposal(&self) -> bool {
         match &self.proposals {
             Proposals::Known(proposals) => proposals.len() > 1,
@@ -144,8 +144,8 @@ impl Editor {
     ///
     /// # Errors
     ///
-    /// [`PickError`] if the scene has no mesh, if the text is not a selection, if the selection is refused, or if it
-    /// selects no elements.
+    /// Returns [`PickError`] if the scene has no mesh, if the text is not a selection, if the selection is refused, or
+    /// if it selects no elements.
     pub fn pick_by_text(&mut self, text: &str, kind: ElementKind) -> Result<(), PickError> {
         let kind = self.picked.as_ref().map_or(kind, Picked::kind);
         let object = if let Some(picked) = &self.picked {
@@ -178,7 +178,7 @@ impl Editor {
         Ok(())
     }
 
-    /// Removes the elements from the picked elements that do not exist in the scene at the step cursor.
+    /// Keeps only those picked elements that exist in the scene at the step cursor.
     pub(super) fn keep_picked(&mut self) {
         let existing = self.existing();
         self.set_picked(existing);

@@ -48,7 +48,7 @@ pub struct PanelField {
     pub default: Option<String>,
     /// The value that the step gives to the parameter, as RON. `None` if the step does not set the parameter.
     pub value: Option<String>,
-    /// If the value is `arg("name")`, the name of this parameter of the recipe.
+    /// If the value is `arg("name")`, the name in the quotes, which is the name of a parameter of the recipe.
     pub argument: Option<String>,
 }
 

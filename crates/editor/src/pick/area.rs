@@ -62,8 +62,8 @@ pub fn pick_area(scene: &Scene, view: &Projection, area: &Area, kind: ElementKin
     all
 }
 
-/// Removes the elements that are hidden by faces of the scene from the picked elements. An edge counts as hidden if its
-/// midpoint is hidden. A face counts as hidden if its center is hidden.
+/// Removes those picked elements that are hidden by faces of the scene. An edge counts as hidden if its midpoint is
+/// hidden. A face counts as hidden if its center is hidden.
 pub fn keep_visible(scene: &Scene, indexes: &Indexes, view: &Projection, picked: &mut Vec<Picked>) {
     let targets = Target::all(scene, indexes, view);
     for set in &mut *picked {

@@ -27,7 +27,7 @@ struct Entry {
     mesh: Weak<Mesh>,
     /// Whether the index was built.
     is_built: bool,
-    /// `None` while the index is built, and if the mesh has no faces.
+    /// `None` while the index is being built, and also if the mesh has no faces.
     index: Option<Arc<SurfaceIndex>>,
 }
 

@@ -28,7 +28,8 @@ const MAX_FACES: usize = 64;
 /// What a pick looks for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum PickMode {
-    /// A vertex, an edge or a face: the smallest element within the radius.
+    /// A vertex if there is one within the radius, otherwise an edge within the radius, otherwise the face at the
+    /// pixel.
     #[default]
     Any,
     /// A vertex.

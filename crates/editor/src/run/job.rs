@@ -171,8 +171,8 @@ impl Job<'_> {
     }
 }
 
-/// Adds the known results of the steps and expectations to the state. Returns how many of the first steps, without a
-/// gap, have known results.
+/// Adds the known results of the steps and expectations to the state. Returns the number of steps before the first step
+/// whose result is not known.
 fn take_known(state: &mut RunState, keys: &StepKeys, snapshots: &mut Snapshots) -> usize {
     let mut known = 0;
     for (step, key) in state.steps.iter_mut().zip(&keys.steps) {
@@ -199,7 +199,7 @@ fn take_verdicts(
 ) {
     let ran = outcome.first..outcome.first + outcome.steps.len();
     for (i, placed) in recipe.expectations.iter().enumerate() {
-        // After the last step of a run that ended early, an expectation may not have been checked.
+        // If a run ended early, the expectations after its last step have possibly not been checked.
         let is_checked = match placed.after {
             None => is_whole,
             Some(after) => ran.contains(&after) && (is_whole || after + 1 < ran.end),
@@ -219,8 +219,8 @@ fn take_verdicts(
     }
 }
 
-/// Returns the message about the end of a run, with all results that are known then. `failures` are the failures of
-/// steps and outputs.
+/// Returns the message about the end of a run, with all results that are known at that time. `failures` are the
+/// failures of steps and outputs.
 fn end_of(
     state: &RunState,
     recipe: &Recipe,

@@ -90,7 +90,7 @@ pub struct Progress {
 
 impl Shared {
     fn lock(&self) -> MutexGuard<'_, Waiting> {
-        // A panic while the lock is held leaves valid state.
+        // If a thread panics while it holds the lock, the state is still valid.
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -205,7 +205,7 @@ fn serve(shared: &Shared, registry: &Registry, store: &Arc<dyn Store>) {
     }
 }
 
-/// Waits for a request, and watches the files while it waits. `None` if the thread must end.
+/// Waits for a request, and watches the files while it waits. Returns `None` if the thread must end.
 fn next_request(shared: &Shared, store: &dyn Store) -> Option<(Request, Arc<AtomicBool>)> {
     let mut state = shared.lock();
     loop {

@@ -18,7 +18,7 @@ pub struct Snapshot {
 }
 
 /// The maximum number of digests that are kept, and the maximum number of results of expectations. If there are more
-/// digests or more results than this, all digests or all results are removed.
+/// digests than this, all digests are removed. The same holds for the results.
 const MAX_RESULTS: usize = 100_000;
 
 /// The known results. If a step does not change a mesh, the scenes before and after the step share the mesh.

@@ -62,8 +62,8 @@ pub struct StepState {
     pub label: String,
     /// The name of the operation.
     pub name: String,
-    /// The index, in the list `steps` of the recipe's text, of the entry from which the step comes. All steps inside
-    /// the same call or repetition have the same index.
+    /// The index of the entry from which the step comes. The index refers to the list `steps` in the recipe's text. All
+    /// steps inside the same call or repetition have the same index.
     pub item: usize,
     /// The index in [`RunState::sources`] of the text that `span` refers to.
     pub source: usize,
@@ -110,8 +110,8 @@ pub struct FailureState {
     /// The places in the scene that the failure is about. If a step has failed, these are places in the scene before
     /// the step.
     pub places: Vec<ErrorLocation>,
-    /// The index of the step that has failed, or of the step after which an expectation does not hold. `None` for the
-    /// end.
+    /// The index of the step that has failed, or of the step after which an expectation does not hold. `None` if the
+    /// failure is one of the end of the run.
     pub step: Option<usize>,
 }
 

@@ -3,7 +3,7 @@
 use mesh::{EdgeId, Element, FaceId, HalfEdgeId, Mesh, VertexId};
 use op::{ElementKind, Selected};
 
-/// Picked elements of one object, in the order of their numbers.
+/// Picked elements of one object, in the order of their indices.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picked {
     /// The name of the object.

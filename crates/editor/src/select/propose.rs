@@ -1,9 +1,9 @@
 //! Finds the selections of recipes that describe the picked elements.
 //!
 //! A selection describes the picked elements if it selects exactly these elements. The most meaningful candidates are
-//! tried first. The order is tags, the boundary, materials, loops and paths, components, thresholds, and numbers. If a
-//! single element is picked, its number is tried first. Each candidate is evaluated on the mesh, and is kept if it
-//! selects exactly the picked elements.
+//! tried first. The order is tags, the boundary, materials, loops and paths, components, thresholds, and lists of
+//! indices. If a single element is picked, its index is tried first. Each candidate is evaluated on the mesh, and is
+//! kept if it selects exactly the picked elements.
 
 use mesh::{Domain, EdgeId, FaceId, Id, MATERIAL, Mesh, Values, VertexId};
 use op::{ElementKind, Selected};
@@ -14,7 +14,7 @@ use scene::{Object, Scene};
 use super::Picked;
 use crate::panel::number;
 
-/// The maximum number of picked elements that are described by a list of their numbers.
+/// The maximum number of picked elements that are described by a list of their indices.
 const MAX_LISTED: usize = 8;
 
 /// A selection that selects exactly the picked elements.
@@ -28,7 +28,7 @@ pub struct Proposal {
 
 /// Returns the selections that select exactly the picked elements of an object. The best selection is the first. The
 /// selections are written as `Expect(count: .., of: ..)`, so that a later run fails if the number of elements has
-/// changed. Lists of numbers and `All` are written without `Expect`.
+/// changed. Lists of indices and `All` are written without `Expect`.
 ///
 /// `stream` is the label of the step, which seeds random choices. The list is empty if nothing is picked, or if the
 /// object is not a mesh.
@@ -211,12 +211,12 @@ fn of_faces(object: &Object, mesh: &Mesh, list: &[FaceId], open: &mut Vec<String
     }
 }
 
-/// Returns a selection that lists the numbers of the elements, if there are only a few elements.
+/// Returns a selection that lists the indices of the elements, if there are only a few elements.
 fn listed(mesh: &Mesh, elements: &Selected) -> Option<String> {
     (elements.len() <= MAX_LISTED).then(|| by_number(mesh, elements))
 }
 
-/// Returns a selection that lists the numbers of the elements.
+/// Returns a selection that lists the indices of the elements.
 fn by_number(mesh: &Mesh, elements: &Selected) -> String {
     match elements {
         Selected::Vertices(list) => format!("Vertices([{}])", joined(list)),
@@ -230,7 +230,7 @@ fn joined<I: Id>(list: &[I]) -> String {
     numbers.join(", ")
 }
 
-/// Returns the end vertices of edges, in the order of the numbers of the vertices.
+/// Returns the end vertices of edges, in the order of the indices of the vertices.
 fn ends(mesh: &Mesh, list: &[EdgeId]) -> Vec<VertexId> {
     let mut ends: Vec<VertexId> = list.iter().flat_map(|&e| mesh.edge_vertices(e)).collect();
     ends.sort_unstable();
@@ -264,7 +264,8 @@ fn between(mesh: &Mesh, e: EdgeId) -> String {
     format!("Between({}, {})", v.min(w), v.max(w))
 }
 
-/// Returns a selection that uses a new tag, and the step that gives this tag to the elements by their numbers.
+/// Returns a selection that uses a new tag. Also returns the step that gives this tag to the elements, which it lists
+/// by their indices.
 fn by_new_tag(mesh: &Mesh, picked: &Picked) -> Proposal {
     let (operation, field, domain) = match picked.kind() {
         ElementKind::Vertices => ("TagVertices", "vertices", Domain::Vertex),
@@ -278,7 +279,7 @@ fn by_new_tag(mesh: &Mesh, picked: &Picked) -> Proposal {
         .expect("a mesh has finitely many tags");
     let name = string_literal(&name);
     let numbers = match &picked.elements {
-        // To select many edges, the list of their end vertices is shorter than the list of the edges.
+        // If there are many edges, the list of their end vertices is shorter than the list of the edges.
         Selected::Edges(list) => {
             let ends = ends(mesh, list);
             if are_all_within(mesh, list, &ends) {

@@ -20,7 +20,7 @@ pub(super) struct Tail {
     pub(super) comma: Option<usize>,
     /// The offset in the text directly after the entry, its comma, and the comments at the end of its line.
     pub(super) end: usize,
-    /// Whether the line ends there.
+    /// Whether the line ends at `end`.
     pub(super) ends_line: bool,
 }
 

@@ -51,13 +51,13 @@ pub struct Beveled {
 /// narrower next to an edge that forms a small angle with the beveled edge.
 ///
 /// The ends of beveled edges are removed. In the result, the remaining vertices come first, in their old order,
-/// followed by the new vertices. Faces keep their ids. The new faces of edges come after the old faces, in the order of
-/// the edges. The new faces of vertices come last, in the order of the vertices. All edges get new ids; edges that
-/// remain keep their values.
+/// followed by the new vertices. Faces keep their ids. The faces that replace edges come after the old faces, in the
+/// order of the edges. The faces that replace vertices come last, in the order of the vertices. All edges get new ids;
+/// edges that remain keep their values.
 ///
 /// Values of new vertices and corners are interpolated in the old faces, at the positions of the new vertices. Values
-/// that cannot be averaged are copied from one corner. The new face of an edge has the values of the face of the edge's
-/// first half-edge. The new face of a vertex has the values of one of the faces around the vertex.
+/// that cannot be averaged are copied from one corner. The face that replaces an edge has the values of the face of the
+/// edge's first half-edge. The face that replaces a vertex has the values of one of the faces around the vertex.
 ///
 /// Edges that cannot be beveled do not change, and are listed in [`Beveled::refused`]. If the bevels at the two ends of
 /// an edge of a face would overlap, no edge at these two ends is beveled. If the result would not be a manifold, no
@@ -101,7 +101,7 @@ pub fn bevel_edges(mesh: &Mesh, edges: &[EdgeId], width: f64) -> Beveled {
     }
 }
 
-/// Returns the length of the shortest edge at an end of one of these edges; infinity if there are no edges.
+/// Returns the length of the shortest edge at an end of one of these edges. Returns infinity if `edges` is empty.
 pub fn shortest_edge_at(mesh: &Mesh, edges: &[EdgeId]) -> f64 {
     let ends = edges.iter().flat_map(|&e| mesh.edge_vertices(e));
     let around = ends.flat_map(|v| mesh.vertex_half_edges(v));
@@ -407,7 +407,7 @@ impl<'m> Bevel<'m> {
         ]
     }
 
-    /// Builds the new mesh; `None` if it would not be a manifold.
+    /// Builds the new mesh. Returns `None` if it would not be a manifold.
     fn build(&self) -> Option<Mesh> {
         let mesh = self.mesh;
         let mut faces: Vec<FaceId> = Vec::new();

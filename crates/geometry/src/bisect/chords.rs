@@ -56,8 +56,8 @@ pub(super) fn chords_along_line(corners: &[Corner], normal: DVec3) -> Vec<[u32; 
     left_chords(corners)
 }
 
-/// Returns the chords inside the polygon; `None` if the corners contradict each other about which parts of the line are
-/// inside.
+/// Returns the chords inside the polygon. Returns `None` if the corners contradict each other about which parts of the
+/// line are inside.
 fn inside_chords(corners: &[Corner], normal: DVec3) -> Option<Vec<[u32; 2]>> {
     let n = corners.len();
     let mut on_line: Vec<usize> = (0..n).filter(|&i| corners[i].height == 0.0).collect();
@@ -252,7 +252,7 @@ mod tests {
 
     #[test]
     fn self_intersecting_polygons_are_cut_too() {
-        // A bow tie intersects itself. A face may have this shape.
+        // A bow tie intersects itself. A face can have this shape.
         let bow = [
             (0., 0.),
             (2., -2.),

@@ -68,7 +68,8 @@ pub struct Bisection {
 ///
 /// Returns [`EditError::BadNumber`] if the normal is zero, if a coordinate is not finite, or if the mesh is so large
 /// that distances are not finite. Returns [`EditError::Pinch`] if a face contains a vertex twice and would be cut from
-/// that vertex to itself. Returns [`EditError::Full`] if the mesh could have too many elements. The mesh is unchanged.
+/// that vertex to itself. Returns [`EditError::Full`] if the cut mesh could have too many elements. After an error, the
+/// mesh is unchanged.
 ///
 /// # Examples
 ///

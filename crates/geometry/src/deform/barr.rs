@@ -16,7 +16,7 @@ pub struct Frame {
     pub axes: [DVec3; 3],
     /// The height at which the deformation starts.
     pub from: f64,
-    /// The height at which the deformation is complete. At least `from`.
+    /// The height at which the deformation is complete, which is at least `from`.
     pub to: f64,
 }
 
@@ -93,7 +93,7 @@ impl Taper {
     }
 }
 
-/// Bends the axis into an arc of a circle, towards the first unit vector:
+/// Bends the axis of the [`Frame`] into an arc of a circle, towards the first of its three unit vectors:
 ///
 /// ```text
 ///     to    |                     .--  to      The axis keeps its length. d is z - from, clamped to [0, to - from].
@@ -112,7 +112,7 @@ pub struct Bend {
     /// The coordinates.
     pub frame: Frame,
     /// The angle between the directions of the bent axis at its two ends, in degrees. A negative angle bends the axis
-    /// away from the first unit vector.
+    /// away from the first unit vector of the [`Frame`].
     pub angle: f64,
 }
 

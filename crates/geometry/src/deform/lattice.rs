@@ -12,7 +12,7 @@ pub struct Lattice {
     pub min: DVec3,
     /// The highest corner.
     pub max: DVec3,
-    /// The number of control points along x, y and z. At least 1.
+    /// The number of control points along x, y and z. Each of these numbers is at least 1.
     pub size: [usize; 3],
     /// The offsets of the control points. The offset of the control point (i, j, k) has the index
     /// `(i * size[1] + j) * size[2] + k`.

@@ -174,7 +174,7 @@ const BLOCK: usize = 1024;
 /// The result of measuring one block of faces.
 #[derive(Default)]
 struct Block {
-    /// The pieces that may have to be cut: their bounds exceed the largest distance of a vertex by more than the
+    /// The pieces that are possibly cut later: their bounds exceed the largest distance of a vertex by more than the
     /// tolerance.
     pieces: Vec<Piece>,
     /// An upper bound of the distances of all points that are not in one of the `pieces`.

@@ -47,7 +47,7 @@ impl Farthest {
         self.sample.hit.lower
     }
 
-    /// Returns the sample that is further away; `self` if both are equally far away.
+    /// Returns the sample that is further away, or `self` if both are equally far away.
     pub(super) fn or(self, other: Option<Self>) -> Self {
         match other {
             Some(other) if other.lower_bound() > self.lower_bound() => other,

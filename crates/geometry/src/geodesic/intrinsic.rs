@@ -156,7 +156,7 @@ impl Intrinsic {
         if t == u {
             return None;
         }
-        // Corners i, j, k and j, i, l.
+        // The corners of the two triangles are i, j, k and j, i, l.
         let turned = |of: [f64; 3], k: usize| [of[k], of[(k + 1) % 3], of[(k + 2) % 3]];
         let (a, b) = (turned(self.lengths[t], k), turned(self.lengths[u], m));
         let (cot, cut) = (cotangent(a), cotangent(b));
@@ -233,7 +233,8 @@ pub(super) fn cotangent([a, b, c]: [f64; 3]) -> f64 {
     (b * b + c * c - a * a) / (4.0 * area([a, b, c]))
 }
 
-/// Returns the points of a mesh, scaled.
+/// Returns the positions of the vertices of a mesh, each scaled by the power of two with this exponent (see
+/// [`scaled`](crate::laplacian::scaled)).
 pub(super) fn scaled_points(mesh: &Mesh, exponent: i32) -> Vec<DVec3> {
     let points = mesh.positions();
     parallel::collect(points.len(), |v| {

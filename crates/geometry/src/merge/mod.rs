@@ -59,8 +59,8 @@ pub enum MergeError {
 ///
 /// # Errors
 ///
-/// Returns [`MergeError::Distance`] if the distance is negative or not finite, [`MergeError::Cancelled`],
-/// and the errors of [`merge_clusters`]. The mesh is unchanged.
+/// Returns [`MergeError::Distance`] if the distance is negative or not finite, and [`MergeError::Cancelled`] if the
+/// computation was canceled. Also returns the errors of [`merge_clusters`]. After an error, the mesh is unchanged.
 ///
 /// # Panics
 ///
@@ -111,8 +111,8 @@ pub fn merge_vertices(
 ///
 /// # Errors
 ///
-/// Returns [`BuildError`] if a position is not finite, or if the result could have more vertices than there are
-/// ids. The mesh is unchanged.
+/// Returns [`BuildError`] if a position is not finite, or if the result could have more vertices than there are ids.
+/// After an error, the mesh is unchanged.
 ///
 /// # Panics
 ///

@@ -11,7 +11,7 @@ use super::size::{LONG, SHORT};
 use super::work::{Work, cross, is_bent, is_turned, quality};
 use super::{Refused, WHAT};
 
-/// The lowest quality to which a collapse may reduce the quality of a triangle.
+/// The lowest quality to which a collapse is allowed to reduce the quality of a triangle.
 const QUALITY: f64 = 0.3;
 
 /// A collapse is refused if an end of the edge would be further from the new triangles than this fraction of the target

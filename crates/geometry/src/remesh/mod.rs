@@ -81,7 +81,7 @@ pub struct Options<'a> {
     pub pinned: &'a [VertexId],
     /// The largest number of passes. Ten are usually enough.
     pub passes: u32,
-    /// The largest number of faces that the mesh may have at any time.
+    /// The largest number of faces that the mesh is allowed to have at any time.
     pub max_faces: usize,
 }
 
@@ -90,11 +90,11 @@ pub struct Options<'a> {
 pub struct Remeshed {
     /// The new mesh, which is [dense](mesh::Mesh::is_dense).
     pub mesh: Mesh,
-    /// The numbers of steps.
+    /// How many steps were performed and refused.
     pub counts: Counts,
 }
 
-/// The numbers of steps that [`remesh`] performed in its last attempt.
+/// How many steps [`remesh`] performed in its last attempt.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
     /// The number of passes.
@@ -107,7 +107,8 @@ pub struct Counts {
     pub collapsed: usize,
     /// The number of edges that were flipped.
     pub flipped: usize,
-    /// The numbers of splits, collapses and flips that were refused in the last pass, in the order of [`Refused::ALL`].
+    /// How many splits, collapses and flips were refused in the last pass: one number for each reason, in the order of
+    /// [`Refused::ALL`].
     refused: [usize; 6],
 }
 

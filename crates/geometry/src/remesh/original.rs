@@ -19,7 +19,7 @@ use crate::surface_index::SurfaceIndex;
 /// Marks a face whose chart is not known yet.
 const NONE: u32 = u32::MAX;
 
-/// The cosine of 40°, the largest angle by which a line may turn at a vertex that is not a corner.
+/// The cosine of 40°. A vertex on a line is a corner if the line turns by more than 40° there.
 const STRAIGHT: f64 = 0.766_044_443_118_978;
 
 /// The original surface.
@@ -306,8 +306,8 @@ fn kinds_to_places(mesh: &Mesh, kinds: &[Kind]) -> Vec<Place> {
     mesh.vertices().map(place).collect()
 }
 
-/// Returns how each vertex may move. In addition to the fixed vertices of [`kinds`], these vertices keep their
-/// positions: corners of lines, sharp vertices, and vertices whose tags would be lost.
+/// Returns how each vertex is allowed to move. In addition to the fixed vertices of [`kinds`], these vertices keep
+/// their positions: corners of lines, sharp vertices, and vertices whose tags would be lost.
 fn fixed_kinds(source: &Mesh, mesh: &Mesh, lines: &[bool], pinned: &[VertexId]) -> Vec<Kind> {
     let kinds = kinds(source, lines, pinned);
     let tags: Vec<&[bool]> = labels(source, Domain::Vertex)

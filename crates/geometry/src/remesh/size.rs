@@ -15,8 +15,8 @@ pub(super) const LONG: f64 = 4.0 / 3.0;
 /// An edge shorter than this multiple of its target length is collapsed.
 pub(super) const SHORT: f64 = 4.0 / 5.0;
 
-/// How fast target lengths may grow along an edge, as a fraction of the length of the edge. The target lengths of
-/// neighboring triangles differ by at most about this fraction.
+/// The most by which the target length is allowed to grow along an edge, as a fraction of the length of the edge. The
+/// target lengths of neighboring triangles differ by at most about this fraction.
 const GROWTH: f64 = 0.5;
 
 /// The target length at each point of the original surface, in its scaled coordinates.

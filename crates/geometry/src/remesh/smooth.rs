@@ -7,8 +7,8 @@ use super::WHAT;
 use super::original::Place;
 use super::work::{Work, cross, is_bent, is_turned};
 
-/// A vertex that would move by less than this fraction of its target length is not moved. Vertices that may lie off the
-/// original surface are always moved.
+/// A vertex that would move by less than this fraction of its target length is not moved. Vertices that possibly lie
+/// off the original surface are always moved.
 const STILL: f64 = 1e-2;
 
 /// The movement of a vertex.

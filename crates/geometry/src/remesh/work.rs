@@ -6,7 +6,7 @@ use super::Counts;
 use super::original::{Original, Place, Track};
 use super::size::Sizes;
 
-/// The smallest cosine of the angle by which one step may turn a triangle.
+/// The smallest cosine of the angle by which one step is allowed to turn a triangle.
 pub(super) const TURN: f64 = 0.5;
 
 /// The mesh between two steps.
@@ -22,7 +22,7 @@ pub(super) struct Work<'a> {
     pub(super) sizes: Vec<f64>,
     /// For each vertex, the number of edges that it should have.
     pub(super) valences: Vec<u8>,
-    /// For each vertex, whether it may lie off the original surface, because it is new.
+    /// For each vertex, whether it possibly lies off the original surface, because it is new.
     pub(super) is_off: Vec<bool>,
     /// For each edge, its location on a chain, if it is a part of a line.
     pub(super) tracks: Vec<Option<Track>>,

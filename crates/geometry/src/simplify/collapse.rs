@@ -161,7 +161,7 @@ impl<'a> Collapser<'a> {
         Ok(this)
     }
 
-    /// Collapses edges until the mesh has at most the requested number of faces, or no remaining edge may be
+    /// Collapses edges until the mesh has at most the requested number of faces, or until no remaining edge can be
     /// collapsed.
     pub(super) fn run(&mut self, progress: &dyn Progress) -> Result<(), Cancelled> {
         let start = self.n_faces;
@@ -281,7 +281,7 @@ impl<'a> Collapser<'a> {
         };
     }
 
-    /// Checks whether an edge may be collapsed. The topology and intersections are not checked here.
+    /// Checks whether the collapse of an edge is allowed. The topology and intersections are not checked here.
     fn plan(&self, e: EdgeId) -> Result<Plan, Blocked> {
         let target = self.target(e)?;
         self.check(e, &target)?;

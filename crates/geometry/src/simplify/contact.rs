@@ -24,7 +24,7 @@ pub(super) struct Contacts {
 }
 
 impl Contacts {
-    /// Builds the tree of a dense mesh of triangles; `None` if it has no faces.
+    /// Builds the tree of a dense mesh of triangles. Returns `None` if the mesh has no faces.
     ///
     /// # Errors
     ///

@@ -47,8 +47,8 @@ use collapse::Collapser;
 /// The options of [`simplify`]: when it stops, and which edges and vertices it keeps.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Options<'a> {
-    /// The number of faces at which simplification stops. The result has this number of faces, one fewer if the
-    /// last collapse removed two faces, or more if no further edge may be collapsed.
+    /// The number of faces at which simplification stops. The result has this number of faces, or one fewer if the last
+    /// collapse removed two faces. It has more faces if no further edge can be collapsed.
     pub faces: usize,
     /// The largest allowed Hausdorff distance between the original and the simplified surface, in scene units; `None`
     /// sets no limit. The limit is guaranteed. Each triangle has a bound on its distance to the original. A collapse

@@ -21,7 +21,7 @@ const ROUNDNESS: f64 = 2e-5;
 /// small that it matters only if many positions have the same distance to the planes.
 const FIRMNESS: f64 = 1e-8;
 
-/// The smallest cosine of the angle by which a collapse may turn a triangle.
+/// The smallest cosine of the angle by which a collapse is allowed to turn a triangle.
 const TURN: f64 = 0.2;
 
 /// The position of the vertex to which an edge would collapse.

@@ -114,7 +114,7 @@ pub struct Smoothing<'a> {
     pub method: Method,
     /// The number of times that the method is applied.
     pub passes: u32,
-    /// For each vertex index, whether the vertex may move. Vertices that may not move keep their exact positions.
+    /// For each vertex index, whether the vertex is allowed to move. All other vertices keep their exact positions.
     pub is_free: &'a [bool],
     /// How boundary vertices move.
     pub boundary: Boundary,

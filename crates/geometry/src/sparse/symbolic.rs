@@ -46,7 +46,7 @@ impl Supernode {
     }
 }
 
-/// Marks the parent of a root of the elimination tree.
+/// Takes the place of the parent of a column that has no parent in the elimination tree.
 const NONE: u32 = u32::MAX;
 
 impl Symbolic {
@@ -222,7 +222,7 @@ fn supernode_ranges(parent: &[u32], counts: &[u32]) -> Vec<Range<usize>> {
     parts.into_iter().map(|part| part.columns).collect()
 }
 
-/// Computes the rows, parents and numbers of children.
+/// Computes the rows, the parent and the number of children of each supernode.
 fn with_rows<I: Iterator<Item = u32>>(
     ranges: Vec<Range<usize>>,
     n: usize,

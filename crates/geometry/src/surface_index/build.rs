@@ -92,8 +92,8 @@ pub(crate) fn triangulate(
     Ok(())
 }
 
-/// Calls `triangle` with the corners of the triangles of a polygon. The first triangle separates the polygon into two
-/// halves. Each half is then divided in the same way.
+/// Calls `triangle` once for each triangle of a polygon, with its corners. The first triangle separates the polygon
+/// into two halves. Each half is then divided in the same way.
 fn halve(
     corners: &[HalfEdgeId],
     triangle: &mut impl FnMut([HalfEdgeId; 3]) -> Result<(), Cancelled>,
@@ -287,7 +287,8 @@ fn collect<T: Send>(
 
 /// Returns the number of nodes of a tree over `n` triangles.
 fn n_nodes(n: usize) -> usize {
-    /// Returns the numbers of nodes for `n` and for `n + 1` triangles.
+    /// Returns the number of nodes of a tree over `n` triangles, and the number of nodes of a tree over `n + 1`
+    /// triangles.
     fn both(n: usize) -> (usize, usize) {
         if n < LEAF {
             return (1, 1);

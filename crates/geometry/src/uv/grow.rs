@@ -24,15 +24,15 @@ const MAX_COST: f64 = 2.0;
 const COPLANAR: f64 = 1.0 - 1e-5;
 const NONE: u32 = u32::MAX;
 
-/// How two regions or charts meet: the length of their common border, and the sum of `length * (1 - cosine)` over the
-/// edges of this border. The cosine is that of the angle between the two faces at an edge.
+/// Describes the common border of two regions or charts: its length, and the sum of `length * (1 - cosine)` over its
+/// edges. Here, `cosine` is the cosine of the angle between the normals of the two faces at an edge.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Meeting {
     pub(super) length: f64,
     pub(super) crease: f64,
 }
 
-/// The measures of a set of faces.
+/// The normal, the area and the border length of a set of faces.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Totals {
     /// The sum of the normals, weighted by area.
@@ -52,8 +52,8 @@ impl Totals {
     }
 }
 
-/// Returns the totals of each of `n` sets of faces, and for each set the sets that it meets. `set_of` has the index of
-/// the set of each face, or [`u32::MAX`] for a face that is in no set.
+/// Returns the [`Totals`] of each of `n` sets of faces, and for each set, its common border with each neighboring set.
+/// For each face, `set_of` contains the index of its set, or [`u32::MAX`] if the face is in no set.
 pub(super) fn meetings(
     surface: &Surface,
     smooth: &[DVec3],
@@ -84,8 +84,9 @@ pub(super) fn meetings(
     (totals, links)
 }
 
-/// Returns the normals of the faces, each averaged several times with the normals of the neighbors. Neighbors at an
-/// angle above 30 degrees are excluded. Without averaging, the borders of charts on noisy scans would be ragged.
+/// Returns the normals of the faces, each averaged several times with the normals of the neighboring faces. A neighbor
+/// whose normal differs by more than 30 degrees is excluded. Without averaging, the borders of charts on noisy scans
+/// would be ragged.
 pub(super) fn smooth_normals(surface: &Surface) -> Vec<DVec3> {
     const ROUNDS: usize = 8;
     const COS_30: f64 = 0.866_025_403_784_438_6;
@@ -169,7 +170,7 @@ struct Growth {
 }
 
 impl Growth {
-    /// Returns how a region meets a chart.
+    /// Returns the common border of a region and a chart.
     fn meeting(&self, region: u32, chart: u32) -> Meeting {
         let links = self.links[region as usize].iter();
         let inside = links.filter(|(other, _)| self.chart_of[**other as usize] == chart);
@@ -251,9 +252,10 @@ impl Growth {
     }
 }
 
-/// Divides the solid faces, which are the faces with a nonzero area, into connected charts. Returns the chart of each
-/// face, which is [`u32::MAX`] for other faces, and the number of charts. When a region is added to a chart, the cosine
-/// of the angle between its normal and the current mean normal of the chart must be at least `min_cosine`.
+/// Divides the solid faces, which are the faces with a nonzero area, into connected charts. Returns the index of the
+/// chart of each face, and the number of charts. The index is [`u32::MAX`] for faces with zero area. When a region is
+/// added to a chart, the cosine of the angle between its normal and the current mean normal of the chart must be at
+/// least `min_cosine`.
 pub(super) fn grow(
     surface: &Surface,
     smooth: &[DVec3],

@@ -11,8 +11,8 @@ use crate::tangent::triangles;
 /// texture. The aspect is the ratio of the longer to the shorter axis of the ellipse: 1 if angles are preserved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stretch {
-    /// The aspect that 95 % of the area of the surface does not exceed. The value is infinite if more than 5 % of the
-    /// surface is mapped to zero area in the texture.
+    /// The 95th percentile of the aspect: on 95 % of the area of the surface, the aspect is at most this value. The
+    /// value is infinite if more than 5 % of the surface is mapped to zero area in the texture.
     pub aspect: f64,
     /// The largest aspect.
     pub max_aspect: f64,
@@ -54,8 +54,8 @@ pub fn stretch(mesh: &Mesh, uvs: &[DVec2]) -> Option<Stretch> {
     })
 }
 
-/// Returns the triangles of all faces with their aspects: how much the texture stretches angles, at least 1. Triangles
-/// with zero area on the surface are left out. See [`Stretch`].
+/// Returns the triangles of all faces with their aspects. The aspect is at least 1, and it is 1 if the texture
+/// preserves the angles of the triangle. Triangles with zero area on the surface are left out. See [`Stretch`].
 pub fn aspects(mesh: &Mesh, uvs: &[DVec2]) -> impl Iterator<Item = ([HalfEdgeId; 3], f64)> {
     triangles(mesh).into_iter().filter_map(|triangle| {
         let (map, _) = jacobian(mesh, uvs, triangle)?;
@@ -75,7 +75,8 @@ pub(super) fn percentile(values: &mut [(f64, f64)], weight: f64) -> f64 {
     at.next().or(values.last()).map_or(1.0, |(value, _)| *value)
 }
 
-/// Returns the derivatives of the texture coordinates along two perpendicular unit vectors of a triangle, and its area.
+/// Returns the derivatives of the texture coordinates along two perpendicular unit vectors in the plane of a triangle,
+/// and the area of the triangle.
 fn jacobian(mesh: &Mesh, uvs: &[DVec2], triangle: [HalfEdgeId; 3]) -> Option<([DVec2; 2], f64)> {
     jacobian_at(
         triangle.map(|h| mesh.position(mesh.origin(h))),
@@ -99,7 +100,7 @@ pub(super) fn jacobian_at(at: [DVec3; 3], uvs: [DVec2; 3]) -> Option<([DVec2; 2]
     Some(([first, (c - a - first * x) / y], area))
 }
 
-/// Returns the ratio of the singular values of a matrix with these columns.
+/// Returns the ratio of the larger to the smaller singular value of the matrix with these columns.
 pub(super) fn aspect([a, b]: [DVec2; 2]) -> f64 {
     let (e, f, g) = (a.dot(a), a.dot(b), b.dot(b));
     let middle = f64::midpoint(e, g);
@@ -161,7 +162,7 @@ pub fn overlapping_faces(
     Ok(faces)
 }
 
-/// Returns the faces of the first two triangles that overlap, in the order of the sweep.
+/// Returns the faces of the first two overlapping triangles that `sweep` finds.
 ///
 /// # Errors
 ///
@@ -217,7 +218,8 @@ fn sweep(
     Ok(())
 }
 
-/// Whether the insides of two triangles overlap: no side of one has the other triangle on its outer side.
+/// Whether the interiors of two triangles overlap. The interiors overlap if no side of either triangle separates it
+/// from the other triangle.
 fn overlap(a: &Flat, b: &Flat) -> bool {
     let separates = |a: &Flat, b: &Flat| {
         (0..3).any(|i| {

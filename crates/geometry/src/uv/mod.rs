@@ -81,8 +81,8 @@ pub struct Charts {
     pub n: usize,
 }
 
-/// Returns the charts of texture coordinates: faces are in one chart if they are connected across edges that have the
-/// same texture coordinates on both sides.
+/// Returns the charts of texture coordinates. Two faces are in the same chart if a path leads from one to the other
+/// across edges that have the same texture coordinates on both sides.
 pub fn charts(mesh: &Mesh, uvs: &[DVec2]) -> Charts {
     let n_faces = mesh.domain_len(mesh::Domain::Face);
     let sets = UnionFind::new(number(n_faces));
@@ -98,7 +98,7 @@ pub fn charts(mesh: &Mesh, uvs: &[DVec2]) -> Charts {
     let mut n = 0;
     for f in mesh.faces() {
         let first = lowest[f.index()] as usize;
-        // Each set is numbered when its face with the lowest id is visited, which is the first of its faces.
+        // The faces are visited in the order of their ids. Each set gets its number when its first face is visited.
         if first == f.index() {
             of_face[first] = n;
             n += 1;
@@ -116,8 +116,8 @@ fn number(index: usize) -> u32 {
     u32::try_from(index).expect("elements have 32-bit ids")
 }
 
-/// Whether the edge of a half-edge is at the border of a chart: a boundary edge, or a seam of these texture
-/// coordinates.
+/// Whether the edge of a half-edge is at the border of a chart. Such an edge is a boundary edge of the mesh, or its
+/// texture coordinates differ between the two sides.
 pub fn is_border(mesh: &Mesh, uvs: &[DVec2], h: HalfEdgeId) -> bool {
     let twin = h.twin();
     if mesh.face(h).is_none() || mesh.face(twin).is_none() {

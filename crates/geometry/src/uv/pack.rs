@@ -26,15 +26,16 @@ pub struct Packed {
     pub coverage: f64,
 }
 
-/// Charts are nested by their shapes only up to this number. The time for nesting grows faster than the number of charts:
-/// for 3,324 charts on a page of 4096 texels, rows are 15 times as fast and cover 61 % of the page instead of 66 %.
+/// Charts are nested by their shapes only up to this number. More charts are packed in rows, because the time for
+/// nesting grows faster than the number of charts. For 3,324 charts on a page of 4096 texels, rows are 15 times as fast
+/// as nesting, but cover only 61 % of the page instead of 66 %.
 const MAX_NESTED: usize = 256;
 
-/// Triangles whose area is at most this fraction of the area of their chart do not take part in packing.
+/// Triangles whose area is at most this fraction of the area of their chart are ignored when charts are packed.
 const MIN_AREA: f64 = 1e-11;
 
 /// The shortest edge of a convex hull, as a fraction of the size of the hull. The crate `uvunwrap` leaves out triangles
-/// whose height is below 1e-6 times the diagonal. A hull without these triangles could fall into parts.
+/// whose height is below 1e-6 times the diagonal. A hull without these triangles could fall apart into several pieces.
 const MIN_EDGE: f64 = 4e-6;
 
 /// One chart before it is packed.
@@ -56,7 +57,7 @@ struct Shape {
     positions: Vec<[f32; 3]>,
     uvs: Vec<[f32; 2]>,
     indices: Vec<u32>,
-    /// The points in `positions` and `uvs`, as 64-bit numbers.
+    /// The same points as in `positions` and `uvs`, but as 64-bit numbers.
     points: Vec<DVec2>,
 }
 
@@ -81,7 +82,7 @@ pub fn pack(
         .iter()
         .filter(|chart| chart.scale.is_some())
         .collect();
-    // The scales are relative to the largest chart, so that 32-bit numbers can hold them.
+    // The scales are relative to the scale of the largest chart, so that they fit into 32-bit numbers.
     let largest = solid.iter().flat_map(|chart| {
         let corners = chart.triangles.iter().flatten();
         corners.map(|&h| places(chart, h).abs().max_element())

@@ -6,7 +6,7 @@ use super::number;
 use crate::merge::union_find::UnionFind;
 use crate::tangent::triangles;
 
-/// A triangle counts as having no area if twice its area is at most this fraction of the square of its longest side.
+/// The area of a triangle counts as zero if twice the area is at most this fraction of the square of the longest side.
 const MIN_HEIGHT: f64 = 1e-8;
 
 /// A mesh, scaled so that its bounding box has a size of 1, with the triangles, normals and areas of its faces. Faces
@@ -21,7 +21,7 @@ pub(super) struct Surface<'a> {
     starts: Vec<usize>,
     /// The unit normals, or zero for faces without area.
     pub(super) normals: Vec<DVec3>,
-    /// The areas. A face is solid if its area is positive; other faces belong to no chart.
+    /// The areas. Faces with zero area belong to no chart.
     pub(super) areas: Vec<f64>,
     is_seam: Vec<bool>,
 }
@@ -67,14 +67,15 @@ impl<'a> Surface<'a> {
         self.mesh.face_half_edges(FaceId::new(f as usize))
     }
 
-    /// Returns the solid face on the other side of a half-edge, unless the edge is a seam.
+    /// Returns the face on the other side of a half-edge. Returns `None` if the edge is a seam, or if there is no such
+    /// face or its area is zero.
     pub(super) fn across(&self, h: HalfEdgeId) -> Option<u32> {
         let f = self.mesh.face(h.twin())?;
         let is_joined = !self.is_seam[h.edge().index()] && self.areas[f.index()] > 0.0;
         is_joined.then(|| number(f.index()))
     }
 
-    /// Returns the half-edges of a face that have a face on the other side, with that face. See [`Self::across`].
+    /// Returns the half-edges of a face for which [`Self::across`] finds a face on the other side, each with that face.
     pub(super) fn neighbors(&self, f: u32) -> impl Iterator<Item = (HalfEdgeId, u32)> + '_ {
         self.half_edges(f)
             .filter_map(|h| Some((h, self.across(h)?)))
@@ -110,8 +111,8 @@ pub(super) fn unit_positions(mesh: &Mesh) -> Vec<DVec3> {
     points.map(|p| (unit(p) - middle) / extent).collect()
 }
 
-/// A connected set of faces that is cut open along its border and along the seams inside it. Its vertices are sets of
-/// corners that are connected across edges, so the two sides of a cut have different vertices.
+/// A connected set of faces that is cut open along its border and along the seams inside it. Each vertex of a part is a
+/// set of corners that are connected across uncut edges, so the two sides of a cut have different vertices.
 pub(super) struct Part {
     /// The faces, ascending.
     pub(super) faces: Vec<u32>,

@@ -16,8 +16,8 @@ pub struct UnwrapOptions<'a> {
     /// The largest angle between the normal of a face and the mean normal of its chart, in degrees, strictly between 0
     /// and 90.
     pub max_angle: f64,
-    /// The largest ratio between the area scale of a triangle and that of its chart, the larger scale divided by the
-    /// smaller one. The area scale is the area in the texture, divided by the area on the surface. At least 1.
+    /// The maximum factor, at least 1, by which the area scale of a triangle can be larger or smaller than that of its
+    /// chart. The area scale is the area in the texture, divided by the area on the surface.
     pub max_stretch: f64,
     /// The size of the texture.
     pub page: Page,
@@ -32,7 +32,8 @@ pub struct Unwrapped {
     pub charts: Charts,
     /// The area of the charts, as a fraction of the page.
     pub coverage: f64,
-    /// The faces with a triangle whose area in the texture is zero, or too small for 32-bit numbers.
+    /// The faces that contain a triangle whose area in the texture is zero, or becomes zero when the coordinates are
+    /// rounded to 32 bits.
     pub flat: Vec<FaceId>,
     /// The polygons that are bent so far that they overlap themselves in the texture.
     pub bent: Vec<FaceId>,
@@ -46,9 +47,9 @@ pub struct Unwrapped {
 /// of Liu, Zhang, Xu, Gotsman, Gortler ("A Local/Global Approach to Mesh Parameterization", 2008). A chart is cut in
 /// two if it would overlap itself or be stretched too much. In the result, each chart has an aspect of at most 1.15 on
 /// 95 % of its area (see [`Stretch`](super::Stretch)). Charts that meet are joined again if the joined chart neither
-/// overlaps itself nor is stretched too much. Then the faces of a chart are divided among the charts around it, if these
-/// charts remain within the same limits. All charts have the same scale. No chart is mirrored, and no polygon is
-/// split. The charts are packed by [`pack`].
+/// overlaps itself nor is stretched too much. Finally, a chart is dissolved if its faces can be divided among the
+/// charts around it without exceeding the same limits. All charts have the same scale. No chart is mirrored, and no
+/// polygon is split. The charts are packed by [`pack`].
 ///
 /// The result does not depend on the number of threads or the processor.
 ///
@@ -71,7 +72,7 @@ pub fn unwrap(
     };
     let list = cut::charts(&surface, limits, progress)?;
     let mut uvs = vec![DVec2::ZERO; mesh.n_half_edges()];
-    // Charts are side by side, so that no two of them have the same coordinates at an edge.
+    // The charts are placed side by side, so that two charts never have the same coordinates at an edge.
     let mut at = 0.0;
     for chart in &list {
         let low = chart.uvs.iter().copied().fold(DVec2::MAX, DVec2::min);

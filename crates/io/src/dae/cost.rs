@@ -1,6 +1,6 @@
 //! The approximate costs in bytes of the parts of a file, for its memory budget.
 
-/// The memory budget of a file is its size in bytes times this factor, but at least [`MIN_BUDGET`].
+/// The memory budget of a file, in bytes, is its size times this factor, but at least [`MIN_BUDGET`].
 pub(super) const BUDGET_FACTOR: usize = 64;
 /// The smallest memory budget of a file, in bytes.
 pub(super) const MIN_BUDGET: usize = 1 << 24;

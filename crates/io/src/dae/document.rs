@@ -29,7 +29,7 @@ pub(super) fn decoded(bytes: &[u8]) -> Result<Cow<'_, str>, Fault> {
     })
 }
 
-/// Parses `text`. Document type declarations are refused, so only the five predefined entities can be used.
+/// Parses `text`. Document type declarations are refused, so the text can use only the five predefined entities of XML.
 ///
 /// # Errors
 ///
@@ -107,7 +107,7 @@ fn check_size(text: &str) -> Result<(), Fault> {
     Ok(())
 }
 
-/// The position of a byte. Lines end in LF.
+/// Returns the line and the column of the byte at offset `at`. Lines end with a line feed.
 fn place_at(text: &str, at: usize) -> TextPosition {
     let before = &text.as_bytes()[..at.min(text.len())];
     let mut lines = before.split(|&b| b == b'\n');
@@ -117,10 +117,11 @@ fn place_at(text: &str, at: usize) -> TextPosition {
     }
 }
 
-/// The code of a note, and the text of the note after the count.
+/// The code of a note, and the text that follows the count in the message.
 pub(super) type What = (&'static str, &'static str);
 
-/// The count and the first line of each note. The key is the kind, the text and the code of the note.
+/// For each note, the count and the line of the first element that was counted. The key is the kind, the text and the
+/// code of the note.
 type Tally = BTreeMap<(NoteKind, &'static str, &'static str), (usize, usize)>;
 
 /// A file, with its elements by id.
@@ -131,7 +132,8 @@ pub(super) struct Document<'a> {
     pub(super) size: usize,
     /// The content that was left out or changed.
     tally: RefCell<Tally>,
-    /// The remaining memory budget of the file in bytes. Instances can repeat geometries, but only within this budget.
+    /// The remaining memory budget of the file in bytes. A file can instantiate a geometry several times, but only
+    /// within this budget.
     budget: Cell<usize>,
 }
 
@@ -175,7 +177,7 @@ impl<'a> Document<'a> {
 
     fn add(&self, kind: NoteKind, count: usize, node: Node, what: What) {
         if count > 0 {
-            // Determining the line of a node is slow, so a note has only the line of its first node.
+            // Determining the line of an element is slow, so a note contains only the line of the first element.
             let mut all = self.tally.borrow_mut();
             let (sum, _) = all
                 .entry((kind, what.1, what.0))
@@ -340,7 +342,7 @@ fn words(node: Node<'_>) -> impl Iterator<Item = &str> {
 ///
 /// # Errors
 ///
-/// The position of the first word that is not a finite number.
+/// Returns an error at the first word that is not a finite number.
 pub(super) fn numbers(node: Node) -> Result<Vec<f64>, Fault> {
     let parse = |word: &str| {
         let number = number(TextPosition::START, word.as_bytes());
@@ -373,7 +375,8 @@ pub(super) fn push_indices(node: Node, list: &mut Vec<u32>) -> Result<(), Fault>
     Ok(())
 }
 
-/// The position of a word in the text of an element. If the text contains an entity, the position of the element.
+/// Returns the position of a word in the text of an element. If the text contains an entity, returns the position of
+/// the element.
 fn word_place(node: Node, word: &str) -> TextPosition {
     let text = node.document().input_text();
     let offset = (word.as_ptr() as usize).checked_sub(text.as_ptr() as usize);
@@ -383,7 +386,7 @@ fn word_place(node: Node, word: &str) -> TextPosition {
     }
 }
 
-/// Creates an error at the position of a word. The index `k` counts all words of the `lists`.
+/// Creates an error at the position of word `k`. Words are counted from 0 over the texts of all `lists`.
 pub(super) fn word_error(lists: &[Node], mut k: usize, message: String) -> Fault {
     for &list in lists {
         for word in words(list) {

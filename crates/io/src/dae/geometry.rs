@@ -42,13 +42,13 @@ impl Surface<'_> {
     }
 }
 
-/// Reads geometries. Vectors that several geometries use are read only once.
+/// Reads geometries. Lists of vectors that several geometries use are read only once.
 pub(super) struct Geometries<'a, 'd> {
     pub(super) document: &'d Document<'a>,
     sources: BTreeMap<(u32, usize), Rc<Vectors>>,
 }
 
-/// The kind of vectors in an input.
+/// What the vectors of an input mean.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Normal,
@@ -58,7 +58,7 @@ enum Kind {
 
 struct Input<'a> {
     kind: Kind,
-    /// The position of the index of this input among the indices of a corner.
+    /// The offset of the index for this input among the indices of a corner.
     offset: usize,
     source: Node<'a>,
 }
@@ -67,7 +67,7 @@ struct Input<'a> {
 struct Inputs<'a> {
     /// The number of indices per corner.
     stride: usize,
-    /// The position of the vertex index among the indices of a corner.
+    /// The offset of the vertex index among the indices of a corner.
     vertex: usize,
     /// The element with the positions.
     vertices: Node<'a>,
@@ -92,7 +92,7 @@ impl<'a, 'd> Geometries<'a, 'd> {
     ///
     /// # Errors
     ///
-    /// The first error in the geometry.
+    /// Returns the first error in the geometry.
     pub(super) fn surface(&mut self, geometry: Node<'a>) -> Result<Option<Surface<'a>>, Fault> {
         let Some(mesh) = child(geometry, "mesh") else {
             return Ok(None);

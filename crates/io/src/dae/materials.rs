@@ -22,7 +22,7 @@ enum ChannelValue {
 ///
 /// # Errors
 ///
-/// The first error in the material.
+/// Returns the first error in the material.
 pub(super) fn material<'a>(
     document: &Document<'a>,
     node: Node<'a>,

@@ -1,4 +1,4 @@
-//! COLLADA 1.4 and 1.5 (`.dae`), read only.
+//! Reads COLLADA 1.4 and 1.5 (`.dae`). These files cannot be written.
 //!
 //! ```text
 //! visual_scene --- node --- node --- instance_geometry --- geometry --- mesh --- polylist --- source
@@ -26,8 +26,8 @@
 //! Corners without a normal or a texture coordinate get zero, and corners without a color get white. If a file has no
 //! scene, each of its geometries becomes an object. A file can refer to other files, of which only images are read.
 //!
-//! Document type declarations are refused, so that entities cannot expand. Instances can repeat content, but the memory
-//! that a file can use is limited to 64 times its size, or to 16 MiB if that is more.
+//! Document type declarations are refused, so that entities cannot expand. A file can instantiate the same content
+//! several times, but the memory for its content is limited to 64 times its size, or to 16 MiB if that is more.
 
 mod cost;
 mod document;
@@ -55,7 +55,7 @@ use nodes::{PlacedGeometry, placed};
 ///
 /// # Errors
 ///
-/// The first error in the file.
+/// Returns the first error in the file.
 pub(crate) fn read(
     bytes: &[u8],
     name: &str,
@@ -67,11 +67,11 @@ pub(crate) fn read(
     })
 }
 
-/// Returns the objects that reading would give, with their counts.
+/// Returns the objects that reading the file would give, with the numbers of their elements.
 ///
 /// # Errors
 ///
-/// The errors of [`read`].
+/// Returns an error in the same cases as [`read`].
 pub(crate) fn peek(bytes: &[u8], name: &str, notes: &mut Notes) -> Result<Vec<PeekObject>, Fault> {
     each_object(bytes, name, notes, |name, object| {
         let geometry = PeekGeometry::Mesh(object.counts());

@@ -41,7 +41,7 @@ fn name(node: Node<'_>) -> &str {
 ///
 /// # Errors
 ///
-/// The first error in the nodes.
+/// Returns the first error in the nodes.
 pub(super) fn placed<'a>(
     document: &Document<'a>,
     notes: &mut Notes,
@@ -185,8 +185,7 @@ impl<'a, 'd> Walk<'a, 'd> {
                 );
                 continue;
             };
-            // Several copies of the name of the object are stored, so the length of the name is also taken from the
-            // budget.
+            // The name of the object is stored several times, so its length is also taken from the budget.
             let names = name(node).len() + name(geometry).len();
             self.document.take(instance, cost::OBJECT + 8 * names)?;
             let materials = self.bound_materials(instance)?;

@@ -1,5 +1,5 @@
-//! Reads how the indices of a list form polygons: as triangles, as polygons with given numbers of corners, as strips or
-//! as fans.
+//! Reads how the indices of a list form polygons. They form triangles, polygons with declared numbers of corners,
+//! strips or fans.
 
 use super::document::{
     Document, Node, child, elements, error_at, is, named, natural, push_indices, required,

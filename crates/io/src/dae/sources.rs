@@ -37,8 +37,7 @@ impl Vectors {
 
 /// Reads the vectors of a source. If the accessor has all `names`, the components of the vectors are in the order of
 /// `names`; otherwise, they are in the order of the accessor. Also returns the length of the array, which is read as a
-/// whole. The length of the array can exceed the number of components of all vectors, because several sources can share
-/// an array.
+/// whole. The array can be longer than all vectors together, because several sources can share an array.
 ///
 /// # Errors
 ///
@@ -115,7 +114,7 @@ fn components(accessor: Node, names: &[&str]) -> Result<Vec<usize>, Fault> {
             (0..stride.min(4)).collect()
         }
         Some(ordered) => {
-            // Components without one of the `names`, such as the alpha of a color, come last.
+            // Components whose name is not in `names`, such as the alpha of a color, come last.
             let further =
                 (0..params.len()).filter(|i| !ordered.contains(i) && !params[*i].is_empty());
             ordered.iter().copied().chain(further).collect()

@@ -14,7 +14,7 @@ use super::views::{Reader, Rows};
 use crate::fault::Fault;
 use mesh::parallel;
 
-/// The number of elements that an accessor without a buffer view can always have, even in a tiny file. All elements of
+/// An accessor without a buffer view is allowed to have this number of elements even in a tiny file. All elements of
 /// such an accessor are zero, unless sparse values replace them.
 const MIN_ZEROS: u64 = 1 << 16;
 impl Reader<'_> {
@@ -64,7 +64,7 @@ impl Reader<'_> {
         Err(Fault::json(format!("{here}/componentType"), message))
     }
 
-    /// Reads the numbers of an accessor of this type into one list, rounded to 32 bits.
+    /// Reads the elements of an accessor of this type. Returns their numbers in one list, rounded to 32 bits.
     ///
     /// # Errors
     ///
@@ -183,7 +183,7 @@ impl Reader<'_> {
         if has_non_finite.into_inner() {
             let finite = |bytes: &[u8]| i32::from(general(bytes).iter().all(|x| x.is_finite()));
             let finite = self.elements(index, multiplicity, component, 1, finite)?;
-            // If sparse values replace all non-finite values, there is no error.
+            // A non-finite value causes no error if a sparse value replaces it.
             if let Some(i) = finite.iter().position(|&is| is == 0) {
                 let message = format!("element {i} is not a finite number");
                 return Err(Fault::json(here, message));

@@ -9,9 +9,9 @@ const BUDGET_FACTOR: u64 = 64;
 /// The smallest budget of a file, in bytes.
 const MIN_BUDGET: u64 = 1 << 24;
 
-/// Each byte of a buffer with compressed views increases the budget as much as this number of bytes of uncompressed
+/// A byte of a buffer with compressed views increases the budget this many times as much as a byte of uncompressed
 /// data. Compressed data needs a larger budget, because it gives a larger mesh than uncompressed data of the same size.
-/// A triangle with its share of the vertices takes two bytes in a compressed view, and at least twenty bytes in an
+/// On average, a triangle with its vertices takes two bytes in a compressed view, and at least twenty bytes in an
 /// uncompressed view.
 const COMPRESSED: u64 = 4;
 
@@ -19,7 +19,7 @@ const COMPRESSED: u64 = 4;
 #[derive(Default)]
 pub(super) struct Budget {
     left: Cell<u64>,
-    /// The number of bytes that decoded views can still take.
+    /// The number of bytes that is left for decoded views.
     inflation: Cell<u64>,
 }
 
@@ -35,7 +35,7 @@ impl Budget {
         budget
     }
 
-    /// Increases the budget by the amount for `size` additional bytes of input.
+    /// Increases the budget because `size` additional bytes of input were read.
     pub(super) fn grant(&self, size: u64) {
         let more = size.saturating_mul(BUDGET_FACTOR);
         for bytes in [&self.left, &self.inflation] {

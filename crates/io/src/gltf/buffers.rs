@@ -43,8 +43,8 @@ pub(crate) fn document_of(store: &dyn Store, path: &Path) -> Result<Vec<u8>, Rea
     Ok(bytes.split_off(HEAD.min(bytes.len())))
 }
 
-/// Returns the JSON and the binary chunk of a GLB file. If a file does not begin like a GLB file, all of its bytes are
-/// returned as JSON.
+/// Returns the JSON and the binary chunk of a GLB file. If the file does not begin with the header of a GLB file,
+/// returns all of its bytes as JSON.
 ///
 /// # Errors
 ///
@@ -121,8 +121,7 @@ pub(super) fn load<'a>(
         let mut bytes = match &buffer.uri {
             None => {
                 let chunk = if i == 0 { binary.take() } else { None };
-                // A buffer without data is treated as empty. If a buffer without data declares a length other than 0,
-                // the buffer is refused below.
+                // A buffer without data is treated as empty. If it declares a length other than 0, it is refused below.
                 Cow::Borrowed(chunk.unwrap_or_default())
             }
             Some(uri) => {

@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 use super::meshopt::{Filter, MESHOPT, encode_attributes, encode_triangles};
 use super::pieces::Piece;
 
-/// How an array can be compressed.
+/// Describes how the elements of an array are compressed.
 pub(super) struct Array {
     mode: &'static str,
     stride: usize,
@@ -21,7 +21,8 @@ pub(super) struct Array {
 }
 
 impl Array {
-    /// Creates the encoding of elements that have `stride` bytes before the filter is applied.
+    /// Creates the encoding of attributes whose encoded elements have `stride` bytes. `filter` is the filter that the
+    /// reader applies after decoding.
     pub(super) fn attribute(stride: usize, filter: Filter) -> Self {
         Self {
             mode: "ATTRIBUTES",
@@ -48,8 +49,8 @@ impl Array {
     }
 }
 
-/// Compresses the pieces whose views are in `arrays`, and returns all pieces at their new positions. There is one piece
-/// for each view.
+/// Compresses the pieces of the buffer whose views are in `arrays`, and returns all pieces at their new positions.
+/// There is one piece for each view.
 pub(super) fn compress<'a>(
     views: &mut [Value],
     buffers: &mut Vec<Value>,

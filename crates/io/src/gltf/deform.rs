@@ -17,8 +17,8 @@ use super::deformers::Deformers;
 use super::views::Reader;
 use crate::fault::Fault;
 
-/// The sum of the weights of a vertex counts as 1 if it differs from 1 by at most this tolerance times the number of
-/// weights. The Khronos validator uses the same tolerance.
+/// The sum of the weights of a vertex is accepted as 1 if it differs from 1 by at most this tolerance times the number
+/// of weights. The Khronos validator uses the same tolerance.
 pub(super) const WEIGHT_TOLERANCE: f64 = 2e-7;
 
 /// Counts the values that are repaired or left out while attributes are read. The key is a description for the note.
@@ -210,12 +210,12 @@ pub(super) fn morphs(
 /// The normals or tangents of a mesh, and the morph targets that change them.
 pub(super) struct Directions {
     semantic: Semantic,
-    /// Returns the accessor of the changes of a morph target.
+    /// Returns the accessor with the changes that a morph target makes to these directions.
     changes: fn(&MorphTarget) -> Option<&Index<Accessor>>,
-    /// Returns the name of the attribute with the changed directions of a morph target.
+    /// Returns the name of the attribute that stores the directions changed by a morph target.
     name: fn(usize) -> String,
     rule: Rule,
-    /// The morph targets with changes, in ascending order.
+    /// The indices of the morph targets that change these directions, in ascending order.
     targets: Vec<usize>,
 }
 
@@ -244,7 +244,8 @@ impl Directions {
         tangents.of(primitives)
     }
 
-    /// Finds the morph targets. If a primitive has no normals or tangents itself, changes to them are ignored.
+    /// Finds the morph targets that change these directions. The changes of a primitive are ignored if the primitive
+    /// does not have these directions itself.
     fn of(mut self, primitives: &[Primitive]) -> Self {
         let semantic = Checked::Valid(self.semantic.clone());
         let primitives = primitives.iter();
@@ -261,10 +262,10 @@ impl Directions {
         self.targets.iter().map(|&t| (self.name)(t))
     }
 
-    /// Reads the directions that each morph target gives with the weight 1, into one column of `n` values for each
-    /// target. `own` are the directions of the primitive. Each direction has three or more numbers, of which morph
-    /// targets change the first three. If the primitive has no directions, the columns are zero. `here` is the location
-    /// of the primitive, for errors.
+    /// Reads the directions that result if a morph target has the weight 1, into one column of `n` values for each
+    /// target. `own` contains the unchanged directions of the primitive. Each direction has three or more numbers, of
+    /// which morph targets change the first three. If the primitive has no directions, the columns are zero. `here` is
+    /// the location of the primitive, for errors.
     ///
     /// # Errors
     ///
@@ -319,7 +320,7 @@ impl Directions {
 ///
 /// # Errors
 ///
-/// Returns an error if the accessor has `found` elements, and `found` is not `n`.
+/// Returns an error if `found`, the number of elements of the accessor, is not `n`.
 pub(super) fn expect_len(found: usize, n: usize, at: &str) -> Result<(), Fault> {
     if found == n {
         return Ok(());

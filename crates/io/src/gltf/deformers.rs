@@ -1,19 +1,19 @@
-//! The numbers of joints and morph targets that deform the meshes of a document.
+//! Counts the joints and the morph targets that deform each mesh of a document.
 
 use gltf_json::mesh::Semantic;
 use gltf_json::validation::Checked;
 
 use super::document::Document;
 
-/// The numbers of joints and morph targets that deform a mesh, according to the JSON.
+/// How many joints and morph targets deform a mesh, according to the JSON.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Deformers {
     /// The number of sets of joints and weights.
     pub(super) weight_sets: u32,
     /// The number of morph targets.
     pub(super) targets: usize,
-    /// The number of joints that vertices can refer to. If several skins deform the mesh, this is the smallest number
-    /// of joints that one of these skins has. `None` if no node with the mesh has a skin.
+    /// The number of joints that vertices can refer to. If several skins deform the mesh, this is the number of joints
+    /// of the smallest skin. `None` if no node with the mesh has a skin.
     pub(super) joints: Option<usize>,
 }
 

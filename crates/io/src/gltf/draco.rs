@@ -6,9 +6,9 @@
 //!                 attributes: the ids of the attributes in the stream
 //! ```
 //!
-//! The crate `draco-core` decodes streams into additional buffers, with a buffer view for each accessor, so that the
-//! other modules of the reader find uncompressed data. If a file also has uncompressed data, that data is read instead
-//! of the stream.
+//! The crate `draco-core` decodes the streams. The results become additional buffers with a buffer view for each
+//! accessor, so the other modules of the reader find uncompressed data. If a file also has uncompressed data, that data
+//! is read instead of the stream.
 
 use std::borrow::Cow;
 
@@ -38,7 +38,7 @@ const LARGEST: u64 = 512;
 ///
 /// # Errors
 ///
-/// The first primitive that cannot be decoded, or that does not match its accessors.
+/// Returns an error for the first primitive that cannot be decoded or does not match its accessors.
 pub(super) fn decode(
     document: &mut Document,
     buffers: &mut Vec<Cow<'_, [u8]>>,

@@ -39,7 +39,7 @@ impl Compressed {
 ///
 /// # Errors
 ///
-/// The first invalid extension.
+/// Returns an error for the first invalid extension.
 pub(super) fn compressed(meshes: &[Value], accessors: &[Value]) -> Result<Vec<Compressed>, Fault> {
     let has_data = |accessor: &Value| {
         let accessor = accessor.as_u64().and_then(|i| usize::try_from(i).ok());

@@ -1,5 +1,5 @@
-//! Counts the content of a document that the reader leaves out, although its kind is supported: parts that the scene
-//! does not use, and members of parts that a scene cannot store.
+//! Counts the content of a document that the reader leaves out although it supports this kind of content. Such content
+//! is a part that the scene does not use, or a member that a scene cannot store.
 
 use std::collections::BTreeMap;
 

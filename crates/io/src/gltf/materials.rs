@@ -61,7 +61,8 @@ impl<'a> Materials<'a> {
         to.normal_texture = texture(&from.normal_texture, "normalTexture")?;
         to.occlusion_texture = texture(&from.occlusion_texture, "occlusionTexture")?;
         to.emissive_texture = texture(&from.emissive_texture, "emissiveTexture")?;
-        // Scale and strength are read only if the texture exists.
+        // The scale of the normal texture and the strength of the occlusion texture are read only if the texture
+        // exists.
         if let (Some(info), Some(_)) = (&from.normal_texture, &to.normal_texture) {
             to.normal_scale = rounded(info.scale.unwrap_or(1.0));
         }
@@ -182,7 +183,7 @@ fn decoded(uri: &str) -> String {
     crate::assets::percent_decoded(uri).unwrap_or_else(|| uri.to_owned())
 }
 
-/// Whether a string begins with the scheme of a URI. A single letter before the colon is a drive, not a scheme.
+/// Whether a string begins with the scheme of a URI. A single letter before a colon is a Windows drive, not a scheme.
 pub(super) fn has_scheme(uri: &str) -> bool {
     uri.split_once(':').is_some_and(|(scheme, _)| {
         let is_fine = |c: char| c.is_ascii_alphanumeric() || "+-.".contains(c);

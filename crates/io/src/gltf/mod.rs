@@ -1,4 +1,4 @@
-//! glTF 2.0, as JSON text (`.gltf`) and as a binary file (`.glb`).
+//! Reads and writes glTF 2.0, as JSON text (`.gltf`) and as a binary file (`.glb`).
 //!
 //! ```text
 //! node --- node --- mesh --- primitive --- accessor --- buffer view --- buffer
@@ -41,9 +41,9 @@
 //! | other scenes, and all parts that the scene does not use | left out, with a note |
 //! | names of accessors, buffer views and buffers | not kept: the writer creates new ones |
 //!
-//! With [`Placements::Bake`](crate::Placements::Bake), each node with a mesh becomes an object, the transforms are
-//! applied to positions, normals and tangents, and there is no graph. Skinned meshes get the pose of their joints. If a
-//! transform is a reflection, the faces are reversed.
+//! With [`Placements::Bake`](crate::Placements::Bake), each node with a mesh becomes an object, the transform of the
+//! node is applied to the positions, normals and tangents, and the scene has no graph. Skinned meshes are deformed to
+//! the pose of their joints. If a transform is a reflection, the orientation of the faces is reversed.
 //!
 //! Accessors can be interleaved or sparse. The elements of an accessor can be integers, including normalized integers.
 //! If an accessor has no view, all its values are zero, unless sparse values replace them. Buffers are files inside the
@@ -62,9 +62,9 @@
 //! | other optional extensions | left out, with a note |
 //!
 //! The writer uses the first table from right to left, to convert a scene to glTF. A glTF file has a separate vertex
-//! for each side of a seam. Therefore, the writer splits each vertex whose corners differ, and the reader merges the
-//! resulting vertices again. The writer creates one primitive for each material. Writing a scene and reading it again
-//! preserves the scene, with these exceptions:
+//! for each side of a seam. Therefore, the writer splits each vertex whose corners have different values, and the
+//! reader merges the resulting vertices again. The writer creates one primitive for each material. Writing a scene and
+//! reading it again preserves the scene, with these exceptions:
 //!
 //! - numbers are rounded to 32 bits; if a position or the placement of a node exceeds the range of 32-bit numbers, the
 //!   scene is refused; texture coordinates, custom attributes and deltas of morph targets beyond this range become 0,
@@ -83,8 +83,9 @@
 //! Every loss is reported as a [`Loss`](crate::Loss), and content that the reader leaves out or changes is reported as
 //! a [`Note`](crate::Note).
 //!
-//! A file can repeat content, such as a mesh that several nodes reference. However, the memory that a file can use is
-//! limited to 64 times its size (more if it is compressed), or to 16 MiB if that is more.
+//! A file can use the same content several times, such as a mesh that several nodes reference. However, the memory that
+//! the content of a file can take is limited to 64 times its size (more if it is compressed), or to 16 MiB if that is
+//! more.
 //!
 //! Each part of the JSON is deserialized separately into the types of `gltf_json`. Therefore, an error is reported with
 //! the JSON pointer of the part in which it occurs. Errors in parts that are not read are ignored.

@@ -1,4 +1,4 @@
-//! The names of attributes in glTF and in a mesh.
+//! Converts between the names of attributes in glTF and in a mesh.
 //!
 //! ```text
 //! NORMAL <-> normal    TEXCOORD_0 <-> uv     TEXCOORD_n <-> uvn
@@ -33,7 +33,7 @@ fn custom_name(name: &str) -> String {
     }
 }
 
-/// Whether a name is reserved for a predefined attribute of a mesh.
+/// Whether a mesh reserves this name for a predefined attribute.
 fn is_reserved(name: &str) -> bool {
     let known = "normal color tangent material smoothing crease position";
     let is_rig = mesh::is_rig_name(name);

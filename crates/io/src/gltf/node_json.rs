@@ -30,7 +30,7 @@ pub(super) struct NodeJson {
 }
 
 impl NodeJson {
-    /// The index of the light; `None` if the node has no light.
+    /// Returns the index of the light. Returns `None` if the node has no light.
     ///
     /// # Errors
     ///
@@ -47,7 +47,7 @@ impl NodeJson {
             .ok_or_else(|| Fault::json(pointer, "expected the index of a light"))
     }
 
-    /// The placement in the space of the parent.
+    /// Returns the placement of the node in the space of its parent.
     ///
     /// # Errors
     ///

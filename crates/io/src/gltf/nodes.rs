@@ -19,7 +19,8 @@ pub(super) struct PlacedMesh {
     /// The name of the object.
     pub(super) name: String,
     pub(super) mesh: usize,
-    /// The transform that is applied to the points. This transform is the identity if nodes place the object.
+    /// The transform that is applied to the points when the file is read. This transform is the identity if the nodes
+    /// are kept and place the object.
     pub(super) to_scene: DAffine3,
     /// The node of the file whose skin and morph weights are applied to the points.
     pub(super) posed_by: Option<usize>,
@@ -35,7 +36,7 @@ pub(super) struct PlacedNodes {
     pub(super) places: Vec<Option<usize>>,
     /// For each node of the file, the number of morph targets of its mesh.
     pub(super) targets: Vec<usize>,
-    /// For each node of the file, the map from the space of the node to the scene.
+    /// For each node of the file, the transform from the space of the node to the space of the scene.
     pub(super) to_scene: Vec<Option<DAffine3>>,
 }
 
@@ -222,8 +223,8 @@ fn shared(
     Ok(placed)
 }
 
-/// Returns the graph of the scene, and for each node of the file, its index in the graph. The returned graph has no
-/// nodes if the nodes of the file equal those that the writer would create for a graph without nodes.
+/// Returns the graph of the scene, and for each node of the file, its index in the graph. If the nodes of the file are
+/// exactly those that the writer would create for a graph without nodes, the returned graph has no nodes.
 fn graph(
     document: &Document,
     nodes: &[SceneNode],
@@ -298,7 +299,7 @@ fn text(json: &Json) -> String {
     Value::Object(json.clone()).to_string()
 }
 
-/// Whether a node equals the node that the writer adds for an object without nodes.
+/// Whether a node is the same as the node that the writer adds for an object without nodes.
 fn is_plain(node: &SceneNode, json: &NodeJson, object: &PlacedMesh) -> bool {
     node.parent.is_none()
         && json.mesh == Some(object.mesh)
@@ -320,7 +321,8 @@ fn first_name<'a>(names: [&'a Option<String>; 2], otherwise: &'a str) -> &'a str
         .map_or(otherwise, |name| name)
 }
 
-/// Takes the minimum size of an object from the budget, including several copies of its name.
+/// Takes the minimum size of an object from the budget. The size includes the memory of its name, which is stored
+/// several times.
 fn spend(name: &str, node: usize, budget: &Budget) -> Result<(), Fault> {
     let bytes = Budget::OBJECT + 8 * name.len() as u64;
     budget.spend(bytes, &format!("/nodes/{node}"))

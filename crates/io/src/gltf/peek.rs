@@ -30,7 +30,8 @@ use crate::images::note_missing;
 use crate::note::Notes;
 use crate::peek::{PeekGeometry, PeekMesh, PeekObject};
 
-/// Returns the counts of the objects of a glTF file from its JSON, and notes on content that is left out.
+/// Returns the objects of a glTF file with the numbers of their elements, and notes on content that is left out. Only
+/// the JSON of the file is used.
 ///
 /// # Errors
 ///
@@ -74,7 +75,7 @@ pub(crate) fn peek(
             .materials
             .iter()
             .map(|&i| material_name(&document, i));
-        // The values of corners become values of vertices if they agree around each vertex.
+        // A corner attribute becomes a vertex attribute if all corners of each vertex have the same value.
         let domains = [Domain::Vertex, Domain::Corner];
         let attributes =
             (counted.names.iter()).flat_map(|name| domains.map(|domain| (domain, name.clone())));

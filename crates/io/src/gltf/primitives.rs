@@ -22,16 +22,16 @@ use crate::fault::Fault;
 use crate::note::Notes;
 use mesh::parallel;
 
-/// The number of bytes that is taken from the memory budget for each attribute that a primitive lacks, in addition to
-/// the bytes of its values. This limits the time for files with many primitives and attributes.
+/// For each attribute that a primitive lacks, this number of bytes is taken from the memory budget, in addition to the
+/// bytes of its values. This charge limits the time for files with many primitives and attributes.
 const MISSING_ATTRIBUTE_CHARGE: u64 = 16;
 
 /// All primitives of a mesh. A vertex on a seam is stored once for each side of the seam, as in glTF.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Triangles {
     pub(super) positions: Vec<DVec3>,
-    /// The attributes of corners and the vertex attributes that deform the mesh. Here, attributes of corners also have
-    /// one value for each vertex. In texture coordinates, v points up.
+    /// The corner attributes, and the vertex attributes that deform the mesh. At this stage, corner attributes also
+    /// have one value for each vertex. In texture coordinates, v points up.
     pub(super) attributes: Attributes,
     /// Three corners for each triangle.
     pub(super) corners: Vec<u32>,
@@ -43,7 +43,7 @@ pub(super) struct Triangles {
 ///
 /// # Errors
 ///
-/// The first accessor or index that is invalid.
+/// Returns an error for the first accessor or index that is invalid.
 pub(super) fn triangles(
     reader: &Reader,
     index: usize,
@@ -51,8 +51,8 @@ pub(super) fn triangles(
     notes: &mut Notes,
 ) -> Result<Triangles, Fault> {
     let mut all = Triangles::default();
-    // Primitives that use the same accessors for all attributes and morph targets share their vertices. For example,
-    // the parts of a model with different materials can be such primitives.
+    // Primitives that use the same accessors for all attributes and morph targets share their vertices. This is common
+    // if the primitives are the parts of a model with different materials.
     let mut known = BTreeMap::new();
     let mut left_out = LeftOut::default();
     let mut has_materials = false;
@@ -172,8 +172,7 @@ fn targets(primitive: &Primitive) -> Vec<[Option<usize>; 3]> {
 }
 
 impl Triangles {
-    /// The approximate size in bytes of an object with these triangles, in which each attribute has a value for
-    /// each corner.
+    /// The approximate size in bytes of an object with these triangles, if each attribute has a value for each corner.
     pub(super) fn cost(&self) -> u64 {
         const VERTEX: usize = 64;
         const CORNER: usize = 48;
@@ -289,8 +288,9 @@ impl Triangles {
         Ok((first, count))
     }
 
-    /// Returns the number of attributes of earlier primitives that this primitive lacks. This primitive has `n`
-    /// vertices with the attributes `own`. The missing values are zero, and their memory is taken from the budget.
+    /// Returns how many attributes of earlier primitives the current primitive lacks. The current primitive has `n`
+    /// vertices with the attributes `own`. The missing values will be set to zero; their memory is taken from the
+    /// budget.
     ///
     /// # Errors
     ///
@@ -395,7 +395,7 @@ fn corners(
                 0 => [w[0], w[1], w[2]],
                 _ => [w[0], w[2], w[1]],
             };
-            // The parts of a strip are connected by degenerate triangles.
+            // Degenerate triangles are left out: in a strip, they only connect separate parts.
             let has_area = |[a, b, c]: &[u32; 3]| a != b && b != c && c != a;
             let triangles = order.windows(3).enumerate().map(triangle);
             triangles.filter(has_area).flatten().collect()

@@ -5,10 +5,10 @@
 //!  `- grid node             the same name, mesh, translation, scale
 //! ```
 //!
-//! The positions of an object are rounded to points of a grid. An additional node, the grid node, has the mesh and maps
-//! the grid to the space of the object. Each node that references the object gets a grid node as a child, so the other
-//! nodes do not change. If no node references the object, only the grid node is written. The scale of the grid is the
-//! same along all axes, so normals keep their directions.
+//! The positions of an object are rounded to points of a grid. An additional node, the grid node, references the mesh
+//! and maps the grid to the space of the object. Each node that references the object gets a grid node as a child, so
+//! the other nodes do not change. If no node references the object, only the grid node is written. The scale of the
+//! grid is the same along all axes, so normals keep their directions.
 //!
 //! Normals are rounded on an octahedron. The octahedral filter of compressed files rounds normals in the same way.
 //! Therefore, compressing a quantized file does not change its content.
@@ -52,7 +52,8 @@ pub(super) struct Quantizer<'a> {
 /// The grid of the positions of an object.
 struct Grid {
     origin: [f32; 3],
-    /// The scale of the grid node, which is the length of 65535 steps.
+    /// The scale factor of the grid node. A normalized integer of 65535 steps represents 1, so the factor is the length
+    /// of 65535 steps.
     scale: f32,
     /// The largest error in the space of the object.
     error: f64,
@@ -70,7 +71,7 @@ pub(super) struct Integers {
 }
 
 impl<'a> Quantizer<'a> {
-    /// Creates a quantizer. If `is_compressed`, the reader applies the filters.
+    /// Creates a quantizer. If `is_compressed` is true, the file is compressed, and its reader applies the filters.
     pub(super) fn new(options: Option<Quantization>, is_compressed: bool) -> Self {
         Self {
             options,
@@ -79,8 +80,8 @@ impl<'a> Quantizer<'a> {
         }
     }
 
-    /// Quantizes the positions of an object. Returns the quantized positions and their bounds. Adds a loss if positions
-    /// become equal. Returns `None` if positions are not quantized.
+    /// Quantizes the positions of an object. Returns the quantized positions and their bounds. Adds a loss if different
+    /// positions become equal. Returns `None` if positions are not quantized.
     pub(super) fn positions(
         &mut self,
         prepared: &'a PreparedObject<'a>,
@@ -90,8 +91,8 @@ impl<'a> Quantizer<'a> {
         let PreparedObject { mesh, split, .. } = prepared;
         let name = &prepared.object.name;
         if !prepared.deformation.is_none() {
-            // Meshes with joints or morph targets are not quantized: a node does not place a skinned mesh, and deltas
-            // of morph targets would need the same grid.
+            // Meshes with joints or morph targets are not quantized. A skinned mesh ignores the transform of its node,
+            // so a grid node would have no effect, and the deltas of morph targets would need the same grid.
             let reason = "the object has joints or morph targets".to_owned();
             let what = (name.clone(), "positions".to_owned(), reason);
             self.report.unquantized.push(what);
@@ -239,8 +240,8 @@ impl<'a> Quantizer<'a> {
         }
     }
 
-    /// Moves the meshes of quantized objects to grid nodes. `nodes` begins with the nodes of the graph. After the nodes
-    /// of the graph, each node in `nodes` references one object.
+    /// Moves the meshes of quantized objects to grid nodes. `nodes` begins with the nodes of the graph. Each further
+    /// node references one object.
     pub(super) fn place(&mut self, graph: &Graph, nodes: &mut Vec<Value>) {
         let identity = DAffine3::IDENTITY;
         let maps = graph.to_scene();
@@ -387,8 +388,8 @@ fn fractions(prepared: &PreparedObject, stream: &Stream, bits: Bits) -> (Integer
     (integers, error)
 }
 
-/// Rounds a point of the unit sphere on the unfolded octahedron. The third number of the result is the integer that
-/// represents 1.
+/// Maps a point of the unit sphere to the unfolded octahedron and rounds it there. The first two numbers of the result
+/// are its coordinates, and the third number is the integer that represents 1.
 ///
 /// Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", 2014, section 3.3.
 fn octahedral(v: DVec3, bits: Bits) -> [i16; 3] {
@@ -407,10 +408,10 @@ fn octahedral(v: DVec3, bits: Bits) -> [i16; 3] {
     [x, y, 1.0].map(|x| (x * f64::from(one)).round() as i16)
 }
 
-/// Returns an upper bound for the factor by which a map stretches lengths. This factor is the square root of the
-/// largest eigenvalue of M^T M, where M is the matrix of the map. No eigenvalue of a matrix exceeds the maximum, over
-/// the columns, of the sum of the absolute values in the column. The bound is exact if M scales along each axis and
-/// then rotates.
+/// Returns an upper bound for the factor by which a map stretches lengths. The exact factor is the square root of the
+/// largest eigenvalue of M^T M, where M is the matrix of the map. For each column of M^T M, the absolute values are
+/// added; no eigenvalue exceeds the largest of these sums. The bound is exact if M scales along each axis and then
+/// rotates.
 fn stretch(map: &DAffine3) -> f64 {
     let m = map.matrix3;
     let square = m.transpose() * m;

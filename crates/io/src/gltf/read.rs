@@ -31,7 +31,7 @@ use mesh::parallel;
 ///
 /// # Errors
 ///
-/// The first error in the file.
+/// Returns the first error in the file.
 pub(crate) fn read(
     bytes: Vec<u8>,
     name: &str,
@@ -207,8 +207,8 @@ fn cost_of_material(material: &Material) -> usize {
     size_of::<Material>() + material.name.len() + texts.map(str::len).sum::<usize>()
 }
 
-/// Builds polygons from a mesh. Vertices along seams are merged. If the pose has joints, the joints place the polygons.
-/// If the pose has no joints, `to_scene` places the polygons.
+/// Builds polygons from the triangles of a mesh. Vertices along seams are merged. If `pose` has joints, they determine
+/// where the polygons are in the scene. Otherwise, `to_scene` is applied to the polygons.
 fn polygons(
     triangles: Triangles,
     places: &BTreeMap<usize, i32>,
@@ -260,8 +260,8 @@ fn polygons(
 }
 
 /// Merges vertices that are at exactly the same position and have the same vertex attributes, and leaves out vertices
-/// without a triangle. Returns the positions in order of first occurrence, the index of the position of each vertex,
-/// and the number of vertices that are left out.
+/// without a triangle. Returns the merged positions in the order of their first occurrence. Also returns, for each
+/// vertex, the index of its merged position, and the number of vertices that are left out.
 fn weld(
     mut positions: Vec<DVec3>,
     attributes: &mut Attributes,

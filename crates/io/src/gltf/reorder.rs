@@ -3,8 +3,8 @@
 //!
 //! Source: Sander, Nehab, Barczak, "Fast Triangle Reordering for Vertex Locality and Reduced Overdraw", 2007. The order
 //! consists of fans: all remaining triangles around one vertex, then all remaining triangles around the next vertex,
-//! and so on. The center of the next fan is chosen from the vertices of the last fan. A vertex is preferred if it will
-//! still count as recently used when its own fan is complete.
+//! and so on. The center of the next fan is chosen from the vertices of the previous fan. Preferred are vertices that
+//! will still count as recently used when their own fan is complete.
 
 use std::collections::BTreeMap;
 
@@ -45,8 +45,8 @@ fn triangles_in_fans(corners: &[u32], n_vertices: usize) -> Vec<u32> {
     let mut last_use = vec![0_usize; n_vertices];
     let mut time = RECENT + 1;
     let mut ordered = Vec::with_capacity(corners.len());
-    // `used` has the vertices used so far, with the latest one at the end. `untried` is the range of the vertices that
-    // have not been tried as the center of a fan.
+    // `used` contains the vertices used so far, with the latest one at the end. `untried` is the range of the vertices
+    // that have not yet been tried as the center of a fan.
     let mut used: Vec<u32> = Vec::new();
     let mut untried = 0..n_vertices;
     let mut center = untried.next();
@@ -115,8 +115,8 @@ impl Around {
             sum += *start;
             *start = sum;
         }
-        // Each list is filled from its end. Therefore its entry in `starts` moves from the end of the list to the
-        // beginning.
+        // Each list is filled from its end. Therefore, the entry of the list in `starts` is first its end, and
+        // decreases until it is its beginning.
         let mut triangles = vec![0; corners.len()];
         for (i, &corner) in corners.iter().enumerate().rev() {
             let start = &mut starts[corner as usize];

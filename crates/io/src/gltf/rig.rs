@@ -14,8 +14,8 @@ use crate::note::Notes;
 /// Reads arrays of numbers. Each accessor is read only once.
 pub(super) struct RigReader<'a, 'r> {
     pub(super) reader: &'a Reader<'r>,
-    /// For each accessor that was read, the index of its array. The key is the index of the accessor and the number of
-    /// components of an element.
+    /// For each accessor that was read, the index of its array. The key consists of the index of the accessor and the
+    /// number of components of an element.
     known: BTreeMap<(usize, usize), usize>,
     arrays: Vec<Vec<f32>>,
     has_numbers: bool,
@@ -31,7 +31,7 @@ impl<'a, 'r> RigReader<'a, 'r> {
         }
     }
 
-    /// Reads everything except the arrays of numbers, which are not in the JSON.
+    /// Creates a reader that leaves out the arrays of numbers, because they are not in the JSON.
     pub(super) fn without_numbers(reader: &'a Reader<'r>) -> Self {
         Self {
             has_numbers: false,
@@ -183,7 +183,7 @@ impl<'a, 'r> RigReader<'a, 'r> {
         Ok(animation)
     }
 
-    /// Reads a sampler. Returns `None` if the times or the number of values are invalid.
+    /// Reads a sampler. Returns `None` if its times are invalid, or if it has a wrong number of values.
     fn sampler(
         &mut self,
         json: &AnimationJson,

@@ -15,11 +15,11 @@ use mesh::parallel::{self, BLOCK};
 /// more distinct corners, equal corners can become different vertices.
 const MAX_COMPARED: usize = 64;
 
-/// The glTF vertices. By default, the glTF vertices are in the order of the vertices of the mesh.
+/// The glTF vertices. Without reordering, they are in the order of the vertices of the mesh.
 pub(super) struct Split {
     /// The number of vertices.
     pub(super) n: usize,
-    /// The splits. `None` if the glTF vertices are the vertices of the mesh.
+    /// The result of splitting. `None` if the glTF vertices are the vertices of the mesh.
     seams: Option<Seams>,
 }
 
@@ -87,11 +87,11 @@ pub(super) fn note_changed(stream: &Stream, mesh: &Mesh, split: &Split, losses: 
     losses.add(stream.domain, &stream.column.name, changed, stream.change());
 }
 
-/// Splits the vertices of a dense mesh. Isolated vertices are left out. The copies of a vertex that the reader made are
-/// merged again, unless their values differ.
+/// Splits the vertices of a dense mesh. Isolated vertices are left out. If the reader made copies of a vertex, the
+/// copies are merged with it again, unless their values differ.
 pub(super) fn split(mesh: &Mesh, streams: &[Stream]) -> Split {
     let file = FileVertices::of(mesh);
-    // Without copies, the values of the vertex attributes are the same at all corners of a vertex.
+    // If there are no copies, the values of vertex attributes are the same at all corners of a vertex.
     let can_differ = |stream: &&Stream| stream.domain == Domain::Corner || file.has_copies();
     let seams: Vec<&Stream> = streams.iter().filter(can_differ).collect();
     let n = file.len();

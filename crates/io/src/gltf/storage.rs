@@ -22,7 +22,7 @@ pub(crate) fn storage(
     let has_normals = || has(Domain::Corner, "normal") || has(Domain::Vertex, "normal");
     match (domain, name, values) {
         (Domain::Face, "material", Values::Int(_)) => Kept,
-        // A file stores only a few joints for each vertex, and can assign other numbers to the morph targets.
+        // A file stores only a few joints for each vertex, and the indices of the morph targets can change.
         (Domain::Vertex, _, Values::Float(_)) if joint_of(name).is_some() => Partial,
         (Domain::Vertex, _, Values::Vec3(_)) if morph_of(name).is_some() => Partial,
         (Domain::Vertex | Domain::Corner, _, Values::Vec3(_))

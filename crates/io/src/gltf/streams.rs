@@ -19,7 +19,7 @@ pub(super) struct Stream<'a> {
     pub(super) semantic: Semantic,
     pub(super) kind: Type,
     meaning: Meaning<'a>,
-    /// The morph target that has this attribute; `None` for an attribute of the primitive.
+    /// The morph target that has this attribute. `None` for an attribute of the mesh itself.
     pub(super) target: Option<usize>,
     pub(super) domain: Domain,
     pub(super) column: &'a Column,
@@ -110,8 +110,8 @@ pub(super) fn streams<'a>(
     streams
 }
 
-/// Returns the streams of the normals or the tangents of morph targets. glTF stores the differences from those of the
-/// mesh.
+/// Returns the streams of the normals or the tangents of morph targets. glTF stores their differences from the normals
+/// or tangents of the mesh.
 fn deltas<'a>(
     mesh: &'a Mesh,
     meaning: Meaning<'a>,
@@ -225,8 +225,8 @@ impl Stream<'_> {
         self.target.is_none() && attribute_name(&self.semantic).as_deref() == Some(name)
     }
 
-    /// Returns the value at a corner, and whether it equals the value of the mesh. The value has as many components as
-    /// the kind of the stream requires.
+    /// Returns the value that is written for a corner, and whether it equals the value of the mesh. Of the four
+    /// components, only those that the kind of the stream requires are used.
     pub(super) fn at(&self, mesh: &Mesh, v: VertexId, h: HalfEdgeId) -> ([f32; 4], bool) {
         let value = value(self.domain, self.column, v, h);
         let [x, y, ..] = value;
@@ -252,7 +252,7 @@ impl Stream<'_> {
         }
     }
 
-    /// Describes how values that glTF does not allow are changed, for a loss.
+    /// Returns the text for a loss: which values glTF does not allow, and how they are changed.
     pub(super) fn change(&self) -> &'static str {
         match self.meaning {
             Meaning::Normal => "zero or not finite, so replaced by the normal of the face",
@@ -294,7 +294,7 @@ fn delta(from: [f32; 4], [x, y, z, _]: [f64; 4]) -> ([f32; 4], bool) {
     narrow([x - from[0], y - from[1], z - from[2], 0.0], true)
 }
 
-/// The value of a column at a corner. Components that the value does not have are 0.
+/// Returns the value of a column at a corner. Missing components are 0.
 fn value(domain: Domain, column: &Column, v: VertexId, h: HalfEdgeId) -> [f64; 4] {
     let i = match domain {
         Domain::Vertex => v.index(),
@@ -309,7 +309,7 @@ fn value(domain: Domain, column: &Column, v: VertexId, h: HalfEdgeId) -> [f64; 4
     }
 }
 
-/// The normal that is written at a corner, and whether it has the direction of the normal of the mesh.
+/// Returns the normal that is written for a corner, and whether it has the same direction as the normal of the mesh.
 fn normal(mesh: &Mesh, h: HalfEdgeId, [x, y, z, _]: [f64; 4]) -> ([f32; 4], bool) {
     let unit = unit(DVec3::new(x, y, z));
     let normal = unit.unwrap_or_else(|| face_normal(mesh, mesh.face(h)));

@@ -100,7 +100,7 @@ impl Reader<'_> {
                 format!("expected at least the size {size} of an element, found {stride}");
             return Err(Fault::json(format!("{at}/byteStride"), message));
         }
-        // The view can end directly after the last row, even if the stride exceeds the size of a row.
+        // The view is allowed to end directly after the last row, even if the stride exceeds the size of a row.
         let before = count.saturating_sub(1).checked_mul(stride as u64);
         let needed = before.and_then(|n| n.checked_add(size as u64)?.checked_add(offset));
         let needed = if count == 0 { Some(0) } else { needed };
@@ -123,8 +123,9 @@ impl Reader<'_> {
     }
 }
 
-/// Rows of bytes. All rows have the same size. The stride is the distance between the beginnings of consecutive rows.
-/// The bytes can end directly after the last row, even if the stride exceeds the size.
+/// Rows of bytes. All rows have the same size. The stride is the distance in bytes between the beginnings of
+/// consecutive rows. The bytes are allowed to end directly after the last row, even if the stride exceeds the size of a
+/// row.
 #[derive(Clone, Copy)]
 pub(super) struct Rows<'a> {
     pub(super) bytes: &'a [u8],

@@ -24,8 +24,8 @@ pub(super) struct Deformation<'a> {
 }
 
 impl<'a> Deformation<'a> {
-    /// Determines the content to write, and adds losses for the content that is not written. If `sets` is given, it
-    /// replaces the number of sets in the original file of the object.
+    /// Determines the content to write, and adds losses for the content that is not written. If `sets` is `Some`, it
+    /// replaces the number of sets that the object had in its original file.
     pub(super) fn new(
         object: &Object,
         mesh: &'a Mesh,
@@ -148,8 +148,8 @@ impl<'a> Deformation<'a> {
         self.sets == 0 && self.morphs.is_empty()
     }
 
-    /// Compares the data that is written for two vertices of the mesh. The reader merges the vertices only if the data
-    /// is equal.
+    /// Compares the joints, weights and deltas that are written for two vertices of the mesh. The reader merges the
+    /// vertices only if these are equal.
     pub(super) fn compare(&self, a: usize, b: usize) -> Ordering {
         let row = |v: usize| 4 * v * self.sets..4 * (v + 1) * self.sets;
         let by_joints = self.joints[row(a)].cmp(&self.joints[row(b)]);
@@ -213,8 +213,8 @@ impl Bound {
     }
 }
 
-/// Returns the morph targets of an object. The number of morph targets is the larger of two numbers: the number of
-/// weights in the label of the object, and the number of targets of the mesh.
+/// Returns the morph targets of an object. The number of morph targets is the number of weights in the label of the
+/// object or, if this is larger, the number of targets of the mesh.
 fn morphs<'a>(
     object: &Object,
     mesh: &'a Mesh,

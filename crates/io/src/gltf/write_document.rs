@@ -36,8 +36,8 @@ pub(super) struct Writer<'a> {
     pub(super) nodes: NodeList,
     /// For each object that is written, its joints, weights and morph targets.
     pub(super) deformed: BTreeMap<&'a str, Deformed>,
-    /// The accessors of arrays. The key is the array, the number of components of each element, and the total number of
-    /// components.
+    /// For each array that was written, the index of its accessor. The key consists of the index of the array, the
+    /// number of components of each element, and the total number of components.
     pub(super) number_accessors: BTreeMap<(usize, usize, usize), usize>,
     pub(super) pieces: Vec<Piece<'a>>,
     materials: MaterialWriter,
@@ -63,8 +63,8 @@ pub(super) struct NodeList {
     pub(super) lights: Vec<Value>,
     pub(super) skins: Vec<Value>,
     pub(super) animations: Vec<Value>,
-    /// The parts of the document that come from [`Graph::document`](scene::Graph::document). Each entry is the name of
-    /// a part and its members.
+    /// The parts of the document that come from [`Graph::document`](scene::Graph::document). Each entry consists of the
+    /// name of a part and its members.
     pub(super) kept: Vec<(String, Map<String, Value>)>,
 }
 
@@ -78,8 +78,8 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Returns the document and the parts of its buffer. The buffer is the file `uri` or, if `uri` is `None`, the chunk
-    /// after the document.
+    /// Returns the document and the parts of its buffer. The buffer is stored in the file `uri` or, if `uri` is `None`,
+    /// in the chunk after the JSON.
     pub(super) fn into_json(
         self,
         options: &WriteOptions,

@@ -26,14 +26,14 @@ pub(super) struct MaterialWriter {
     /// For each element of `images`, the image of the scene and its name.
     known_images: Vec<(Image, Option<String>)>,
     pub(super) images: Vec<ImageJson>,
-    /// The images whose bytes do not have a view yet. Each entry is the index of the image and its bytes.
+    /// The images whose bytes do not have a view yet. Each entry consists of the index of an image and its bytes.
     pub(super) image_bytes: Vec<(usize, Arc<[u8]>)>,
     extensions: [bool; 3],
 }
 
 impl MaterialWriter {
-    /// Returns the index in the document of a material for a mesh with `n_uvs` sets of texture coordinates. Equal
-    /// materials get the same index.
+    /// Returns the index that a material has in the document, if it is used by a mesh with `n_uvs` sets of texture
+    /// coordinates. Equal materials get the same index.
     ///
     /// # Errors
     ///
@@ -140,7 +140,7 @@ impl MaterialWriter {
         })
     }
 
-    /// Describes the use of a texture by a material.
+    /// Returns the reference from a material to a texture.
     fn info(&mut self, texture: &Texture) -> InfoJson {
         let TextureTransform {
             offset,
@@ -223,7 +223,7 @@ fn drop_textures(material: &mut Material, keep: impl Fn(&Texture) -> bool) -> us
     textures.map(drop).iter().sum()
 }
 
-/// Whether two images are equal. Bytes that both images share in memory are not compared.
+/// Whether two images are equal. If both images share their bytes in memory, the bytes are not compared.
 fn same(a: &Image, b: &Image) -> bool {
     match (a, b) {
         (Image::Embedded { mime: s, bytes: a }, Image::Embedded { mime: t, bytes: b }) => {

@@ -1,4 +1,4 @@
-//! NPZ: the arrays of a mesh for `NumPy`. Write only.
+//! Writes NPZ files, which contain the arrays of a mesh for `NumPy`. These files cannot be read.
 //!
 //! | array | shape | content |
 //! | --- | --- | --- |
@@ -86,7 +86,7 @@ fn add_faces(mesh: &Mesh, archive: &mut Archive) {
     }
 }
 
-/// Returns the file of an attribute.
+/// Returns the `.npy` file of an attribute.
 fn attribute(mesh: &Mesh, domain: Domain, column: &Column) -> Vec<u8> {
     let gathered;
     let values = if domain == Domain::Corner {

@@ -15,13 +15,13 @@ pub(super) struct Archive {
 #[derive(Debug)]
 struct Entry {
     name: String,
-    /// The checksum, the compressed size and the uncompressed size.
+    /// The checksum (CRC-32), the compressed size and the uncompressed size of the file.
     sizes: [u64; 3],
     offset: u64,
 }
 
-/// The fields that are the same for all files: the version that a reader needs (2.0), the flag for names in UTF-8, no
-/// compression, and the time and the date.
+/// The header fields that are the same for all files of the archive: the version that a reader needs (2.0), the flag
+/// for names in UTF-8, no compression, the time, and the date.
 const COMMON: [u16; 5] = [20, 1 << 11, 0, 0, (1 << 5) | 1];
 
 impl Archive {

@@ -98,7 +98,7 @@ impl<'a> MeshBody<'a> {
         }
     }
 
-    /// Returns the state of the text after this mesh.
+    /// Returns the [`TextState`] after the text of this mesh.
     pub(super) fn after(&self) -> TextState {
         let mut after = self.before;
         for (k, n) in self.counts().into_iter().enumerate() {
@@ -211,7 +211,7 @@ impl<'a> MeshBody<'a> {
     }
 }
 
-/// Appends the statements that change the face state `from` into the face state `to`.
+/// Appends the statements after which the face state is `to` instead of `from`.
 fn push_change(out: &mut Vec<u8>, from: &FaceState, to: &FaceState, library: &Library) {
     if let (true, Some(object)) = (to.object != from.object, to.object) {
         push_name(out, "o", object);
@@ -267,7 +267,7 @@ fn numbers<const N: usize>(
     CornerNumbers::new(mesh, |a, b| bits(a) == bits(b))
 }
 
-/// Returns the values, or zeros if one of them is not finite.
+/// Returns the values unchanged, or only zeros if one of the values is not finite.
 fn finite<const N: usize>(values: [f64; N]) -> [f64; N] {
     let all = values.iter().all(|x| x.is_finite());
     if all { values } else { [0.0; N] }

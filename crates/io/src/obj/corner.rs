@@ -6,7 +6,7 @@ use crate::fault::Fault;
 use crate::text::{TextPosition, parsed, quoted};
 use mesh::counted;
 
-/// The numbers of positions, texture coordinates and normals.
+/// How many positions, texture coordinates and normals there are.
 pub(super) type Counts = [usize; 3];
 
 /// The indices of the position, texture coordinate and normal of a corner. The position is always present.
@@ -17,14 +17,16 @@ pub(super) type Corner = [Option<Index>; 3];
 pub(super) enum Index {
     /// An index in the file, from 0.
     Absolute(u32),
-    /// An offset from the first element of this part of the file; negative for elements of earlier parts.
+    /// An offset from the first element that this part of the file defines. The offset is negative for elements of
+    /// earlier parts.
     Relative(i64),
 }
 
 /// The range of valid indices.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Limits {
-    /// Indices have no limit, because this is a part of a file, and the counts of the other parts are not known yet.
+    /// Only a part of the file is parsed. Indices have no limit, because the numbers of elements in the other parts are
+    /// not known yet.
     Part,
     /// The whole file is parsed, but the elements that later lines define are not known yet. A positive index can refer
     /// to an element in a later line, so only negative indices are checked.
@@ -35,8 +37,8 @@ pub(super) enum Limits {
 
 const NOUNS: [&str; 3] = ["vertex", "texture coordinate", "normal"];
 
-/// Parses `v`, `v/vt`, `v//vn` or `v/vt/vn`. `now` has the numbers of elements that are defined before this corner.
-/// Negative indices count backward from the numbers in `now`.
+/// Parses `v`, `v/vt`, `v//vn` or `v/vt/vn`. `now` contains the number of positions, texture coordinates and normals
+/// that are defined before this corner. Negative indices count backward from these numbers.
 ///
 /// # Errors
 ///

@@ -50,8 +50,8 @@ impl Parser<'_> {
         length
     }
 
-    /// Appends the corners of a face. If the line does not have the common form, some corners may already have been
-    /// appended, and the caller must remove them.
+    /// Appends the corners of a face. Returns `None` if the line does not have the common form. In this case, the
+    /// caller must remove the corners that were already appended.
     #[inline]
     fn fast_corners(&mut self, line: &[u8]) -> Option<usize> {
         let now = self.part.counts();
@@ -83,8 +83,8 @@ impl Parser<'_> {
     }
 }
 
-/// Parses at most N numbers from `at` to the end of the line. Returns the numbers, their count, and the end of the
-/// line.
+/// Parses at most N numbers from `at` to the end of the line. Returns the numbers, how many there are, and the offset
+/// of the end of the line.
 #[inline]
 fn numbers<const N: usize>(line: &[u8], mut at: usize) -> Option<([f64; N], usize, usize)> {
     let mut values = [0.0; N];

@@ -9,8 +9,8 @@ use crate::text::TextPosition;
 /// The index of a missing texture coordinate or normal.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// The material name by which programs state that the following faces have no material. The format has no other way to
-/// unset a material.
+/// Some programs use this material name for faces without a material, because the format has no other way to unset a
+/// material.
 pub(super) const NO_MATERIAL: &[u8] = b"(null)";
 
 /// The content of an OBJ file. Indices count from 0.
@@ -19,7 +19,8 @@ pub(super) struct ObjFile {
     pub(super) positions: Vec<DVec3>,
     /// One color for each position, or empty. A vertex without a color is white.
     pub(super) colors: Vec<DVec4>,
-    /// The values of `#MRGB` comments of `ZBrush`: mask, red, green and blue, from the highest byte.
+    /// The values of `#MRGB` comments of `ZBrush`, one 32-bit number each. Its bytes are the mask, red, green and blue,
+    /// from the highest to the lowest byte.
     pub(super) mrgb_colors: Vec<u32>,
     pub(super) uvs: Vec<DVec2>,
     pub(super) normals: Vec<DVec3>,
@@ -28,13 +29,14 @@ pub(super) struct ObjFile {
     /// The indices of the positions, texture coordinates and normals of the corners. An index is [`NONE`] if it is
     /// missing; a list is empty if all its indices are missing.
     pub(super) corners: [Vec<u32>; 3],
-    /// The offsets of polylines. Line i visits the vertices `line_corners[line_offsets[i]..line_offsets[i + 1]]`.
+    /// The offsets of the polylines in `line_corners`. Line i visits the vertices
+    /// `line_corners[line_offsets[i]..line_offsets[i + 1]]`.
     pub(super) line_offsets: Vec<u32>,
     pub(super) line_corners: Vec<u32>,
-    /// The groups, object, material and smoothing group of the faces. A run ends before the first face of the next run.
-    /// If the list is not empty, the first run begins with face 0.
+    /// The runs of consecutive faces with the same groups, object, material and smoothing group. A run ends before the
+    /// first face of the next run. If the list is not empty, the first run begins with face 0.
     pub(super) runs: Vec<Run>,
-    /// The sets of groups that runs refer to, as indices into `group_names`. Set 0 is empty.
+    /// The sets of groups that runs refer to. Each set contains indices into `group_names`. Set 0 is empty.
     pub(super) group_sets: Vec<Vec<u32>>,
     pub(super) group_names: Vec<String>,
     pub(super) object_names: Vec<String>,
@@ -68,7 +70,7 @@ pub(super) enum LeftOut {
     Unknown(String),
     /// All unknown words after the first [`MAX_LISTED_WORDS`](super::statement::MAX_LISTED_WORDS) distinct words.
     OtherUnknown,
-    /// Points (`p`). Each vertex of a statement is counted.
+    /// Points (`p`). Each vertex of such a statement is counted as one point.
     Points,
     /// Faces with one or two corners.
     SmallFaces,

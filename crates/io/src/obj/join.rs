@@ -114,8 +114,8 @@ fn together<'a, T: Zeroable + Copy + Send + Sync + 'a>(
     })
 }
 
-/// Joins a column of corner indices. `before` is the number of elements before each part, and relative indices are
-/// added to it.
+/// Joins a column of corner indices. For each part, `before` contains the number of elements in the earlier parts. This
+/// number is added to the relative indices of the part.
 fn column<'a>(
     pieces: impl Iterator<Item = &'a mut Indices>,
     before: &[usize],
@@ -141,8 +141,8 @@ fn column<'a>(
     })
 }
 
-/// Joins the ends of faces or lines into offsets. The offsets are the start of each face or line, followed by the end
-/// of the last one.
+/// Joins the lists of ends of faces or lines into one list of offsets. The offsets are the start of each face or line,
+/// followed by the end of the last one.
 fn ends<'a>(pieces: impl Iterator<Item = &'a mut Vec<u32>>, corners: &[usize]) -> Vec<u32> {
     let mut pieces: Vec<Vec<u32>> = pieces.map(std::mem::take).collect();
     // The list starts with a 0, at which the first face or line begins.
@@ -210,7 +210,7 @@ fn states(parts: &[Part], file: &mut ObjFile) {
     file.material_names = materials.list;
 }
 
-/// Returns the index in `all` of each name of a part, or `None` for an empty name.
+/// Adds the names of a part to `all`. Returns the index of each name in `all`, or `None` for an empty name.
 fn places(of_part: &Names, all: &mut Names) -> Vec<Option<usize>> {
     let place = |name: &String| (!name.is_empty()).then(|| all.index_of(name.clone()));
     of_part.list.iter().map(place).collect()

@@ -21,8 +21,8 @@ const MAX_NAMES: usize = 512;
 /// The largest length of a path in bytes.
 const MAX_PATH_BYTES: usize = 1024;
 
-/// Reads the materials of an OBJ file. The materials of its libraries come first, in order. After the materials of the
-/// libraries come default materials for the names that no library defines.
+/// Reads the materials of an OBJ file. The materials of its libraries come first, in order. They are followed by a
+/// default material for each name that no library defines.
 ///
 /// # Errors
 ///
@@ -102,8 +102,8 @@ fn library_names(words: &str, most: usize, assets: &mut Assets) -> (Vec<String>,
     while !rest.is_empty() && names.len() < most {
         let quoted = rest.strip_prefix('"').and_then(|rest| rest.split_once('"'));
         let (name, behind) = quoted.unwrap_or_else(|| {
-            // The name of a texture file can contain blanks. It is the longest prefix of the text that is the name of
-            // an existing file. If no prefix is the name of an existing file, the name is the first word of the text.
+            // A file name can contain blanks. It is the longest prefix of the text that is the name of an existing
+            // file. If no prefix is the name of an existing file, the name is the first word of the text.
             let blanks = rest.rmatch_indices(char::is_whitespace).take(MAX_BLANKS);
             let ends = std::iter::once(rest.len()).chain(blanks.map(|(at, _)| at));
             let first = rest.find(char::is_whitespace).unwrap_or(rest.len());
@@ -118,7 +118,8 @@ fn library_names(words: &str, most: usize, assets: &mut Assets) -> (Vec<String>,
     (names, rest.split_whitespace().count())
 }
 
-/// The maximum number of blanks, counted from the end of the line, that are tried as the end of a file name.
+/// A file name can end at any of the last blanks of a line. This is the maximum number of blanks that are tried,
+/// beginning with the last one.
 const MAX_BLANKS: usize = 16;
 
 /// Reads the materials of one library. Lines that cannot be read are left out, with a note.
@@ -169,7 +170,7 @@ fn without_broken_lines(text: &str, notes: &mut Notes) -> String {
 fn check_line(line: &str) -> Result<(), String> {
     let mut words = line.split_whitespace();
     let is_color = matches!(words.next(), Some("Ka" | "Kd" | "Ks" | "Ke"));
-    // Without this check, `tobj` 4.0.5 panics.
+    // Without this check, `tobj` 4.0.5 panics on such a line.
     if is_color && words.count() < 3 {
         return Err("expected 3 numbers".to_owned());
     }
@@ -211,7 +212,7 @@ fn converted(from: tobj::Material, ignored: &mut Ignored) -> Material {
     let emissive_texture = ignored.plain(unknown.remove("map_Ke"));
     let [rough, metal] = ["map_Pr", "map_Pm"].map(|key| ignored.plain(unknown.remove(key)));
     // In the scene, as in glTF, one texture stores both roughness and metalness. In MTL, roughness and metalness have
-    // separate textures.
+    // separate textures, which are read only if they are equal.
     let metallic_roughness_texture = if rough == metal {
         rough
     } else {

@@ -1,4 +1,4 @@
-//! Wavefront OBJ: polygons, polylines, groups and materials as text.
+//! Reads and writes Wavefront OBJ, a text format for polygons, polylines, groups and materials.
 //!
 //! A file is one object. Its statements are converted as follows:
 //!
@@ -17,8 +17,8 @@
 //! | `l` | a polyline, if the file has no faces; otherwise left out, with a note |
 //! | other statements | left out, with a note |
 //!
-//! The writer uses this table from right to left. Therefore, the content in the table is preserved when a written file
-//! is read, and when a file is read and written again.
+//! The writer uses this table from right to left. Therefore, the content in the table is preserved if a mesh is written
+//! and read again, or if a file is read and written again.
 //!
 //! Modules:
 //!

@@ -37,7 +37,7 @@ fn parse_in_parts(bytes: &[u8], size: usize) -> Result<ObjFile, Fault> {
     }
 }
 
-/// Parses a file as a whole. A file is parsed as a whole if parsing in parts fails, usually to find the exact error.
+/// Parses a file as a whole. This is done if parsing in parts fails, usually to find the exact error.
 fn parse_whole(bytes: &[u8]) -> Result<Part, Fault> {
     let part = read_whole(bytes, Limits::Start)?;
     if fits(std::slice::from_ref(&part)) {

@@ -27,7 +27,8 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Returns three flags: whether any corner so far has a position, a texture coordinate, and a normal.
+    /// Returns three flags: whether any corner so far has a position, whether any has a texture coordinate, and whether
+    /// any has a normal.
     pub(super) fn columns(&self) -> [bool; 3] {
         self.part.corners.each_ref().map(|column| column.len() > 0)
     }

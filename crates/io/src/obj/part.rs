@@ -9,13 +9,14 @@ use super::file::{LeftOut, NONE};
 use crate::text::{TextPosition, name};
 
 /// The content of a part of an OBJ file. Line numbers count from 1, and indices of faces, sets and names count from 0.
-/// All counts start at the beginning of the part.
+/// All of them count from the beginning of the part.
 #[derive(Debug, Default)]
 pub(super) struct Part {
     pub(super) positions: Vec<DVec3>,
     /// One color for each position, or empty.
     pub(super) colors: Vec<DVec4>,
-    /// The values of `#MRGB` comments: mask, red, green and blue, from the highest byte.
+    /// The values of `#MRGB` comments, one 32-bit number each. Its bytes are the mask, red, green and blue, from the
+    /// highest to the lowest byte.
     pub(super) mrgb_colors: Vec<u32>,
     pub(super) uvs: Vec<DVec2>,
     pub(super) normals: Vec<DVec3>,
@@ -43,17 +44,17 @@ pub(super) struct Part {
     pub(super) libraries: Vec<(TextPosition, String)>,
     /// For each kind of content that was left out, its number of occurrences and its first line.
     pub(super) left_out: BTreeMap<LeftOut, (usize, usize)>,
-    /// For positions, texture coordinates and normals, the highest absolute index plus 1.
+    /// For positions, texture coordinates and normals, the highest absolute index in this part plus 1.
     pub(super) highest: Counts,
-    /// For positions, texture coordinates and normals, how many elements before the part are needed for the relative
-    /// indices of the part.
+    /// For positions, texture coordinates and normals, how many elements must be defined before this part, so that its
+    /// relative indices are valid.
     pub(super) reach: Counts,
     /// The number of lines that end in this part.
     pub(super) n_lines: usize,
 }
 
 impl Part {
-    /// The numbers of positions, texture coordinates and normals.
+    /// Returns how many positions, texture coordinates and normals the part defines.
     pub(super) fn counts(&self) -> Counts {
         [self.positions.len(), self.uvs.len(), self.normals.len()]
     }
@@ -100,8 +101,8 @@ impl Part {
         }
     }
 
-    /// Removes the corners of faces, beginning with corner `n`. A column for which `had` is false had no values before
-    /// these corners, and becomes empty.
+    /// Removes all face corners from corner `n` on. `had` says for each column whether it had values before these
+    /// corners. If not, the column becomes empty.
     pub(super) fn truncate_corners(&mut self, n: usize, had: [bool; 3]) {
         for (column, had) in self.corners.iter_mut().zip(had) {
             column.truncate(if had { n } else { 0 });
@@ -123,7 +124,7 @@ pub(super) struct PartRun {
     pub(super) smoothing: Option<i32>,
 }
 
-/// Indices, some of which are relative to the beginning of the part.
+/// A list of indices, some of which are relative to the beginning of the part.
 #[derive(Debug, Default)]
 pub(super) struct Indices {
     /// The absolute and the relative indices. Negative relative indices are stored modulo 2^32.

@@ -18,8 +18,8 @@ use crate::polygons::OBJECT_TAG;
 use crate::text::{Cursor, TextPosition, name};
 use mesh::parallel;
 
-/// Returns the counts and the materials of an OBJ file, and notes on statements, images and material libraries that are
-/// left out. Numbers and indices are not checked, so an invalid file can also be counted without an error.
+/// Returns the numbers of elements and the materials of an OBJ file. Also returns notes on statements, images and
+/// material libraries that are left out. Numbers and indices are not checked, so some invalid files cause no error.
 ///
 /// # Errors
 ///
@@ -64,7 +64,7 @@ pub(crate) fn peek(
         .with_attributes(attributes.collect()))
 }
 
-/// The counts of a part of the text.
+/// The numbers of elements in a part of the text.
 #[derive(Debug, Default, PartialEq)]
 struct Counts {
     mesh: PeekMesh,

@@ -2,7 +2,7 @@
 
 use scene::Texture;
 
-/// A texture, as declared in a material library.
+/// A texture with its options, as declared in a material library.
 #[derive(Debug, PartialEq)]
 pub(super) struct Picture {
     /// The file of the texture.

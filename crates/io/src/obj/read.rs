@@ -26,7 +26,8 @@ pub(super) const POLYLINES: &str = "polylines (`l`) left out: the object is a me
 ///
 /// # Errors
 ///
-/// The first line that violates the format, or the first path of a library that is not inside the folder of the file.
+/// Returns an error for the first line that violates the format, or for the first path of a library that is not inside
+/// the folder of the file.
 pub(crate) fn read(bytes: &[u8], assets: &mut Assets, notes: &mut Notes) -> Result<Shape, Fault> {
     let mut file = parse(bytes)?;
     note_left_out(&file, notes);
@@ -152,7 +153,7 @@ fn faces_of_run(file: &ObjFile, i: usize, n_faces: usize) -> Range<usize> {
     file.runs[i].first_face..next.map_or(n_faces, |next| next.first_face)
 }
 
-/// Returns the value of each face: the value of the run that contains the face.
+/// Returns a value for each face, which is the value of the run that contains the face.
 fn on_faces<T: Copy + Default>(
     polygons: &Polygons,
     file: &ObjFile,

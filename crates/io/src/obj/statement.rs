@@ -15,11 +15,12 @@ const MRGB_COMMENT: &[u8] = b"#MRGB ";
 /// The maximum number of distinct unknown words that are listed by name.
 pub(super) const MAX_LISTED_WORDS: usize = 8;
 
-/// Parses the statements of a part of a file. Whether indices are in range is checked later, when the parts are joined.
+/// Parses the statements of a part of a file. The ranges of indices are checked later, when the parts are joined.
 ///
 /// # Errors
 ///
-/// The first line that violates the format, or the first unknown word after [`MAX_LISTED_WORDS`] other unknown words.
+/// Returns an error for the first line that violates the format, or for the first unknown word after
+/// [`MAX_LISTED_WORDS`] other unknown words.
 pub(super) fn read_part(bytes: &[u8], is_first: bool) -> Result<Part, Fault> {
     let cursor = if is_first {
         Cursor::new(bytes)
@@ -34,7 +35,7 @@ pub(super) fn read_part(bytes: &[u8], is_first: bool) -> Result<Part, Fault> {
 ///
 /// # Errors
 ///
-/// The first line that violates the format.
+/// Returns an error for the first line that violates the format.
 pub(super) fn read_whole(bytes: &[u8], limits: Limits) -> Result<Part, Fault> {
     Parser::new(Cursor::new(bytes), limits).run()
 }
@@ -105,9 +106,9 @@ impl Parser<'_> {
         Ok(())
     }
 
-    /// Binary data can have any number of distinct unknown words. Only the first few unknown words of the file are
-    /// listed by name, and a part alone does not determine which words these are. Therefore, parsing the part fails,
-    /// and the whole file is parsed in order.
+    /// Binary data can have any number of distinct unknown words, but only the first few of the file are listed by
+    /// name. When a part is parsed, these words are not known. Therefore, parsing the part fails, and the whole file is
+    /// parsed in order.
     fn unknown(&self, place: TextPosition, word: String) -> Result<LeftOut, Fault> {
         let key = LeftOut::Unknown(word);
         let known = &self.part.left_out;

@@ -18,8 +18,8 @@ pub(super) struct FaceState<'a> {
     pub(super) smoothing: i32,
 }
 
-/// The state at the end of the text written so far: the number of defined elements, the material and the smoothing
-/// group. At the end of the text, no groups are set.
+/// The state at the end of the text written so far: the numbers of defined elements, the material and the smoothing
+/// group. No groups are set there.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct TextState {
     pub(super) counts: Counts,

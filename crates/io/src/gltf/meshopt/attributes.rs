@@ -69,7 +69,7 @@ pub(super) fn shortest(count: u64, stride: u64) -> u64 {
 ///
 /// # Errors
 ///
-/// The position of the first error in the stream.
+/// Returns the first error in the stream, with its position.
 pub(super) fn decode(stream: &[u8], stride: usize, out: &mut [u8]) -> Result<(), Fault> {
     let n_channels = stride / 4;
     let (is_old, in_tail) = match stream.first() {

@@ -2,8 +2,8 @@
 
 use super::triangles::Recent;
 
-/// The table at the end of each stream, with the pairs of 4-bit values that a code can refer to. A stream can contain
-/// any table. This table contains frequent pairs (`kCodeAuxEncodingTable` of meshoptimizer).
+/// The table at the end of each stream, with the pairs of 4-bit values that a code can refer to. The format allows any
+/// pairs. This table contains frequent pairs (`kCodeAuxEncodingTable` of meshoptimizer).
 const PAIRS: [u8; 16] = [
     0x00, 0x76, 0x87, 0x56, 0x67, 0x78, 0xa9, 0x86, 0x65, 0x89, 0x68, 0x98, 0x01, 0x69, 0, 0,
 ];
@@ -54,7 +54,7 @@ struct State {
 }
 
 impl State {
-    /// Encodes a triangle and returns its code, if the triangle shares one of the last 15 edges.
+    /// If the triangle shares one of the last 15 edges, encodes it and returns its code. Otherwise, returns `None`.
     fn beside(&mut self, [a, b, c]: [u32; 3]) -> Option<u8> {
         let rotations = [[a, b, c], [b, c, a], [c, a, b]];
         let found = (0..15).find_map(|back| {
@@ -92,7 +92,7 @@ impl State {
         let rotations = [[a, b, c], [b, c, a], [c, a, b]];
         let new_first = rotations.iter().find(|[a, ..]| *a == self.next);
         let [a, b, c] = *new_first.unwrap_or(&rotations[0]);
-        // An explicitly stored pair with the value 0 means that the indices of new vertices start at 0 again.
+        // If a pair is stored explicitly and its value is 0, the indices of new vertices start at 0 again.
         let restarts = self.next > 0 && [a, b, c] == [0, 1, 2];
         if restarts {
             self.next = 0;

@@ -96,10 +96,11 @@ fn to_bytes(values: [u16; 4]) -> [u8; 8] {
     [a, b, c, d, e, f, g, h]
 }
 
-/// Returns the unit vector at (x, y) of the unfolded octahedron, multiplied by `largest` and rounded.
+/// Returns the unit vector that the point (x, y) on the unfolded octahedron represents. Its components are multiplied
+/// by `largest` and rounded.
 ///
-/// `one` is the integer that represents 1. Cigolle et al., "A Survey of Efficient Representations for Independent Unit
-/// Vectors", 2014, section 3.3.
+/// The argument `one` is the integer that represents 1. Source: Cigolle et al., "A Survey of Efficient Representations
+/// for Independent Unit Vectors", 2014, section 3.3.
 fn octahedral([x, y, one]: [f32; 3], largest: f32) -> [f32; 3] {
     let (x, y) = (x / one, y / one);
     let z = 1.0 - x.abs() - y.abs();
@@ -110,7 +111,8 @@ fn octahedral([x, y, one]: [f32; 3], largest: f32) -> [f32; 3] {
     [x, y, z].map(|x| (x / length * largest).round())
 }
 
-/// Returns the unit quaternion whose largest component was left out, multiplied by 32767 and rounded.
+/// Restores the largest component of a unit quaternion, which the encoding leaves out. Returns the quaternion,
+/// multiplied by 32767 and rounded.
 ///
 /// The argument `last` is the integer that represents 1. The lowest two bits of `last` are replaced by the index of the
 /// largest component.

@@ -23,7 +23,7 @@ pub(super) fn shortest(count: u64) -> u64 {
 ///
 /// # Errors
 ///
-/// The position of the first error in the stream.
+/// Returns the first error in the stream, with its position.
 pub(super) fn decode(
     stream: &[u8],
     slots: impl Iterator<Item = impl FnOnce(u32)>,

@@ -69,7 +69,7 @@ enum Mode {
 ///
 /// # Errors
 ///
-/// The first invalid extension.
+/// Returns an error for the first invalid extension.
 pub(super) fn compressed(views: &[Value]) -> Result<Vec<Option<Compressed>>, Fault> {
     let one = |(i, view): (usize, &Value)| {
         let Some((extension, json)) = extension(view) else {
@@ -94,8 +94,9 @@ pub(super) fn pointer(view: usize, extension: &str) -> String {
     format!("/bufferViews/{view}/extensions/{extension}")
 }
 
-/// Returns a flag for each buffer. The flag is true if the reader never reads the buffer, for two possible reasons: the
-/// buffer is declared as a fallback, or it is referenced only by the uncompressed ranges of compressed views.
+/// Returns a flag for each buffer. The flag is true if the reader never reads the buffer. There are two possible
+/// reasons: the buffer is declared as a fallback, or it is used only for the uncompressed alternatives of compressed
+/// views.
 pub(super) fn fallbacks(
     buffers: &[Value],
     views: &[View],
@@ -129,7 +130,7 @@ pub(super) fn fallbacks(
 }
 
 impl Compressed {
-    /// Returns the number of bytes that decoding the stream gives.
+    /// Returns the length of the decoded data in bytes.
     ///
     /// # Errors
     ///
@@ -189,7 +190,7 @@ impl Compressed {
     ///
     /// # Errors
     ///
-    /// The byte of the first error in the stream, and a message.
+    /// Returns the offset of the byte with the first error in the stream, and a message.
     pub(super) fn decode(
         &self,
         stream: &[u8],

@@ -8,7 +8,7 @@
 use super::input::{Input, header, zigzag};
 use crate::fault::Fault;
 
-/// The size of the table of pairs at the end.
+/// The size in bytes of the table of pairs at the end of a stream.
 const TABLE: u8 = 16;
 
 /// A lower bound for the size of a stream of triangles with `count` corners, in bytes.
@@ -20,7 +20,7 @@ pub(super) fn shortest(count: u64) -> u64 {
 ///
 /// # Errors
 ///
-/// The position of the first error in the stream.
+/// Returns the first error in the stream, with its position.
 pub(super) fn decode(
     stream: &[u8],
     n: usize,
@@ -159,7 +159,7 @@ impl State<'_> {
     }
 }
 
-/// The last 16 values.
+/// Stores the latest 16 values that were added.
 pub(super) struct Recent<T> {
     all: [T; 16],
     /// The number of values that were added so far.

@@ -17,8 +17,8 @@ use crate::pipes;
 /// A loaded scene: the scene of a mesh file, or the scene at one point of a recipe.
 pub(crate) struct SceneAtStep {
     pub(crate) scene: Scene,
-    /// The label of the step before which the recipe was stopped. Empty if the recipe was not stopped before a step.
-    /// The label of the step seeds the random choices of selections.
+    /// The label of the step before which the recipe was stopped. The label is empty if the recipe was not stopped
+    /// before a step. The label of the step seeds the random choices of selections.
     pub(crate) stream: String,
 }
 

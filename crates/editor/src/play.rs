@@ -35,7 +35,7 @@ pub struct PlayedEdit {
     pub name: String,
     /// The edge that is edited. `None` if the edit moves vertices.
     pub edge: Option<EdgeId>,
-    /// If the edit was refused, the reason.
+    /// The reason for which the edit was refused, or `None` if it was not refused.
     pub refused: Option<EditError>,
     /// The changes of pointers: one entry for each half-edge around the edge whose pointers change, in the order of the
     /// half-edges' indices.
@@ -209,7 +209,7 @@ impl Play {
         self.at
     }
 
-    /// Does the next edit. Returns whether there was one.
+    /// Does the next edit. Returns `false` if there is no next edit.
     pub fn forward(&mut self) -> bool {
         let can = self.at < self.edits.len();
         if can {
@@ -219,7 +219,7 @@ impl Play {
         can
     }
 
-    /// Undoes the last edit. Returns whether there was one.
+    /// Undoes the last edit that is done. Returns `false` if no edit is done.
     pub fn back(&mut self) -> bool {
         let can = self.at > 0;
         if can {

@@ -11,7 +11,7 @@ use crate::FileReader;
 pub struct Loaded {
     /// The path of the recipe file, for messages.
     pub path: String,
-    /// The recipe. If the recipe has errors, this value contains only the parts that could be read.
+    /// The recipe. If the recipe has errors, this field contains only the parts that could be read.
     pub recipe: Recipe,
     /// The input and output folders, and the store of files.
     pub files: Files,

@@ -7,8 +7,8 @@ use mesh::{DVec3, Domain, EdgeId, Mesh, VertexId, angle_between};
 
 use crate::Scaled;
 
-/// Returns the Gaussian curvature at each vertex, by vertex index, in 1 / scene unit². The curvature is 1 / r²
-/// on a sphere of radius r, and 0 on a cylinder. The value is NaN for dead vertices, for isolated vertices, and
+/// Returns the Gaussian curvature at each vertex, by vertex index, in 1 / scene unit². The curvature is 1 / r² on a
+/// sphere of radius r, and 0 on a cylinder. The value is NaN for dead (removed) vertices, for isolated vertices, and
 /// for vertices whose faces all have zero area.
 ///
 /// The curvature is the angle defect divided by the [vertex area](vertex_area). The angle defect of a vertex is 2π
@@ -30,8 +30,8 @@ pub fn gaussian_curvatures(mesh: &Mesh) -> Vec<f64> {
 }
 
 /// Returns the mean curvature at each vertex, by vertex index, in 1 / scene unit. The curvature is 1 / r on an
-/// outward-facing sphere of radius r, 1 / (2r) on a cylinder, and negative where the surface is concave. The
-/// value is NaN for dead vertices, for isolated vertices, and for vertices whose faces all have zero area.
+/// outward-facing sphere of radius r, 1 / (2r) on a cylinder, and negative where the surface is concave. The value is
+/// NaN for dead (removed) vertices, for isolated vertices, and for vertices whose faces all have zero area.
 ///
 /// The signed dihedral angle of an edge is the angle between the normals of its two faces, positive if the edge is
 /// convex. The contribution of an edge is half the product of its signed dihedral angle and its length. The two ends of

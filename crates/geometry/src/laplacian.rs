@@ -23,7 +23,7 @@ use crate::triangulate::Cutter;
 /// The largest number of corners of a polygon that gets a virtual vertex. Polygons with more corners are cut into
 /// triangles.
 const MAX_CORNERS: usize = 16;
-/// In every triangle, the sum of two sides must exceed the third side by at least this fraction of the mean edge
+/// In every triangle, the sum of any two sides must exceed the third side by at least this fraction of the mean edge
 /// length. If necessary, all edges are lengthened by the same length.
 const SLACK: f64 = 1e-5;
 /// The number of faces in a block. One thread computes the entries of the faces of a block.
@@ -57,7 +57,7 @@ pub struct Laplacian {
 }
 
 impl Laplacian {
-    /// Computes the Laplacian of a mesh. Rows of dead vertices are empty.
+    /// Computes the Laplacian of a mesh. Rows of dead (removed) vertices are empty.
     ///
     /// A polygon with 4 to 16 corners is divided into triangles around a virtual vertex at the mean of its corners. The
     /// value at the virtual vertex is the mean of the values at the corners. For such a polygon, the result therefore

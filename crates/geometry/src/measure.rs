@@ -36,7 +36,8 @@ fn sum_over_faces(mesh: &Mesh, term: impl Fn(FaceId) -> f64 + Sync) -> f64 {
     })
 }
 
-/// Returns the lowest and the highest corner of the bounding box of all vertices; `None` for a mesh without vertices.
+/// Returns the lowest and the highest corner of the bounding box of all vertices. Returns `None` if the mesh has no
+/// vertices.
 pub fn bounds(mesh: &Mesh) -> Option<[DVec3; 2]> {
     let bounds = |v: usize| {
         let v = VertexId::new(v);
@@ -60,8 +61,8 @@ pub fn genus(mesh: &Mesh) -> i64 {
 }
 
 /// Returns the component index of each vertex, by vertex index. Components are numbered from 0 in the order of the
-/// lowest vertex id of each component. An isolated vertex is a separate component. The index of a dead vertex is
-/// `usize::MAX`.
+/// lowest vertex id of each component. An isolated vertex is a separate component. The index of a dead (removed) vertex
+/// is `usize::MAX`.
 pub fn components(mesh: &Mesh) -> Vec<usize> {
     let mut component = vec![usize::MAX; mesh.positions().len()];
     let mut n = 0;

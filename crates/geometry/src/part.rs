@@ -8,17 +8,17 @@
 //!    +---+---+          +---+   +---+            +---+                       +---+
 //! ```
 //!
-//! The faces of a part stay connected to each other. A fan is a set of faces around a vertex that are connected by
-//! edges at this vertex. At a vertex of the new boundary, each boundary half-edge that ends at the vertex is linked to
-//! the boundary half-edge at the other end of the same fan. If a vertex has several fans, the first fan keeps the
-//! vertex and each of the other fans gets a copy.
+//! Faces that are adjacent in the mesh and belong to the same part stay connected. A fan is a set of faces around a
+//! vertex that are connected by edges at this vertex. At a vertex of the new boundary, each boundary half-edge that
+//! ends at the vertex is linked to the boundary half-edge at the other end of the same fan. If a vertex has several
+//! fans, the first fan keeps the vertex and each of the other fans gets a copy.
 
 use mesh::{Connectivity, Domain, EdgeId, FaceId, HalfEdgeId, Mesh, Sources, VertexId};
 
 use crate::components;
 
 /// Returns the component index of each face, by face index. Components are numbered from 0 in the order of the lowest
-/// face id of each component. The index of a dead face is `usize::MAX`.
+/// face id of each component. The index of a dead (removed) face is `usize::MAX`.
 pub fn face_components(mesh: &Mesh) -> Vec<usize> {
     let of_vertex = components(mesh);
     let mut number = vec![usize::MAX; of_vertex.len()];

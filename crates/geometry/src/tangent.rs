@@ -27,8 +27,8 @@ pub struct Tangents {
 }
 
 /// Computes the tangents of a dense mesh from texture coordinates and normals. `uvs` has the texture coordinates of
-/// each half-edge, with v upwards. The normals are the corner normals of the mesh or, if there are none, its vertex
-/// normals. Returns `None` if the mesh has no normals.
+/// each half-edge. The coordinate v points upwards. The normals are the corner normals of the mesh or, if there are
+/// none, its vertex normals. Returns `None` if the mesh has no normals.
 ///
 /// The computation uses 32-bit numbers. Polygons are triangulated in the same way as by the glTF writer. Two corners
 /// share a tangent if they have the same position, normal and texture coordinates, if their faces are connected, and if

@@ -35,7 +35,7 @@ const TOLERANCE: f64 = 1e-12;
 /// The largest number of corners for which a face is cut by ear clipping. Ear clipping of a face with this number of
 /// corners takes at most about 50 ms.
 const MAX_EARS: usize = 4096;
-/// The smallest number of corners for which the cut can be cancelled. Faces with fewer corners than this take little
+/// The smallest number of corners for which the cut can be canceled. Faces with fewer corners than this take little
 /// time.
 const MIN_CANCELLED: usize = 256;
 /// The number of corners that are read between two checks for cancellation.
@@ -79,7 +79,7 @@ impl Cut {
         matches!(self, Self::Polygon { is_fan: true, .. })
     }
 
-    /// Returns the triangles, sorted; empty if the face is not cut.
+    /// Returns the triangles, sorted. The result is empty if the face is not cut.
     pub fn triangles(&self) -> &[Triangle] {
         match self {
             Self::Keep => &[],
@@ -226,7 +226,8 @@ impl Cutter {
             return Ok(false);
         }
         ask()?;
-        // If the sides of a polygon turn by 360° in total, their direction along an axis changes exactly twice.
+        // If the sides of a polygon turn by 360° in total, the sign of their component along an axis in the plane
+        // changes exactly twice.
         let (axis, _) = normal.any_orthonormal_pair();
         let signs = (0..n).map(|i| axis.dot(side(i))).filter(|s| *s != 0.0);
         let signs: Vec<bool> = signs.map(|s| s > 0.0).collect();
@@ -387,8 +388,8 @@ fn insert_skipped_corners(n: usize, triangles: &mut Vec<Triangle>) {
         let place = used.partition_point(|&u| u <= i);
         used.get(place).copied().unwrap_or(first)
     };
-    // The corners that are used by a triangle form a polygon. For each side of this polygon, `owner` has the triangle
-    // at this side. The index in `owner` is the first corner of the side.
+    // The corners that are used by at least one triangle form a polygon. For each side of this polygon, `owner` has the
+    // triangle at this side. The index in `owner` is the first corner of the side.
     let mut owner = vec![None; n];
     for (t, triangle) in triangles.iter().enumerate() {
         for k in 0..3 {

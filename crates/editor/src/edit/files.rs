@@ -59,7 +59,8 @@ impl Editor {
         self.set_document(new_document());
     }
 
-    /// Replaces the document of the editor, and runs the new document. The cursor is at the end.
+    /// Replaces the document of the editor, and runs the new document. The step cursor moves to the end of the new
+    /// document.
     pub fn set_document(&mut self, document: Document) {
         self.document = document;
         self.outline = Outline::of(self.document.text());

@@ -211,7 +211,7 @@ impl Editor {
         done
     }
 
-    /// Redoes the change that was undone last. Returns whether there was one.
+    /// Redoes the change that was undone last. Returns whether there was a change to redo.
     pub fn redo(&mut self) -> bool {
         let done = self.document.redo();
         if done {

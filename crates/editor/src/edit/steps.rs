@@ -79,9 +79,10 @@ impl Editor {
         self.edit(edits, "change a parameter", None)
     }
 
-    /// Runs the recipe with another value of a parameter of a step, as a preview while a slider is dragged. If a run
-    /// with an older value is still in progress, it is canceled. Afterwards, [`set_parameter`](Self::set_parameter) can
-    /// write the value to the text, or [`end_preview`](Self::end_preview) can end the preview.
+    /// Runs the recipe with another value of a parameter of a step, as a preview, for example while the user drags a
+    /// slider. If a run with an older value is still in progress, it is canceled. Afterwards,
+    /// [`set_parameter`](Self::set_parameter) can write the value to the text, or [`end_preview`](Self::end_preview)
+    /// can end the preview.
     ///
     /// # Errors
     ///
@@ -125,7 +126,8 @@ impl Editor {
         self.edit(edits, "change a parameter of the recipe", None)
     }
 
-    /// Runs the recipe with another default value of one of its parameters, as a preview while a slider is dragged.
+    /// Runs the recipe with another default value of one of its parameters, as a preview, for example while the user
+    /// drags a slider.
     ///
     /// # Errors
     ///

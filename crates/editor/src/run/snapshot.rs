@@ -56,8 +56,8 @@ impl Snapshots {
             .iter()
             .map(|(key, (_, used))| (*used, *key))
             .collect();
-        // The newest come first. Snapshots of equal age are ordered by their keys, so that the order is always the
-        // same.
+        // The newest snapshots come first. Snapshots of equal age are ordered by their keys, so that the order is
+        // always the same.
         by_age.sort_unstable_by(|a, b| b.cmp(a));
         let mut total = SceneMemory::default();
         for (used, key) in by_age {

@@ -238,7 +238,7 @@ fn ends(mesh: &Mesh, list: &[EdgeId]) -> Vec<VertexId> {
     ends
 }
 
-/// Whether the list contains every edge of the mesh whose two ends are both ends of listed edges.
+/// Whether the list contains every edge of the mesh that joins two of the vertices in `ends`.
 fn are_all_within(mesh: &Mesh, list: &[EdgeId], ends: &[VertexId]) -> bool {
     let mut marks = vec![false; mesh.domain_len(Domain::Vertex)];
     for v in ends {

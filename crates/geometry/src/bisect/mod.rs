@@ -94,8 +94,8 @@ pub fn bisect(mesh: &mut Mesh, point: DVec3, normal: DVec3) -> Result<Bisection,
     })
 }
 
-/// Returns the signed distance of each vertex from the plane: 0 for vertices that count as on the plane and for
-/// dead vertices.
+/// Returns the signed distance of each vertex from the plane. The value is 0 for vertices that count as on the plane,
+/// and for dead (removed) vertices.
 fn heights(mesh: &Mesh, point: DVec3, normal: DVec3) -> Result<Vec<f64>, EditError> {
     if let Some(&bad) = point.to_array().iter().find(|x| !x.is_finite()) {
         return Err(EditError::BadNumber(bad));

@@ -19,8 +19,9 @@ pub use barr::{Bend, Frame, Taper, Twist};
 pub use falloff::falloff;
 pub use lattice::Lattice;
 
-/// Returns a unit normal for each vertex index: the direction of the sum of the area vectors of the faces
-/// around the vertex. The result is zero for dead vertices, and for vertices whose area vectors add up to zero.
+/// Returns a unit normal for each vertex index: the direction of the sum of the area vectors of the faces around the
+/// vertex. The result is zero for dead (removed) vertices, and for vertices at which the area vectors of the faces add
+/// up to zero.
 pub fn vertex_directions(mesh: &Mesh) -> Vec<DVec3> {
     let exponent = crate::laplacian::exponent(mesh.positions());
     let area_vector = |f| {

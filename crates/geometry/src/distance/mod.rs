@@ -362,8 +362,8 @@ fn vertex_hits(
     to.nearest_to_all(from.domain_len(Domain::Vertex), position, &|_| ask())
 }
 
-/// Returns the distance from each vertex of `from` to the surface of `to`, by vertex index. The distance is NaN
-/// for dead vertices. Returns `None` if `to` has no faces.
+/// Returns the distance from each vertex of `from` to the surface of `to`, by vertex index. The distance is NaN for
+/// dead (removed) vertices. Returns `None` if `to` has no faces.
 pub fn vertex_distances(from: &Mesh, to: &Mesh) -> Option<Vec<f64>> {
     let found = vertex_distances_with(from, to, &NoProgress);
     found.expect("never canceled")

@@ -30,7 +30,7 @@ pub(super) struct Farthest {
     pub(super) sample: Sample,
 }
 
-/// The number of pieces that one thread cuts at a time.
+/// The number of pieces in a block. One thread cuts the pieces of a block.
 const BLOCK: usize = 64;
 
 /// The maximum number of pieces that are cut in one round. If there are more pieces, those with the largest bounds are

@@ -19,8 +19,8 @@ use crate::triangulate::Cutter;
 
 /// Marks a side that is not glued to another side.
 const NONE: u32 = u32::MAX;
-/// In every triangle, the sum of two sides must exceed the third side by at least this fraction of the mean length of a
-/// side. If necessary, all sides are lengthened by the same length.
+/// In every triangle, the sum of any two sides must exceed the third side by at least this fraction of the mean length
+/// of a side. If necessary, all sides are lengthened by the same length.
 const SLACK: f64 = 1e-5;
 /// The largest number of flips, divided by the number of sides of all triangles.
 const MAX_FLIPS: usize = 100;
@@ -32,7 +32,7 @@ pub(super) struct Intrinsic {
     pub(super) corners: Vec<[u32; 3]>,
     /// The lengths of the sides.
     pub(super) lengths: Vec<[f64; 3]>,
-    /// For each side, the side that it is glued to; [`NONE`] if there is none.
+    /// For each side, the side that it is glued to. The entry of a side that is not glued is [`NONE`].
     glued: Vec<[u32; 3]>,
 }
 
@@ -95,7 +95,7 @@ impl Intrinsic {
         all
     }
 
-    /// Returns the mean length of the sides; 0 if there are none.
+    /// Returns the mean length of the sides. Returns 0 if there are no sides.
     pub(super) fn mean_length(&self) -> f64 {
         let n = self.lengths.len();
         let sum = parallel::sum(n, |t| self.lengths[t].iter().sum::<f64>());
@@ -145,7 +145,7 @@ impl Intrinsic {
     }
 
     /// Flips the edge of a side if the edge is not Delaunay. Returns the four other sides of the two triangles at the
-    /// edge; `None` if the edge was not flipped.
+    /// edge. Returns `None` if the edge was not flipped.
     fn flip_if_not_delaunay(&mut self, side: u32) -> Option<[u32; 4]> {
         let (t, k) = place(side);
         let other = self.glued[t][k];
@@ -233,8 +233,7 @@ pub(super) fn cotangent([a, b, c]: [f64; 3]) -> f64 {
     (b * b + c * c - a * a) / (4.0 * area([a, b, c]))
 }
 
-/// Returns the positions of the vertices of a mesh, each scaled by the power of two with this exponent (see
-/// [`scaled`](crate::laplacian::scaled)).
+/// Returns the positions of the vertices of a mesh, multiplied by 2 to the power of `exponent`.
 pub(super) fn scaled_points(mesh: &Mesh, exponent: i32) -> Vec<DVec3> {
     let points = mesh.positions();
     parallel::collect(points.len(), |v| {

@@ -27,7 +27,7 @@ const LEAST_HEAT: f64 = 1e-280;
 
 /// Returns the distance along the surface from each vertex to the nearest source, by vertex index, in scene units.
 /// `is_source` tells which vertices are sources. The distance is infinite for vertices that no path of edges connects
-/// to a source, and for dead vertices.
+/// to a source, and for dead (removed) vertices.
 ///
 /// The distances are approximate: on fine meshes of smooth surfaces, the mean error is below 1 %. The distances of
 /// connected vertices are finite for any finite positions, even if triangles are degenerate. Polygons are cut into

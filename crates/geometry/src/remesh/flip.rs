@@ -18,7 +18,7 @@ impl Work<'_> {
         let mut n_flips = 0;
         let mut edges: Vec<EdgeId> = self.mesh.edges().filter(|&e| !self.is_line(e)).collect();
         let mut is_waiting = vec![false; self.tracks.len()];
-        // Each flip improves the mesh, so the loop ends. The limit bounds its time.
+        // Each flip improves the mesh, so the loop would end even without a limit. The limit bounds its time.
         for _ in 0..8 {
             let mut again = Vec::new();
             for (i, &e) in edges.iter().enumerate() {

@@ -15,8 +15,8 @@ use crate::distance::Distance;
 use crate::surface_index::SurfaceIndex;
 use crate::surface_index::triangle::nearest_on_triangle;
 
-/// The largest allowed distance of a sample, as a fraction of the limit. The rest of the limit is left for the points
-/// between the samples.
+/// The largest allowed distance of a sample from the other surface, as a fraction of the limit for all points. The rest
+/// of the limit is a margin for the points between the samples.
 const SHARE: f64 = 0.7;
 
 /// The largest distance of samples of a new triangle from the original surface, as a fraction of the target length.

@@ -49,15 +49,15 @@ const ATTEMPTS: u32 = 4;
 /// The target length of edges, in scene units. Most edges of the result are between 4/5 and 4/3 of this length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Length {
-    /// The same length everywhere. Must be positive.
+    /// The same length everywhere. This length must be positive.
     Uniform(f64),
     /// Shorter edges where the surface is curved, longer edges where it is flat.
     Curvature {
-        /// The target distance between the surface and the centers of triangles. Must be positive.
+        /// The target distance between the surface and the centers of triangles. This distance must be positive.
         error: f64,
-        /// The smallest length. Must be positive.
+        /// The smallest length, which must be positive.
         min: f64,
-        /// The largest length. Must not be below `min`.
+        /// The largest length, which must not be below `min`.
         max: f64,
     },
 }
@@ -67,12 +67,12 @@ pub enum Length {
 pub struct Options<'a> {
     /// The target length of edges.
     pub length: Length,
-    /// The largest allowed Hausdorff distance between the original and the new surface, in scene units; `None` sets no
-    /// limit. With a limit, target lengths are reduced where edges of the given length could deviate from the surface
-    /// by more than the limit. Steps that seem to exceed the limit are refused. At the end, the distance is measured in
-    /// both directions with a guaranteed bound. If the bound is above the limit, remeshing starts again with shorter
-    /// edges where the distance is too large. If the bound is still above the limit after four attempts, remeshing
-    /// fails.
+    /// The largest allowed Hausdorff distance between the original and the new surface, in scene units. If `None`,
+    /// there is no limit. With a limit, target lengths are reduced where edges of the given length could deviate from
+    /// the surface by more than the limit. Steps that seem to exceed the limit are refused. At the end, the distance is
+    /// measured in both directions with a guaranteed bound. If the bound is above the limit, remeshing starts again
+    /// with shorter edges where the distance is too large. If the bound is still above the limit after four attempts,
+    /// remeshing fails.
     pub error: Option<f64>,
     /// Edges that are preserved as lines. These edges are always preserved: boundaries, seams, edges between faces with
     /// different tags, materials or other whole numbers, tagged edges, and creases.
@@ -209,8 +209,8 @@ pub enum RemeshError {
 /// - the ends and meeting points of lines, and the corners of lines, where a line turns by more than 40°;
 /// - vertices on a line at which the attributes of the edges of the line change;
 /// - pinned vertices and vertices with sharpness;
-/// - vertices with a tag, unless all corners of an adjacent triangle have the tag too, or the vertex is on a line and
-///   both of its neighbors on the line have the tag too.
+/// - vertices with a tag; a tagged vertex can move only if all corners of an adjacent triangle also have the tag, or if
+///   the vertex is on a line and both of its neighbors on the line also have the tag.
 ///
 /// Attributes are taken from the same location on the original surface, and never from the other side of a line. Vertex
 /// and corner attributes are interpolated at this location. A new vertex has a tag if all original vertices around its

@@ -49,7 +49,7 @@ pub(super) struct Original<'a> {
 /// Where a vertex lies on the original surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Place {
-    /// At this vertex. The location never changes.
+    /// At this vertex of the original mesh. The location never changes.
     Corner(VertexId),
     /// On the line `chain`, at the arc length `at` from the start of the line.
     Line { chain: u32, at: f64 },

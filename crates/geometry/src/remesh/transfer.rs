@@ -168,7 +168,7 @@ impl Work<'_> {
         }
     }
 
-    /// Returns the corners of the source from which a corner gets its values; `None` for a half-edge without a
+    /// Returns the corners of the source from which a corner gets its values. Returns `None` if the half-edge has no
     /// face.
     fn corner(&self, h: HalfEdgeId, vertices: &[(DVec3, Blend)]) -> Option<Blend> {
         self.mesh.face(h)?;
@@ -272,7 +272,8 @@ impl Work<'_> {
         index.triangle(nearest.triangle).face
     }
 
-    /// Returns the index of a triangle of the original surface that is near a face; 0 if none is known.
+    /// Returns the index of a triangle of the original surface that is near a face. Returns 0 if no such triangle is
+    /// known.
     pub(super) fn hint_of(&self, f: FaceId) -> u32 {
         let hint = |v: VertexId| match self.places[v.index()] {
             Place::Inside(hint) => Some(hint),

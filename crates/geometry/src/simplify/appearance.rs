@@ -40,7 +40,8 @@ const NORMAL: f64 = 0.002;
 /// the mesh.
 const OTHER: f64 = 0.02;
 
-/// A column whose values are stored in [`Appearance`], one for each wedge, instead of in the mesh.
+/// A column whose values are stored in [`Appearance`] instead of in the mesh, one value for each wedge. A wedge is the
+/// set of those face corners at a vertex that lie between two lines.
 struct Taken {
     domain: Domain,
     column: Column,

@@ -50,11 +50,11 @@ pub struct Options<'a> {
     /// The number of faces at which simplification stops. The result has this number of faces, or one fewer if the last
     /// collapse removed two faces. It has more faces if no further edge can be collapsed.
     pub faces: usize,
-    /// The largest allowed Hausdorff distance between the original and the simplified surface, in scene units; `None`
-    /// sets no limit. The limit is guaranteed. Each triangle has a bound on its distance to the original. A collapse
-    /// moves the surface. A bound on this movement is added to the bounds of the triangles around the collapsed edge.
-    /// The sums of these bounds overestimate the distance: the true distance is usually between a third of the limit
-    /// and the limit.
+    /// The largest allowed Hausdorff distance between the original and the simplified surface, in scene units. If
+    /// `None`, there is no limit. The distance is guaranteed not to exceed the limit. Each triangle has a bound on its
+    /// distance to the original. A collapse moves the surface. A bound on this movement is added to the bounds of the
+    /// triangles around the collapsed edge. The sums of these bounds overestimate the distance: the true distance is
+    /// usually between a third of the limit and the limit.
     pub error: Option<f64>,
     /// Edges that are preserved as lines. These edges are always preserved: boundaries, seams, edges between faces with
     /// different tags, materials or other whole numbers, tagged edges, and creases.

@@ -28,7 +28,7 @@ const TURN: f64 = 0.2;
 pub(super) struct Target {
     /// The position, in the scaled coordinates of the [`Collapser`].
     pub(super) point: DVec3,
-    /// The end of the edge that keeps its position; `None` if both ends move.
+    /// The end of the edge that keeps its position. `None` if both ends move.
     pub(super) end: Option<VertexId>,
     /// The place on the edge whose values the vertex gets, from 0 at the first end of the edge to 1 at its second end.
     /// If `None`, the vertex gets the values with the least error.

@@ -72,7 +72,7 @@ fn along_rim(mesh: &Mesh, v: VertexId, weight: impl Fn(f64) -> f64) -> DVec3 {
     }))
 }
 
-/// Returns the weighted mean; zero if all weights are zero.
+/// Returns the weighted mean. Returns zero if all weights are zero.
 fn mean(vectors: impl Iterator<Item = (DVec3, f64)>) -> DVec3 {
     let (mut sum, mut total) = (DVec3::ZERO, 0.0);
     for (vector, weight) in vectors {

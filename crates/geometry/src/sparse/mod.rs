@@ -212,7 +212,7 @@ impl SymmetricMatrix {
         columns.zip(self.values[range].iter().copied())
     }
 
-    /// Returns the entry at row `i` and column `j`; 0 if it is not stored.
+    /// Returns the entry at row `i` and column `j`. Returns 0 if this entry is not stored.
     pub fn get(&self, i: usize, j: usize) -> f64 {
         let row = &self.columns[self.starts[i]..self.starts[i + 1]];
         let found = u32::try_from(j).map(|j| row.binary_search(&j));

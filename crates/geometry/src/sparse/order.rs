@@ -43,11 +43,11 @@ struct Quotient {
     variables: Vec<Vec<u32>>,
     /// The adjacent elements of each variable.
     elements: Vec<Vec<u32>>,
-    /// The variables of each element; empty if it was absorbed by another element.
+    /// The variables of each element. The list is empty if the element was absorbed by another element.
     members: Vec<Vec<u32>>,
     /// The total weight of the members of each element, set when the element is created.
     size: Vec<u32>,
-    /// The number of rows that each variable stands for; 0 if it was eliminated or merged.
+    /// The number of rows that each variable stands for. The number is 0 if the variable was eliminated or merged.
     weight: Vec<u32>,
     /// The variables that were merged into each variable, as linked lists.
     first_merged: Vec<u32>,
@@ -56,7 +56,8 @@ struct Quotient {
     buckets: Buckets,
     /// The eliminated variables, in order.
     pivots: Vec<u32>,
-    /// The weight of the members of each element that are not in the new element, plus 2³² times `stamp`.
+    /// For each element, the total weight of those of its members that are not in the new element, plus 2³² times
+    /// `stamp`.
     outside: Vec<u64>,
     /// For each variable and each element, the value that `stamp` had when this entry was last set.
     mark: Vec<u64>,

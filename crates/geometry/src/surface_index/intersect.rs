@@ -123,7 +123,8 @@ fn intersect(s: &[DVec3; 3], t: &[DVec3; 3]) -> bool {
     }
 }
 
-/// Returns the side of the plane of `t` on which each corner of `s` lies; `None` if all are strictly on one side.
+/// Returns the side of the plane of `t` on which each corner of `s` lies. Returns `None` if all corners of `s` are
+/// strictly on one side.
 fn sides_of_plane(s: &[DVec3; 3], t: &[DVec3; 3]) -> Option<[Ordering; 3]> {
     let sides = s.map(|p| orient3d(t[0], t[1], t[2], p));
     let all_on = |side| sides.iter().all(|s| *s == side);

@@ -141,7 +141,7 @@ impl SurfaceIndex {
         }
     }
 
-    /// Returns the face that contains a triangle; `None` if there is no triangle with this index.
+    /// Returns the face that contains a triangle. Returns `None` if there is no triangle with this index.
     pub fn face(&self, i: u32) -> Option<FaceId> {
         self.origins.get(i as usize).map(|origin| origin.face)
     }
@@ -179,7 +179,7 @@ impl SurfaceIndex {
         &self.positions[node.first as usize..node.last as usize]
     }
 
-    /// Returns the edge that two triangles share, if they share exactly two vertices.
+    /// Returns the edge that two triangles share. Returns `None` unless they share exactly two vertices.
     pub(crate) fn shared_edge(&self, i: u32, j: u32) -> Option<[DVec3; 2]> {
         let (s, t) = (self.triangle(i), self.triangle(j));
         let mut shared = (0..3).filter(|&k| t.vertices.contains(&s.vertices[k]));

@@ -146,8 +146,8 @@ impl SurfaceIndex {
         Ok(found.into_iter().flatten().collect())
     }
 
-    /// Returns the nearest point for each vertex of a mesh, by vertex index. `None` for dead vertices. Runs in
-    /// parallel; the result does not depend on the number of threads.
+    /// Returns the nearest point for each vertex of a mesh, by vertex index. The entry of a dead vertex is `None`. Runs
+    /// in parallel; the result does not depend on the number of threads.
     ///
     /// # Errors
     ///
@@ -166,8 +166,9 @@ impl SurfaceIndex {
         self.nearest_to_all(n, position, &|n| meter.add(n))
     }
 
-    /// Returns the nearest point for each of the points `point(0)` to `point(n - 1)`; `None` where `point` returns
-    /// `None`. After every few points, calls `done` with the number of these points. Stops if `done` returns an error.
+    /// Returns the nearest point for each of the points `point(0)` to `point(n - 1)`. Where `point` returns `None`, the
+    /// entry is also `None`. After every few points, calls `done` with the number of points searched since its last
+    /// call. Stops if `done` returns an error.
     pub(crate) fn nearest_to_all(
         &self,
         n: usize,

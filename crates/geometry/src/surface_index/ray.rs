@@ -11,7 +11,7 @@ use crate::predicates::orient2d;
 /// A point where a ray meets a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RayHit {
-    /// The distance of the point along the ray, as a multiple of the length of the direction. Not negative.
+    /// The distance of the point along the ray, as a multiple of the length of the direction. It is not negative.
     pub t: f64,
     /// The point.
     pub point: DVec3,
@@ -83,7 +83,7 @@ impl SurfaceIndex {
     }
 
     /// Calls `visit` for hits of the ray, in any order. `visit` returns the largest distance at which further hits
-    /// matter: hits beyond this distance may be skipped.
+    /// matter. Hits beyond this distance are possibly skipped.
     fn visit_ray(&self, origin: DVec3, direction: DVec3, visit: &mut dyn FnMut(RayHit) -> f64) {
         let Some(ray) = Ray::new(origin, direction) else {
             return;
@@ -153,7 +153,7 @@ impl Ray {
         })
     }
 
-    /// Returns a lower bound on the position on the ray at which the ray enters a box; `None` if the ray misses
+    /// Returns a lower bound on the position on the ray at which the ray enters a box. Returns `None` if the ray misses
     /// the box.
     ///
     /// The box is enlarged by a multiple of the rounding error of [`meets`](Self::meets), so that no hit is lost.

@@ -18,7 +18,7 @@ const MOST: usize = 512;
 /// The maximum number of values of λ for which a bound is computed; see [`SurfaceIndex::slab_distance_squared`].
 const STEPS: usize = 3;
 
-/// All points of a node satisfy `low <= normal · point <= high`.
+/// All points of the triangles of a node satisfy `low <= normal · point <= high`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Slab {
     /// The direction of the sum of the area vectors of the triangles. An area vector is the unit normal times the area.

@@ -4,7 +4,7 @@ use mesh::DVec3;
 
 use super::triangles_intersect;
 
-/// Returns the point of the segment from `a` to `b` that is nearest to `p`; `a` if the segment is a point.
+/// Returns the point of the segment from `a` to `b` that is nearest to `p`. Returns `a` if the segment is a point.
 pub(crate) fn nearest_on_segment(p: DVec3, a: DVec3, b: DVec3) -> DVec3 {
     let along = b - a;
     let length_squared = along.length_squared();
@@ -78,9 +78,9 @@ pub fn nearest_on_triangle(p: DVec3, &[a, b, c]: &[DVec3; 3]) -> DVec3 {
 }
 
 /// Returns the distance between two triangles, which is 0 if they have a common point. If the triangles have no common
-/// point, the distance is the smallest of all distances from a corner to the other triangle, and from a side of one
-/// triangle to a side of the other. If a triangle has zero area, the distance can be too large where the triangle
-/// passes through the other one.
+/// point, the distance is the smallest of two kinds of distances: from a corner of one triangle to the other triangle,
+/// and from a side of one triangle to a side of the other. If a triangle has zero area, the distance can be too large
+/// where the triangle passes through the other one.
 pub fn triangle_distance(s: &[DVec3; 3], t: &[DVec3; 3]) -> f64 {
     if triangles_intersect(s, t) {
         return 0.0;
@@ -149,8 +149,8 @@ pub(super) fn nearest_weights(p: DVec3, &[a, b, c]: &[DVec3; 3]) -> [f64; 3] {
     [(1.0 - v - w).max(0.0), v, w]
 }
 
-/// Returns the position of the point of a segment that is nearest to `p`, from 0 at `a` to 1 at `b`; 0 if the segment
-/// is a point.
+/// Returns the position, along a segment, of the point of the segment that is nearest to `p`: from 0 at `a` to 1 at
+/// `b`. Returns 0 if the segment is a point.
 fn along(p: DVec3, a: DVec3, b: DVec3) -> f64 {
     let along = b - a;
     let length_squared = along.length_squared();

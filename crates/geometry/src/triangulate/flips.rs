@@ -33,15 +33,15 @@ pub(super) struct Flips {
     sides: Vec<([u32; 2], u32)>,
     /// For each side, the same side of the other triangle, or [`NONE`].
     mates: Vec<u32>,
-    /// The diagonals that may have to be flipped, each by one of its two sides.
+    /// The diagonals that possibly have to be flipped. Each diagonal is given by one of its two sides.
     stack: Vec<u32>,
     is_queued: Vec<bool>,
 }
 
 impl Flips {
     /// Improves counter-clockwise triangles whose corners are in ascending order, and sorts them. Stops early after
-    /// many flips or if `is_cancelled` returns `true`; the triangulation is then valid, but parts of it may not be
-    /// Delaunay.
+    /// many flips or if `is_cancelled` returns `true`; the triangulation is then valid, but some of its diagonals are
+    /// possibly not Delaunay.
     pub(super) fn improve(
         &mut self,
         points: &[[f64; 2]],

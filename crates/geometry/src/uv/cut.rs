@@ -39,8 +39,8 @@ pub(super) struct Limits {
 struct Allowed {
     /// The largest allowed ratio between area scales; see [`Limits::max_stretch`].
     stretch: f64,
-    /// The largest allowed aspect (see [`Stretch`](super::Stretch)). Triangles with a total area of at most the
-    /// fraction `except` of the chart may have a larger aspect.
+    /// The largest allowed aspect (see [`Stretch`](super::Stretch)). A larger aspect is allowed for triangles whose
+    /// total area is at most the fraction `except` of the area of the chart.
     aspect: f64,
     except: f64,
     /// The largest allowed mean, weighted by area, of the ratio between the area scale of a triangle and that of the
@@ -77,7 +77,7 @@ pub(super) enum Failure {
     Stretch,
 }
 
-/// Checks for cancellation, but does not report.
+/// Checks for cancellation, but reports no progress.
 struct Quiet<'a, 'b>(&'a Meter<'b>);
 
 impl Progress for Quiet<'_, '_> {
@@ -149,7 +149,7 @@ pub(super) fn chart(
     if check(&part, &projected, &flat, progress)?.is_ok() {
         return whole(part, projected, false);
     }
-    // A polygon is never cut, so only overlaps matter.
+    // A chart of a single polygon is never cut, so only overlaps matter.
     let is_single = part.faces.len() == 1;
     let allowed = if is_single {
         Allowed {
@@ -220,7 +220,7 @@ fn check(
         largest = largest.max(ratio(scale));
         spread += area * ratio(scale);
     }
-    // Rounding may change the scale of a flat chart a little.
+    // Rounding can change the scale of a flat chart a little.
     if largest > allowed.stretch * (1.0 + 1e-6)
         || spread > allowed.spread * total
         || percentile(&mut aspects, (1.0 - allowed.except) * total) > allowed.aspect

@@ -81,7 +81,8 @@ pub(super) fn dissolve(
 }
 
 /// Adds each of these faces to the nearest of the charts around them, measured along the surface. Returns the charts
-/// that have changed, each with all its faces. No face is added to a chart in `refused`, or across a sharp edge only.
+/// that have changed, each with all its faces. No face is added to a chart in `refused`. A chart grows only if one of
+/// the faces shares an edge with it that is not sharp.
 fn grow(
     surface: &Surface,
     faces: &[u32],

@@ -8,7 +8,8 @@ use crate::sparse::{Factor, SolveError, SymmetricMatrix};
 
 /// How much a change of area costs compared with a change of angles: the factor lambda of Liu and others.
 const AREA_WEIGHT: f64 = 0.5;
-/// The iterations stop once the vertices move less than this fraction of the size of the part, on average.
+/// The iterations stop once the root mean square of the movements of the vertices is less than this fraction of the
+/// size of the part.
 const SMALL_MOVE: f64 = 1e-4;
 const MAX_ITERATIONS: usize = 40;
 /// The height that the equations use for a triangle without area, relative to its longest side. With this height, the

@@ -24,7 +24,7 @@ impl Polygons {
     ///
     /// # Errors
     ///
-    /// Returns [`ReadError::Mesh`] if the polygons do not form a valid mesh or the policies refuse them.
+    /// Returns Returns [`ReadError::Mesh`] if the polygons do not form a valid mesh or the policies refuse them.
     pub(crate) fn into_mesh(
         mut self,
         path: &Path,

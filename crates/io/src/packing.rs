@@ -15,13 +15,15 @@ pub enum Compression {
     Meshopt,
 }
 
-/// The numbers of bits with which quantized glTF files store attributes. Each number is from 8 to 16.
+/// How many bits quantized glTF files use for the numbers of each kind of attribute. At least 8 and at most 16 bits are
+/// possible.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Quantization {
-    /// The number of bits of each coordinate of a position. Positions are rounded to a grid that covers the bounding
-    /// box of the object and has the same step along all axes. The longest side of the box has 2^bits - 1 steps.
-    /// Positions of objects with joints or morph targets are not quantized. Defaults to 16.
+    /// The number of bits of each coordinate of a position. Positions are rounded to the points of a grid. The grid
+    /// covers the bounding box of the object and has the same spacing along all axes. Along the longest side of the
+    /// box, the grid has 2^bits - 1 steps. Positions of objects with joints or morph targets are not quantized.
+    /// Defaults to 16.
     #[serde(default = "Bits::most")]
     pub position: Bits,
     /// The number of bits of each of the two numbers that represent a normal or a tangent. The two numbers locate a
@@ -111,13 +113,13 @@ pub struct PackingReport {
     /// The size in bytes of the same files as written.
     pub bytes_after: u64,
     /// The largest distance between a position and its quantized position, in scene units. `None` if no positions are
-    /// quantized. If the placement of a node has a shear, the reported distance is an upper bound.
+    /// quantized. If the placement of a node has a shear, this value is an upper bound of the distance.
     pub position_error: Option<f64>,
     /// The largest angle between a normal or a tangent and its quantized direction, in degrees.
     pub normal_error: Option<f64>,
     /// The largest difference between a texture coordinate and its quantized value.
     pub uv_error: Option<f64>,
-    /// The attributes that could not be quantized. Each entry has the object, the attribute and the reason.
+    /// The attributes that could not be quantized. Each entry consists of the object, the attribute and the reason.
     pub unquantized: Vec<(String, String, String)>,
 }
 

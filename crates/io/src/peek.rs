@@ -7,15 +7,15 @@ use scene::{Geometry, Graph, Material};
 
 use crate::{CleanupPolicy, Format, NonManifold, Note, Policies};
 
-/// The content of a file: its objects with their counts.
+/// The content of a file: its objects with the numbers of their elements.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Peek {
     /// The format of the file.
     pub format: Format,
     /// The objects that reading the file would give, in order and with their names.
     pub objects: Vec<PeekObject>,
-    /// The nodes, skins and animations, without the arrays of numbers: skins have no inverse bind matrices, and the
-    /// inputs and outputs of samplers are not valid. For `.mws` files, the graph also has the arrays.
+    /// The nodes, skins and animations. Except for `.mws` files, the arrays of numbers are missing: skins have no
+    /// inverse bind matrices, and the inputs and outputs of samplers are not valid.
     pub graph: Graph,
     /// The content that reading would leave out, as far as it is known without building the objects. Examples are
     /// unused elements of a PLY file, statements of an OBJ file that do not describe polygons, and missing images and
@@ -28,12 +28,12 @@ pub struct Peek {
 pub struct PeekObject {
     /// The name of the object.
     pub name: String,
-    /// The kind and the counts of its geometry.
+    /// The kind of its geometry, and the numbers of its elements.
     pub geometry: PeekGeometry,
     /// The names of the materials of the object. `None` if the names are known only after reading.
     pub materials: Option<Vec<String>>,
     /// The attributes that the mesh can have, apart from those that [`PeekMesh`] describes. If [`PeekMesh::is_exact`]
-    /// is set, all attributes of the mesh. `None` if the attributes are known only after reading.
+    /// is set, these are all attributes of the mesh. `None` if the attributes are known only after reading.
     pub attributes: Option<Vec<(Domain, String)>>,
 }
 
@@ -65,7 +65,7 @@ impl PeekObject {
     }
 }
 
-/// The kind and the counts of the geometry of an object.
+/// The kind of the geometry of an object, and the numbers of its elements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PeekGeometry {
     /// A mesh.
@@ -107,11 +107,11 @@ impl PeekGeometry {
     }
 }
 
-/// The counts and attributes of a mesh according to its file.
+/// The numbers of elements and the attributes of a mesh, according to its file.
 ///
 /// Reading never gives more faces or corners than these counts. Reading can give more vertices, because non-manifold
 /// vertices and edges are split. Reading can also give fewer vertices, for example because a glTF file has a separate
-/// vertex for each side of a seam. [`ranges`](Self::ranges) returns the counts that are possible.
+/// vertex for each side of a seam. [`ranges`](Self::ranges) returns the possible numbers of elements.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[expect(
     clippy::struct_excessive_bools,
@@ -140,20 +140,20 @@ pub struct PeekMesh {
     pub joints: u64,
     /// The number of morph targets.
     pub targets: u64,
-    /// The number of faces whose corners certainly have different vertices. Reading keeps these faces, unless a policy
-    /// drops them. In OBJ, OFF, PLY and binary STL files, the faces that have at most 16 corners and no vertex twice
-    /// are counted. In `.mws` files, all faces are counted. In other formats, the number is 0, because the vertices of
+    /// The number of faces of which it is certain that no vertex occurs twice. Reading keeps these faces, unless a
+    /// policy drops them. In OBJ, OFF, PLY and binary STL files, such faces are counted if they have at most 16
+    /// corners. In `.mws` files, all faces are counted. In other formats, the number is 0, because the vertices of
     /// faces are not examined.
     pub simple_faces: u64,
     /// The number of corners of the faces that `simple_faces` counts.
     pub simple_corners: u64,
-    /// Whether reading keeps all vertices of the file, and only splits some of them.
+    /// Whether reading keeps all vertices of the file. Reading can still split some of them.
     pub keeps_vertices: bool,
     /// Whether reading gives the mesh without any changes, as from `.mws` files.
     pub is_exact: bool,
 }
 
-/// The counts that a mesh can have after reading.
+/// The numbers of elements that a mesh can have after reading.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PeekRanges {
     /// The number of vertices.
@@ -162,11 +162,11 @@ pub struct PeekRanges {
     pub edges: RangeInclusive<u64>,
     /// The number of faces.
     pub faces: RangeInclusive<u64>,
-    /// The numbers of corners of the faces.
+    /// How many corners each face has.
     pub degrees: RangeInclusive<u64>,
 }
 
-/// The maximum number of corners of a face whose vertices are compared with each other.
+/// The vertices of a face are compared with each other only if the face has at most this number of corners.
 pub(crate) const MAX_COMPARED: usize = 16;
 
 /// Whether the words are certainly indices of different elements: they differ from each other, are all positive or all
@@ -187,7 +187,7 @@ pub(crate) fn differ<T: PartialEq>(items: &[T]) -> bool {
 }
 
 impl PeekMesh {
-    /// Returns the counts that the mesh can have after reading with these policies.
+    /// Returns the numbers of elements that the mesh can have after reading with these policies.
     pub fn ranges(&self, policies: Policies) -> PeekRanges {
         let drops = |policy| policy == CleanupPolicy::Drop && !self.is_exact;
         let faces = match self.simple_faces {
@@ -243,7 +243,7 @@ impl PeekMesh {
         peek
     }
 
-    /// Adds `n` faces to the counts of faces whose corners certainly have different vertices.
+    /// Adds `n` faces with `degree` corners each to `simple_faces` and `simple_corners`.
     pub(crate) fn add_simple(&mut self, n: u64, degree: u64) {
         self.simple_faces = self.simple_faces.saturating_add(n);
         self.simple_corners = self.simple_corners.saturating_add(n.saturating_mul(degree));

@@ -1,4 +1,4 @@
-//! Places the meshes of a scene for formats without nodes.
+//! Applies the transforms of nodes to the meshes of a scene, for formats without nodes.
 
 use std::borrow::Cow;
 use std::path::Path;
@@ -21,7 +21,7 @@ const MAX_PLACED_BYTES: u64 = 1 << 36;
 ///
 /// # Errors
 ///
-/// [`WriteError`] if the placed meshes would be too large.
+/// Returns a [`WriteError`] if the placed meshes would be too large.
 pub(crate) fn placed<'s>(
     scene: &'s Scene,
     format: Format,

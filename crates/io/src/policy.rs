@@ -10,16 +10,17 @@ use serde::{Deserialize, Serialize};
 /// cannot represent such a face. Every change is reported as a [`Note`](crate::Note) with the affected elements.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Policies {
-    /// Edges with more than two faces, and vertices at which groups of faces meet without a common edge.
+    /// How to handle edges with more than two faces, and vertices at which groups of faces meet without a common edge.
     pub non_manifold: NonManifold,
-    /// Neighboring faces with opposite orientations: both traverse their common edge in the same direction.
+    /// How to handle neighboring faces with opposite orientations, which traverse their common edge in the same
+    /// direction.
     pub orientation: Orientation,
-    /// Faces with the same vertices as an earlier face, in the same or the opposite circular order.
+    /// How to handle faces with the same vertices as an earlier face, in the same or the opposite circular order.
     pub duplicates: CleanupPolicy,
-    /// Zero-area faces. To allow for rounding errors, an area counts as zero if it is at most 1e-14 times the square of
-    /// the longest side.
+    /// How to handle faces with zero area. Because of rounding errors, an area counts as zero if it is at most 1e-14
+    /// times the square of the longest side.
     pub degenerate: CleanupPolicy,
-    /// Vertices without a face.
+    /// How to handle vertices without a face.
     pub isolated: CleanupPolicy,
 }
 

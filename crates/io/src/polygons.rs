@@ -18,9 +18,9 @@ pub struct Polygons {
     pub offsets: Vec<u32>,
     /// The index of the vertex of each corner, counter-clockwise around each polygon.
     pub corners: Vec<u32>,
-    /// Attributes of vertices, of corners (in the order of `corners`) and of faces.
+    /// The attributes of vertices, corners and faces. Values of corners are in the order of `corners`.
     pub attributes: Attributes,
-    /// The materials. The face attribute `material` has indices into this list.
+    /// The materials. The values of the face attribute `material` are indices into this list.
     pub materials: Vec<Material>,
 }
 
@@ -53,7 +53,7 @@ impl Polygons {
         self.offsets.len() - 1
     }
 
-    /// The arrays from which notes take the positions of elements.
+    /// Returns the arrays from which notes take the positions of elements.
     pub(crate) fn arrays(&self) -> PolygonArrays<'_> {
         PolygonArrays {
             positions: &self.positions,
@@ -186,7 +186,7 @@ impl Polygons {
         names.iter().filter_map(take).collect()
     }
 
-    /// Transforms the tangents of corners by the matrix of each vertex.
+    /// Multiplies the tangent of each corner by the matrix of its vertex.
     fn change_tangents<'a>(&mut self, matrix: impl Fn(usize) -> &'a DMat3) {
         let columns = self.attributes.of(Domain::Corner).iter();
         let tangents = columns.filter(|column| holds_tangents(column));
@@ -203,7 +203,7 @@ impl Polygons {
         }
     }
 
-    /// Multiplies the deltas of morph targets by the matrix of each vertex.
+    /// Multiplies the deltas of morph targets at each vertex by the matrix of the vertex.
     fn change_deltas(&mut self, matrix: impl Fn(usize) -> DMat3) {
         let morphs = self.attributes.morphs().into_iter();
         let morphs: Vec<String> = morphs.map(|(target, _)| morph_name(target)).collect();
@@ -220,7 +220,7 @@ impl Polygons {
     }
 }
 
-/// Replaces the columns of a domain by their values at `sources`.
+/// Replaces the values of all columns of a domain: the new value i of a column is its old value at `sources[i]`.
 pub(crate) fn gather(attributes: &mut Attributes, domain: Domain, sources: &[u32]) {
     for (of, mut column) in std::mem::take(attributes) {
         if of == domain {

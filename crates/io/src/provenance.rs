@@ -1,4 +1,5 @@
-//! Reads the provenance of a file, which [`WriteOptions::provenance`](crate::WriteOptions::provenance) stores.
+//! Reads the provenance of a file, which is the text that was passed to the writer as
+//! [`WriteOptions::provenance`](crate::WriteOptions::provenance).
 
 use std::path::Path;
 
@@ -19,7 +20,7 @@ const MAX_DOCUMENT: u64 = 1 << 30;
 ///
 /// # Errors
 ///
-/// [`ReadError`] if the file cannot be read.
+/// Returns a [`ReadError`] if the file cannot be read.
 pub fn provenance(store: &dyn Store, path: &Path) -> Result<Option<String>, ReadError> {
     let head = |most| gzip::head(store, path, most);
     let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
@@ -59,8 +60,8 @@ fn of_document(json: &[u8]) -> Option<String> {
     text.as_str().map(str::to_owned)
 }
 
-/// Returns the text with the keyword "Software" of a PNG file, if the text is in an uncompressed chunk for
-/// international text.
+/// Returns the text that a PNG file stores with the keyword "Software". Returns `None` if this text is not in an
+/// uncompressed chunk for international text.
 ///
 /// A chunk consists of its length, four letters, the data, and a checksum. The data of an `iTXt` chunk consists of the
 /// keyword, two bytes about compression, the language, the translated keyword, and the text, separated by zero bytes

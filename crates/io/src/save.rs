@@ -29,8 +29,8 @@ pub(crate) type Block<'a> = Box<dyn Fn(&mut Vec<u8>) + Send + Sync + 'a>;
 ///
 /// # Errors
 ///
-/// [`WriteError::Io`] with the file that could not be written. After this error, existing files are unchanged, unless
-/// the system failed to rename a file after others were already renamed.
+/// Returns [`WriteError::Io`] with the path of the file that could not be written. After this error, existing files are
+/// unchanged, unless the system failed to rename a file after others were already renamed.
 pub(crate) fn save(
     store: &dyn Store,
     files: Vec<(PathBuf, Content)>,

@@ -69,8 +69,8 @@ impl<'a> Cursor<'a> {
         self.bytes.len() - self.at
     }
 
-    /// Whether the remaining bytes are enough for `n` times `words_each` words. Each word needs at least one byte, and
-    /// a separator unless it is the last word.
+    /// Whether the remaining bytes are enough for `n` times `words_each` words. Each word takes at least one byte. All
+    /// words except the last are followed by a separator.
     pub(crate) fn has_room(&self, n: usize, words_each: usize) -> bool {
         let least = n.checked_mul(2 * words_each);
         least.is_some_and(|least| least <= self.remaining() + 1)
@@ -138,7 +138,7 @@ impl<'a> Cursor<'a> {
     ///
     /// # Errors
     ///
-    /// If there is another word.
+    /// Returns an error if there is another word.
     pub(crate) fn end_of_line(&mut self, why: &str) -> Result<(), Fault> {
         match self.argument() {
             None => Ok(()),
@@ -254,7 +254,7 @@ fn is_line_end(byte: u8) -> bool {
 ///
 /// # Errors
 ///
-/// If the word is not a decimal number or is not finite.
+/// Returns an error if the word is not a decimal number or is not finite.
 pub(crate) fn number(place: TextPosition, word: &[u8]) -> Result<f64, Fault> {
     if let Some((x, length)) = leading_number(word)
         && length == word.len()
@@ -280,7 +280,7 @@ pub(crate) fn number(place: TextPosition, word: &[u8]) -> Result<f64, Fault> {
     }
 }
 
-/// Parses a word with the standard library.
+/// Parses a word with [`FromStr`].
 pub(crate) fn parsed<T: FromStr>(word: &[u8]) -> Option<T> {
     std::str::from_utf8(word).ok()?.parse().ok()
 }
@@ -299,8 +299,8 @@ pub(crate) fn is_not_finite(word: &[u8]) -> bool {
 ///
 /// # Errors
 ///
-/// If the text is in UTF-16 or UTF-32. The position of the error is the beginning of the text, and its message names
-/// the encoding.
+/// Returns an error if the text is in UTF-16 or UTF-32. The position of the error is the beginning of the text, and its
+/// message names the encoding.
 pub(crate) fn check_encoding(bytes: &[u8]) -> Result<(), Fault> {
     let is_wide = |first: usize| {
         let mut pairs = bytes.chunks_exact(2).take(16);

@@ -22,7 +22,7 @@ const CHUNK: usize = 1 << 15;
 const BUCKET: usize = 1 << 14;
 const MAX_BUCKETS: usize = 1 << 10;
 
-/// Counts the vertices that a reader merges with an earlier vertex, for formats that identify vertices by position.
+/// For formats that identify vertices by position: counts the vertices that a reader merges with an earlier vertex.
 /// Only vertices with a face are considered. Positions are rounded to 32 bits before they are compared.
 pub(crate) fn n_merged(mesh: &Mesh) -> usize {
     n_merged_as(mesh, |position| position.as_vec3().as_dvec3())
@@ -53,7 +53,7 @@ fn rounded_places(mesh: &Mesh, vertices: &[usize]) -> Vec<DVec3> {
     })
 }
 
-/// Like [`n_merged`], for a format in which vertices are merged only if `compare` returns `Equal`.
+/// Like [`n_merged`], but for formats whose reader merges vertices only if `compare` also returns `Equal` for them.
 pub(crate) fn n_merged_if_equal(
     mesh: &Mesh,
     compare: impl Fn(usize, usize) -> Ordering + Sync,
@@ -70,7 +70,7 @@ pub(crate) fn n_merged_if_equal(
 /// Returns the distinct positions in order of first occurrence, and for each given position, its index in this list. 0
 /// and -0 are equal. There must be fewer than 2^32 - 1 positions.
 ///
-/// If all positions are distinct, the list is returned unchanged.
+/// If all positions are distinct, they are returned unchanged.
 pub(crate) fn weld(positions: Vec<DVec3>) -> (Vec<DVec3>, Vec<u32>) {
     let mut vertex_of = firsts(&positions);
     let is_first = |i: usize, first: u32| i == first as usize;
@@ -216,7 +216,7 @@ fn firsts(positions: &[DVec3]) -> Vec<u32> {
     first.into_iter().map(AtomicU32::into_inner).collect()
 }
 
-/// The bits of an entry that store a part of the hash. The other bits store an index.
+/// The bits of a table entry that store a part of the hash. The other bits store an index.
 const HIGH: u64 = !0 << 32;
 
 /// A hash table with open addressing. At most half of its slots are used.
@@ -226,7 +226,7 @@ struct Table {
 }
 
 impl Table {
-    /// An index that no position has.
+    /// Marks an empty slot: an index that no position has.
     const EMPTY: u64 = u32::MAX as u64;
 
     fn new(n: usize) -> Self {

@@ -1,4 +1,4 @@
-//! The mesh: its arrays, its elements, and the accessors that read them.
+//! Defines the mesh, with its arrays, its elements, and the functions that read them.
 
 use glam::DVec3;
 
@@ -28,7 +28,8 @@ pub struct Connectivity {
 }
 
 impl Connectivity {
-    /// Appends the elements of `other`. The ids of these elements are shifted by the element counts of `self`.
+    /// Appends the elements of `other`. The ids of these elements are increased by the number of elements of the same
+    /// kind in `self`.
     pub fn append(&mut self, other: &Self) {
         fn push<I: Id + PartialEq>(all: &mut Vec<I>, more: &[I], by: usize) {
             let shifted = |&id: &I| {
@@ -55,8 +56,9 @@ impl Connectivity {
 
 /// A half-edge mesh of polygons in space, with attributes.
 ///
-/// Two meshes are equal if all their arrays are equal, including the entries of dead elements. A clone has no open
-/// journal: its edits are not recorded until [`Mesh::begin`] is called on the clone.
+/// Two meshes are equal if all their arrays are equal, including the entries of dead elements, which are removed
+/// elements whose entries are still in the arrays. A clone has no open journal: its edits are not recorded until
+/// [`Mesh::begin`] is called on the clone.
 #[derive(Debug, Default)]
 pub struct Mesh {
     pub(crate) connectivity: Connectivity,
@@ -92,13 +94,14 @@ impl PartialEq for Mesh {
 impl Mesh {
     /// Creates a mesh from these arrays, without attributes. All elements are alive.
     ///
-    /// Use this function in operations that compute the arrays of a whole mesh themselves. The arrays are not
-    /// checked: the caller must ensure the invariants. [`try_from_arrays`](Self::try_from_arrays) checks them.
+    /// Use this function in operations that compute the arrays of a whole mesh themselves. This function does not check
+    /// the arrays: the caller must ensure that they satisfy the invariants. [`try_from_arrays`](Self::try_from_arrays)
+    /// also checks the invariants.
     ///
     /// # Panics
     ///
-    /// Panics if two arrays with entries for the same kind of element differ in length, if the number of half-edges is
-    /// odd, or if the mesh has more elements than there are ids.
+    /// Panics if two arrays for the same kind of element have different lengths, if the number of half-edges is odd, or
+    /// if the mesh has more elements than there are ids.
     pub fn from_arrays(connectivity: Connectivity, positions: Vec<DVec3>) -> Self {
         let mesh = Self {
             connectivity,
@@ -324,7 +327,7 @@ impl Mesh {
         T::of_mut(&mut column.values)
     }
 
-    /// Sets an attribute of the mesh, in place of any attribute of the same name and domain.
+    /// Sets an attribute of the mesh. If there is already an attribute with the same name and domain, it is replaced.
     ///
     /// # Panics
     ///
@@ -341,7 +344,7 @@ impl Mesh {
         );
     }
 
-    /// Inserts a column, in place of any column of the same name and domain.
+    /// Inserts a column. If there is already a column with the same name and domain, it is replaced.
     ///
     /// # Panics
     ///

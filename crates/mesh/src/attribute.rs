@@ -1,11 +1,11 @@
 //! Attributes: named, typed columns of values on vertices, corners, edges and faces.
 //!
 //! A column has one value for each element of its domain, and a [`Rule`] that defines what edits do with the values.
-//! The value of a corner is stored at its half-edge: the one that leaves the corner's vertex and lies on the corner's
-//! face. A half-edge without a face also has a value, but this value has no meaning. Edits keep that value at zero
-//! where this is cheap.
+//! The value of a corner is stored at its half-edge, which leaves the vertex of the corner and belongs to the face of
+//! the corner. A half-edge without a face also has a value, but this value has no meaning. Edits keep that value at
+//! zero where this is cheap.
 //!
-//! Well-known attributes have constants ([`UV`], [`VERTEX_NORMAL`], ...). Programs may use any other name.
+//! Well-known attributes have constants ([`UV`], [`VERTEX_NORMAL`], ...). Programs can also use any other name.
 
 mod columns;
 mod rig;

@@ -1,9 +1,10 @@
-//! Removing dead elements from the arrays.
+//! Removes dead elements from the arrays.
 
 use crate::attribute::Sources;
 use crate::{Connectivity, EdgeId, FaceId, HalfEdgeId, Id, Mesh, VertexId};
 
-/// Maps the ids before a call of [`Mesh::compact`] to the ids after it. Dead elements map to `NONE`.
+/// Maps the ids of elements before a call of [`Mesh::compact`] to their ids after the call. Dead elements map to
+/// `NONE`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Renumbering {
     /// The new vertex for each old vertex index.

@@ -21,8 +21,7 @@ pub(super) struct Array {
 }
 
 impl Array {
-    /// Creates the encoding of attributes whose encoded elements have `stride` bytes. `filter` is the filter that the
-    /// reader applies after decoding.
+    /// Creates the encoding of attributes. Each element has `stride` bytes before the reader applies `filter`.
     pub(super) fn attribute(stride: usize, filter: Filter) -> Self {
         Self {
             mode: "ATTRIBUTES",

@@ -1,4 +1,4 @@
-//! Reads and writes glTF 2.0, as JSON text (`.gltf`) and as a binary file (`.glb`).
+//! Reads and writes Reads and writes glTF 2.0, as JSON text (`.gltf`) and as a binary file (`.glb`).
 //!
 //! ```text
 //! node --- node --- mesh --- primitive --- accessor --- buffer view --- buffer

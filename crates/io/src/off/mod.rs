@@ -1,4 +1,4 @@
-//! OFF: polygons as text, as defined by Geomview.
+//! Reads and writes OFF, the text format of Geomview for polygons.
 //!
 //! A file is one object. Its content is converted as follows:
 //!
@@ -13,14 +13,14 @@
 //! | `n v0 v1 .. i` | face attribute `color_index`; if only some faces have an index, the others get -1; color maps are not supported |
 //! | comments, the number of edges | not kept |
 //!
-//! The letters can be combined, as in `STCNOFF`. The line of a vertex then has the position, normal, color and texture
-//! coordinates, in this order. The keyword can be missing. If all color components of the vertices are integers, and at
-//! least one is greater than 1, all of them are divided by 255. Otherwise, the components are used unchanged. The
-//! colors of the faces are converted in the same way. Binary files are refused. Files whose vertices do not have three
-//! coordinates (`4OFF`, `nOFF`) are also refused.
+//! The letters before `OFF` can be combined, as in `STCNOFF`. The line of a vertex then has the position, normal, color
+//! and texture coordinates, in this order. The keyword in the first line can be missing. If all color components of the
+//! vertices are integers, and at least one is greater than 1, all of them are divided by 255. Otherwise, the components
+//! are used unchanged. The colors of the faces are converted in the same way. Binary files are refused. Files whose
+//! vertices do not have three coordinates (`4OFF`, `nOFF`) are also refused.
 //!
-//! The writer uses the same table, read from right to left. Texture coordinates are written only if they are equal at
-//! all corners of each vertex.
+//! The writer uses the same table from right to left. Texture coordinates are written only if they are equal at all
+//! corners of each vertex.
 
 mod read;
 mod write;

@@ -12,7 +12,7 @@ use crate::text::{Cursor, TextPosition, check_encoding, number, parsed};
 /// The name of the face attribute that stores indices into a color map.
 pub(crate) const COLOR_INDEX: &str = "color_index";
 
-/// The color of faces without a color, if other faces have one.
+/// The color that faces without a color get if other faces have a color.
 const GRAY: DVec4 = DVec4::new(2.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0, 1.0);
 
 /// Consecutive words on a line, each with its position.
@@ -22,7 +22,7 @@ type Words<'a, 'w> = &'w [(TextPosition, &'a [u8])];
 ///
 /// # Errors
 ///
-/// The first position that violates the format.
+/// Returns an error for the first position that violates the format.
 pub(crate) fn read(bytes: &[u8], notes: &mut Notes) -> Result<Polygons, Fault> {
     check_encoding(bytes)?;
     let mut cursor = Cursor::new(bytes);
@@ -59,7 +59,7 @@ impl Header {
             let message = "expected `OFF`, found the end of the file";
             return Err(cursor.place().error(message));
         };
-        // Files of old programs have no keyword.
+        // Files of old programs begin with a number, without a keyword.
         if !word[0].is_ascii_digit() || word.ends_with(b"OFF") {
             header.keyword(place, word)?;
             *cursor = ahead;
@@ -332,12 +332,13 @@ fn note_left_out(small: usize, first: Option<usize>, cursor: &mut Cursor, notes:
 
 // ---- Counts ------------------------------------------------------------------------------------
 
-/// Returns the counts of an OFF file and the attributes that faces can have, and adds notes on faces and lines that are
-/// left out. Numbers and vertex indices are not checked.
+/// Returns the numbers of elements of an OFF file, and the attributes that its faces can have. Adds notes on faces and
+/// lines that are left out. Numbers and vertex indices are not checked.
 ///
 /// # Errors
 ///
-/// If the header or the number of corners of a face violates the format, or if the file ends too early.
+/// Returns an error if the header or the number of corners of a face violates the format, or if the file ends too
+/// early.
 pub(crate) fn peek(
     bytes: &[u8],
     notes: &mut Notes,
@@ -368,8 +369,8 @@ pub(crate) fn peek(
         if (3..=MAX_COMPARED as u64).contains(&degree) {
             let words = (0..degree).map_while(|_| cursor.argument());
             let vertices: Vec<&[u8]> = words.map(|(_, word)| word).collect();
-            // `are_different` refuses words that begin with a zero. Therefore, the index `0` is checked separately: it
-            // may occur at most once, and differs from all words that `are_different` accepts.
+            // `are_different` refuses words that begin with a zero. Therefore, the index `0` is checked separately: the
+            // vertices are different if `0` occurs at most once and `are_different` accepts the other words.
             let others: Vec<&[u8]> = (vertices.iter().copied())
                 .filter(|word| *word != b"0")
                 .collect();

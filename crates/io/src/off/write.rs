@@ -21,7 +21,7 @@ use crate::{Format, SingleFile, WriteOptions};
 ///
 /// # Errors
 ///
-/// If an object is not a mesh.
+/// Returns an error if an object is not a mesh.
 pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<SingleFile, Unwritable> {
     let mut joined = joined(scene, Format::Off)?;
     let mut losses = Losses::of(&joined.name, &mut joined.losses);
@@ -144,7 +144,8 @@ fn push_numbers(out: &mut Vec<u8>, numbers: &[f64]) {
 }
 
 /// Whether all components are exact multiples of 1/255, and at least one of them is greater than 1/255. If such colors
-/// are written as bytes, a reader does not mistake the bytes for components from 0 to 1.
+/// are written as bytes, at least one byte is greater than 1, so a reader does not mistake the bytes for components
+/// from 0 to 1.
 fn are_bytes(values: &Values) -> bool {
     let Values::Vec4(colors) = values else {
         return false;
@@ -163,7 +164,7 @@ fn push_color(out: &mut Vec<u8>, color: DVec4, as_bytes: bool) {
         let start = out.len();
         push_number(out, x);
         let is_whole = |byte: &u8| byte.is_ascii_digit() || *byte == b'-';
-        // A decimal point shows that the components are numbers from 0 to 1, not bytes.
+        // A decimal point is added to show that the components are numbers from 0 to 1, not bytes.
         if out[start..].iter().all(is_whole) {
             out.extend_from_slice(b".0");
         }

@@ -1,9 +1,9 @@
 //! Reads and writes comments that describe attributes of a mesh. A comment is necessary if the names and types of the
 //! properties in the file are not sufficient to determine the attribute.
 //!
-//! For example, `comment meshwright vertex vec3 normal tangent_x "tangent"` declares an attribute `tangent`. Its values
-//! are unit vectors, and its components are three properties of `vertex`, beginning with `tangent_x`. The name is a
-//! JSON string. Other programs see three unrelated properties.
+//! For example, `comment meshwright vertex vec3 normal tangent_x "tangent"` declares an attribute `tangent`, whose name
+//! is written as a JSON string. Its values are unit vectors, and its components are three properties of `vertex`,
+//! beginning with `tangent_x`. Other programs see three unrelated properties.
 
 use mesh::{Domain, Rule};
 

@@ -30,7 +30,7 @@ impl<'a> Body<'a> {
     ///
     /// # Errors
     ///
-    /// The first position in a text file that violates the format.
+    /// Returns an error for the first position in a text file that violates the format.
     pub(super) fn new(
         file: &'a [u8],
         header: &'a Header,
@@ -65,7 +65,8 @@ impl<'a> Body<'a> {
     ///
     /// # Errors
     ///
-    /// If the file is too short or a list has a negative count. Extra bytes at the end are reported by a note.
+    /// Returns an error if the file is too short or a list has a negative count. Extra bytes at the end are reported by
+    /// a note.
     pub(super) fn tables(&self, notes: &mut Notes) -> Result<Vec<Table<'_>>, Fault> {
         let mut at = self.start;
         let big = self.header.encoding == Encoding::BigEndian;

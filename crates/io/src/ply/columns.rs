@@ -67,7 +67,7 @@ pub(super) enum Source<'a> {
     /// The numbers are in consecutive scalar properties. The field is the index of the first property.
     Scalars(usize),
     /// The numbers are in a list property, as for corner attributes. The first field is the index of the property. The
-    /// second field has the offsets: the first corner of each face, followed by the total number of corners.
+    /// second field contains the first corner of each face, followed by the total number of corners.
     List(usize, &'a [u32]),
 }
 
@@ -179,8 +179,8 @@ type Lists = (Vec<u32>, Vec<u32>);
 ///
 /// # Errors
 ///
-/// The row and the item of the first value that is not a vertex index, or `None` if there are too many values for 32
-/// bits.
+/// Returns the row and the item of the first value that is not a vertex index, or `None` if there are more values than
+/// a 32-bit number can count.
 pub(super) fn indices(
     table: &Table,
     property: usize,
@@ -229,8 +229,8 @@ pub(super) fn item_at(table: &Table, property: usize, row: usize, item: usize) -
     whole(kind, table.big, &table.bytes[at..])
 }
 
-/// Returns the offsets of the lists of all rows, and the total number of items. Returns `None` if there are too many
-/// items for 32 bits.
+/// Returns the offsets of the lists of all rows, and the total number of items. Returns `None` if the total number does
+/// not fit in 32 bits.
 fn offsets(table: &Table, property: usize) -> Option<(Vec<u32>, usize)> {
     if let Some(n) = table.even_count(property) {
         let total = table.rows.checked_mul(n)?;

@@ -1,5 +1,5 @@
-//! Parses the header of a PLY file, which lists the elements of the file. Each element has a number of rows and a list
-//! of properties.
+//! Parses the header of a PLY file, which declares the elements of the file. An element is a table, such as `vertex` or
+//! `face`. It has a number of rows, and its columns are called properties.
 
 use std::fmt;
 
@@ -7,11 +7,11 @@ use super::types::Type;
 use crate::fault::Fault;
 use crate::text::{BYTE_ORDER_MARK, TextPosition, name, parsed, quoted};
 
-/// The maximum number of properties of all elements together. The maximum limits how often the reader passes over the
-/// data, and is far above the number of properties in usual files.
+/// The maximum number of properties of all elements together. This maximum limits how often the reader passes over the
+/// data. Usual files have far fewer properties.
 pub(super) const MAX_PROPERTIES: usize = 4096;
-/// The maximum number of elements. The maximum limits the time for finding elements by name, and is far above the
-/// number of elements in usual files.
+/// The maximum number of elements. This maximum limits the time for finding elements by name. Usual files have far
+/// fewer elements.
 const MAX_ELEMENTS: usize = 1024;
 
 /// The encoding of the values of a file.
@@ -35,7 +35,7 @@ pub(super) struct Header {
     pub(super) lines: usize,
 }
 
-/// A table of the file, with the same properties in each row.
+/// An element of the file, which is a table with the same properties in each row.
 #[derive(Clone, Debug)]
 pub(super) struct Element {
     pub(super) name: String,
@@ -45,7 +45,7 @@ pub(super) struct Element {
     pub(super) place: TextPosition,
 }
 
-/// A column of an element.
+/// A property, which is a column of an element.
 #[derive(Clone, Debug)]
 pub(super) struct Property {
     pub(super) name: String,
@@ -99,7 +99,7 @@ impl Element {
 ///
 /// # Errors
 ///
-/// The first line that violates the format.
+/// Returns an error for the first line that violates the format.
 pub(super) fn parse(bytes: &[u8]) -> Result<Header, Fault> {
     let start = if bytes.starts_with(BYTE_ORDER_MARK) {
         BYTE_ORDER_MARK.len()

@@ -1,4 +1,4 @@
-//! Stanford PLY: polygons with any properties, as text or as binary numbers in either byte order.
+//! Reads and writes Stanford PLY: polygons with any properties, as text or as binary numbers in either byte order.
 //!
 //! A file is one object. Its elements and properties are converted as follows:
 //!
@@ -22,12 +22,12 @@
 //! property of `vertex` are interpolated, and all other values are copied. Non-finite positions are an error. Other
 //! non-finite values become 0, with a note.
 //!
-//! The writer uses the same table, read from right to left, and writes little-endian binary. All finite values are
+//! The writer uses the same table from right to left, and writes little-endian binary files. All finite values are
 //! restored exactly when the file is read. Positions and custom floating-point attributes are written with 64 bits.
-//! Normals and texture coordinates are written with 32 bits if that is exact. Colors are written as bytes if every
-//! component is a multiple of 1/255. If texture coordinates are equal at all corners of each vertex, they are written
-//! as the properties `s` and `t` of `vertex`. Corner attributes are written as list properties of `face`. Materials and
-//! edge attributes cannot be stored.
+//! Normals and texture coordinates are written with 32 bits if this loses nothing, otherwise with 64 bits. Colors are
+//! written as bytes if every component is a multiple of 1/255. If texture coordinates are equal at all corners of each
+//! vertex, they are written as the properties `s` and `t` of `vertex`. Corner attributes are written as list properties
+//! of `face`. Materials and edge attributes cannot be stored.
 
 mod attribute_comments;
 mod body;

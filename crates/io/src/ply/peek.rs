@@ -1,4 +1,4 @@
-//! Counts the elements of a PLY file from its header and the counts of its lists.
+//! Counts the vertices, faces and corners of a PLY file from its header and the lengths of its lists.
 
 use mesh::{COLOR, Domain, VERTEX_NORMAL};
 
@@ -11,12 +11,12 @@ use crate::fault::Fault;
 use crate::note::Notes;
 use crate::peek::{MAX_COMPARED, PeekMesh, differ};
 
-/// Returns the counts of a PLY file, and adds notes on the elements that are left out. Positions and the vertices of
-/// faces are not checked.
+/// Returns the numbers of vertices, faces and corners of a PLY file, and adds notes on the elements that are left out.
+/// Positions and the vertices of faces are not checked.
 ///
 /// # Errors
 ///
-/// If the header violates the format, or if the file is shorter than the header declares.
+/// Returns an error if the header violates the format, or if the file is shorter than the header declares.
 pub(crate) fn peek(bytes: &[u8], notes: &mut Notes) -> Result<(PeekMesh, Names), Fault> {
     let header = parse(bytes)?;
     let roles = Roles::of(&header)?;

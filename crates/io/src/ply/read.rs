@@ -24,8 +24,8 @@ use mesh::parallel;
 ///
 /// # Errors
 ///
-/// The first position that violates the format. In a text file and in a header, the position is a line and a column. In
-/// binary values, the position is a byte.
+/// Returns an error for the first position that violates the format. The position is a line and a column in a text file
+/// and in the header, and the offset of a byte in binary values.
 pub(crate) fn read(bytes: &[u8], notes: &mut Notes) -> Result<Polygons, Fault> {
     let header = parse(bytes)?;
     let roles = Roles::of(&header)?;
@@ -198,7 +198,7 @@ impl Reader<'_, '_> {
         self.plain(Domain::Face, place, &used);
     }
 
-    /// Adds the columns that comments describe.
+    /// Adds the attribute columns that comments describe.
     fn described(&mut self, domain: Domain, place: usize, used: &mut [bool]) {
         let element = &self.header.elements[place];
         let table = &self.tables[place];
@@ -340,7 +340,7 @@ impl Reader<'_, '_> {
     }
 }
 
-/// Returns the edit rule of an attribute that no comment describes.
+/// Returns the rule for an attribute that no comment describes. The rule defines what edits do with its values.
 pub(super) fn plain_rule(domain: Domain, kind: Type) -> Rule {
     if domain == Domain::Vertex && kind.is_float() {
         Rule::Interpolate
@@ -364,7 +364,7 @@ fn mark_used(used: &mut [bool], properties: &[usize]) {
     }
 }
 
-/// Returns the properties if none of them is used.
+/// Returns the properties, or `None` if any of them is used.
 fn free<const N: usize>(used: &[bool], properties: Option<[usize; N]>) -> Option<[usize; N]> {
     properties.filter(|properties| !properties.iter().any(|&p| used[p]))
 }

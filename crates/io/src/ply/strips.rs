@@ -1,4 +1,4 @@
-//! Reads triangle strips, as in the files of the Stanford scans.
+//! Reads triangle strips, which the files of the Stanford scans contain.
 
 use super::columns::item_at;
 use super::table::Table;
@@ -11,7 +11,7 @@ type Strips = (Vec<u32>, usize, usize);
 ///
 /// # Errors
 ///
-/// The row and the item of the first item that is neither a vertex index nor -1, and a message.
+/// Returns the row and the index of the first item that is neither a vertex index nor -1, and a message.
 pub(super) fn triangles_of_strips(
     table: &Table,
     list: usize,

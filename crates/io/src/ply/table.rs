@@ -18,16 +18,16 @@ pub(super) struct Table<'a> {
     layout: Layout,
 }
 
-/// The positions of rows. A row is divided into segments. A new segment begins after each list. Each segment has its
-/// own list of positions.
+/// The positions of rows. A row is divided into segments. A new segment begins after each list, because the length of a
+/// list can differ between rows. The position of each segment is stored for each row.
 #[derive(Debug)]
 enum Layout {
-    /// All rows have the same length, because each list has the same count in every row.
+    /// All rows have the same length, because each list has the same number of items in every row.
     Even {
         stride: usize,
         /// For each property, the offset of its value in a row. For a list, this is the offset of its first item.
         places: Vec<usize>,
-        /// For each property, the count of its list. 0 if the property is not a list.
+        /// For each property, the number of items in its list; 0 if the property is not a list.
         counts: Vec<usize>,
     },
     Uneven {
@@ -36,7 +36,7 @@ enum Layout {
         places: Vec<(usize, usize)>,
         /// For each segment, the position at which it begins in each row. Empty if no property is in the segment.
         starts: Vec<Vec<usize>>,
-        /// For each property, the count of its list in each row. Empty if the property is not a list.
+        /// For each property, the number of items of its list in each row. Empty if the property is not a list.
         counts: Vec<Vec<u32>>,
     },
 }
@@ -47,8 +47,8 @@ impl<'a> Table<'a> {
     ///
     /// # Errors
     ///
-    /// If the file is too short for the rows, or if a list has a negative count. Memory is allocated only if the file
-    /// is long enough for the rows.
+    /// Returns an error if the file is too short for the rows, or if a list has a negative count. Memory is allocated
+    /// only if the file is long enough for the rows.
     pub(super) fn locate(
         element: &'a Element,
         file: &'a [u8],
@@ -128,8 +128,8 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Returns the number of items in the list of each row, if each list of the element has the same length in all
-    /// rows.
+    /// If each list of the element has the same length in all rows, returns the number of items of this list.
+    /// Otherwise, returns `None`.
     pub(super) fn even_count(&self, property: usize) -> Option<usize> {
         match &self.layout {
             Layout::Even { counts, .. } => Some(counts[property]),
@@ -138,7 +138,8 @@ impl<'a> Table<'a> {
     }
 }
 
-/// Returns the layout and the total length of the rows, if every row has the same counts as the first row.
+/// If the lists of every row have the same lengths as in the first row, returns the layout and the total length of the
+/// rows. Otherwise, returns `None`.
 fn even(properties: &[Property], rows: usize, bytes: &[u8], big: bool) -> Option<(Layout, usize)> {
     let mut at = 0_usize;
     let (mut places, mut counts, mut lists) = (Vec::new(), Vec::new(), Vec::new());
@@ -179,7 +180,7 @@ fn even(properties: &[Property], rows: usize, bytes: &[u8], big: bool) -> Option
     Some((layout, length))
 }
 
-/// Scans rows whose lists have different counts. Returns the layout and the total length of the rows.
+/// Scans rows whose lists have different lengths. Returns the layout and the total length of the rows.
 fn scanned(
     element: &Element,
     all: &[u8],

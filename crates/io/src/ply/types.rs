@@ -68,7 +68,7 @@ impl Type {
     }
 }
 
-/// Evaluates `$body`, in which `$t` is the Rust type of the values.
+/// Evaluates `$body` with `$t` as the Rust type of the values.
 macro_rules! with_type {
     ($type:expr, $t:ident => $body:expr) => {
         with_type!(@ $type, $t => $body;

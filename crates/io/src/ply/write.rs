@@ -31,7 +31,7 @@ const BLOCK: usize = 8192;
 ///
 /// # Errors
 ///
-/// If an object is not a mesh, or the files cannot be written.
+/// Returns an error if an object is not a mesh, or the files cannot be written.
 pub(crate) fn write(
     store: &dyn Store,
     path: &Path,
@@ -65,8 +65,8 @@ pub(crate) fn write(
             if let Some(uvs) = uvs_of_vertices(mesh, &values) {
                 vertices.known(&["s", "t"], Cow::Owned(uvs));
             } else {
-                // If the corners of a vertex differ, texture coordinates are written as a list for each face, as in
-                // `MeshLab`.
+                // If the texture coordinates differ between the corners of a vertex, they are written as a list for
+                // each face, as in `MeshLab`.
                 let form = float_for(&values, 2);
                 faces.values(&["texcoord"], true, values, 2, form);
             }
@@ -103,21 +103,22 @@ struct Element<'a> {
     properties: Vec<String>,
     names: BTreeSet<String>,
     fields: Vec<Field<'a>>,
-    /// The maximum number of corners of a face.
+    /// The largest number of corners that a face has.
     most: usize,
 }
 
 /// A field of each row.
 enum Field<'a> {
     Positions(&'a [DVec3]),
-    /// The vertex indices of a face, with the type of their count.
+    /// The vertex indices of a face. The field is the type in which their number is stored.
     Corners(Type),
     Values {
         values: Cow<'a, Values>,
         /// The number of components of a value that are written. If all colors are opaque, the alpha is left out.
         size: usize,
         form: Type,
-        /// If the field is a list with the values of the corners of a face, the type of its count.
+        /// If the field is a list with the values of the corners of a face, the type in which the length of the list is
+        /// stored.
         count: Option<Type>,
     },
 }
@@ -195,7 +196,7 @@ impl<'a> Element<'a> {
         }
     }
 
-    /// Adds values under standard names.
+    /// Adds values as properties with these standard names.
     fn known(&mut self, names: &[&str], values: Cow<'a, Values>) {
         let opaque = match &*values {
             Values::Vec4(colors) => parallel::all(colors.len(), |i| colors[i].w == 1.0),
@@ -210,8 +211,8 @@ impl<'a> Element<'a> {
         self.values(names, false, values, size, form);
     }
 
-    /// Adds values under the name of their attribute. If the name and the types are not sufficient to restore the
-    /// attribute, a comment is added.
+    /// Adds values as properties with the name of their attribute. If the name and the types are not sufficient to
+    /// restore the attribute, a comment is added.
     fn free(&mut self, domain: Domain, column: &Column, values: Cow<'a, Values>) {
         let kind = Kind::of(&values);
         let form = match kind {

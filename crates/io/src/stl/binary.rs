@@ -1,4 +1,5 @@
-//! Reads binary STL files: a header of 80 bytes, the number of triangles, and 50 bytes for each triangle.
+//! Reads binary STL files, which consist of a header of 80 bytes, the number of triangles, and 50 bytes for each
+//! triangle.
 
 use glam::DVec3;
 use mesh::zeroed;
@@ -28,7 +29,7 @@ pub(super) fn length(bytes: &[u8]) -> Option<u64> {
 ///
 /// # Errors
 ///
-/// The first coordinate of a corner that is not finite.
+/// Returns an error for the first corner coordinate that is not finite.
 pub(super) fn read(facets: &[u8]) -> Result<Facets, Fault> {
     let n = facets.len() / FACET;
     let mut corners = zeroed::<DVec3>(3 * n);

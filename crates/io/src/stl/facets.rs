@@ -28,9 +28,9 @@ pub(super) enum Side {
 }
 
 /// Compares the normal of a facet with the normal that is computed from its corners. The two normals agree if the angle
-/// between them is at most 6 degrees (its sine is at most 1/10), which allows for rounding errors in a sliver. The two
-/// normals also agree if the normal of the facet is zero or not finite, or if the area of the facet is zero. If the
-/// facet is so thin that its area can be a result of rounding errors, they agree unless they are nearly opposite.
+/// between them is at most 6 degrees (its sine is at most 1/10). They also agree if the normal of the facet is zero or
+/// not finite, or if the area of the facet is zero. If the facet is so thin that its area can be a result of rounding
+/// errors, they agree unless they are nearly opposite.
 #[inline]
 pub(super) fn compare(normal: DVec3, [a, b, c]: [DVec3; 3]) -> Side {
     let area = (b - a).cross(c - a);
@@ -46,8 +46,8 @@ pub(super) fn compare(normal: DVec3, [a, b, c]: [DVec3; 3]) -> Side {
             Side::Opposite
         };
     }
-    // If the facet is a sliver, the normals are not compared. The corners are rounded to 24 bits, so the area of a
-    // sliver can be a result of rounding errors alone.
+    // The coordinates are rounded to 24 bits, so the computed normal of a sliver can be a result of rounding errors
+    // alone. Therefore, the normals of a sliver count as equal here.
     let size = a.abs().max(b.abs()).max(c.abs()).max_element();
     let longest = (b - a).length_squared().max((c - a).length_squared());
     let rounding = 4.0 / f64::from(1 << 24) * size;

@@ -1,4 +1,4 @@
-//! STL: triangles for 3D printing, as text or binary.
+//! Reads and writes STL: triangles for 3D printing, as text or binary.
 //!
 //! A file is one object. Its content is converted as follows:
 //!

@@ -15,7 +15,7 @@ use crate::polygons::{OBJECT_TAG, most_tags};
 use crate::text::BYTE_ORDER_MARK;
 use crate::weld::weld;
 
-/// The notes about content of binary files that is left out.
+/// The texts of notes about content of binary files that is left out.
 const REST: &str = "bytes left out after the last facet";
 const COLORED: &str = "facets with attribute bytes (possibly colors): these bytes are left out";
 
@@ -23,7 +23,7 @@ const COLORED: &str = "facets with attribute bytes (possibly colors): these byte
 ///
 /// # Errors
 ///
-/// The first position that violates the format.
+/// Returns an error for the first position that violates the format.
 pub(crate) fn read(bytes: &[u8], notes: &mut Notes) -> Result<Polygons, Fault> {
     let facets = match kind(bytes)? {
         Kind::Text => text::read(bytes)?,
@@ -142,12 +142,12 @@ fn set_tags(polygons: &mut Polygons, solids: &[(String, Range<usize>)], notes: &
 /// The names of attributes with their domains.
 type AttributeNames = Vec<(Domain, String)>;
 
-/// Returns the counts of an STL file, and adds notes on the bytes of a binary file that are left out. The number of
-/// vertices is an upper bound, because corners are not compared.
+/// Returns the numbers of vertices and triangles of an STL file, and adds notes on the bytes of a binary file that are
+/// left out. The number of vertices is an upper bound, because corners are not compared.
 ///
 /// # Errors
 ///
-/// If a binary file is too short for the number of triangles that it declares.
+/// Returns an error if a binary file is too short for the number of triangles that it declares.
 pub(crate) fn peek(
     bytes: &[u8],
     notes: &mut Notes,

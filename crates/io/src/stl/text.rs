@@ -10,7 +10,7 @@ use crate::text::{Cursor, is_not_finite, name, number, quoted};
 ///
 /// # Errors
 ///
-/// The first word that violates the format.
+/// Returns an error for the first word that violates the format.
 pub(super) fn read(bytes: &[u8]) -> Result<Facets, Fault> {
     let mut found = Facets::default();
     let mut cursor = Cursor::new(bytes);

@@ -17,8 +17,8 @@ use mesh::parallel;
 ///
 /// # Errors
 ///
-/// If an object is not a mesh, a position exceeds the range of 32-bit numbers, or there are at least 2^32
-/// triangles.
+/// Returns an error if an object is not a mesh, a position exceeds the range of 32-bit numbers, or there are at least
+/// 2^32 triangles.
 pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<SingleFile, Unwritable> {
     let mut joined = joined(scene, Format::Stl)?;
     let mesh = &*joined.mesh;

@@ -56,8 +56,8 @@ impl Attributes {
         &self.columns[domain as usize]
     }
 
-    /// Iterates over all columns with their domains, in the order of [`Domain::ALL`]. The columns of one domain are
-    /// sorted by name.
+    /// Iterates over all columns with their domains. The domains are in the order of [`Domain::ALL`], and the columns
+    /// of each domain are sorted by name.
     pub fn iter(&self) -> impl Iterator<Item = (Domain, &Column)> {
         Domain::ALL
             .into_iter()
@@ -69,8 +69,8 @@ impl Attributes {
         self.find(domain, name).ok().map(|i| &self.of(domain)[i])
     }
 
-    /// Returns the index of the column with this name. If there is no such column, the error is the index at
-    /// which to insert one.
+    /// Returns the index of the column with this name. If there is no such column, returns, as an error, the index at
+    /// which to insert it.
     fn find(&self, domain: Domain, name: &str) -> Result<usize, usize> {
         self.of(domain)
             .binary_search_by(|c| c.name.as_str().cmp(name))
@@ -85,8 +85,8 @@ impl Attributes {
         index.map(|i| &mut self.columns[domain as usize][i])
     }
 
-    /// Inserts a column into a domain, in place of any column of the same name. The length of the column must
-    /// be the number of elements of this domain in the mesh that gets these attributes.
+    /// Inserts a column into a domain. If the domain already has a column with the same name, it is replaced. The
+    /// length of the column must be the number of elements of this domain in the mesh that gets these attributes.
     pub fn insert(&mut self, domain: Domain, column: Column) {
         let index = self.find(domain, &column.name);
         let columns = &mut self.columns[domain as usize];
@@ -122,10 +122,10 @@ impl Attributes {
         }
     }
 
-    /// Appends the values of `other`. `lens` has the element count of each domain in the mesh that `self`
-    /// belongs to; `other_lens` has the counts of the mesh that `other` belongs to. A column that only one of
-    /// the two meshes has gets zero values for the elements of the other mesh. If two columns have the same
-    /// name but different types, the column of `other` is skipped, and its domain and name are returned.
+    /// Appends the values of `other`. `lens` contains the number of elements of each domain in the mesh that `self`
+    /// belongs to, and `other_lens` those in the mesh that `other` belongs to. A column that only one of the two meshes
+    /// has gets zero values for the elements of the other mesh. If two columns have the same name but different types,
+    /// the column of `other` is skipped, and its domain and name are returned.
     pub fn append(
         &mut self,
         lens: [usize; 4],

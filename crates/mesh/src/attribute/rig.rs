@@ -1,9 +1,10 @@
 //! The names of the vertex attributes that deform a mesh: weights of joints, and deltas of morph targets.
 //!
-//! The attribute `joint:j` has the weight of joint j of the skin at each vertex, and `morph:t` has the vector by which
-//! morph target t moves each vertex. Both attributes follow the rule [`Rule::Interpolate`](crate::Rule::Interpolate),
-//! so an edit that averages positions averages weights and deltas in the same way. Each joint has a separate attribute,
-//! because lists of joints at the vertices could not be interpolated.
+//! For each vertex, the attribute `joint:j` has the weight of joint j of the skin, and `morph:t` has the vector by
+//! which morph target t moves the vertex. The rule of both attributes is
+//! [`Rule::Interpolate`](crate::Rule::Interpolate). Therefore, an edit that averages positions averages the weights and
+//! deltas in the same way. Each joint has a separate attribute, because lists of joints at the vertices could not be
+//! interpolated.
 //!
 //! The attribute `morph_normal:t` has the normals of the vertices or corners when morph target t has the weight 1. The
 //! values are the normals themselves, not their differences from the normals of the mesh. Like all normals, they follow

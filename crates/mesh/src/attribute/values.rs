@@ -5,11 +5,11 @@ use glam::{DVec2, DVec3, DVec4};
 
 use crate::parallel;
 
-/// A function of the index of a new value and of a callback. It calls the callback with the index and the weight of
-/// each old value that contributes to the new value.
+/// A function that gets the index of a new value and a callback. For each old value that contributes to the new value,
+/// the function calls the callback with the index and the weight of the old value.
 type Weights<'a> = dyn Fn(usize, &mut dyn FnMut(usize, f64)) + Sync + 'a;
 
-/// In a list with the source of each new value, marks a value that has no source. The new value is zero.
+/// In a list with the source of each new value, this entry marks a new value without a source. Such a value is zero.
 const NO_SOURCE: usize = usize::MAX;
 
 /// The values of a column, one for each element of its domain.
@@ -77,7 +77,7 @@ impl Values {
         }
     }
 
-    /// Returns a component of the value at `i` as a number; 1 or 0 for the flag of a tag.
+    /// Returns a component of the value at `i` as a number. The flag of a tag is returned as 1 or 0.
     ///
     /// # Panics
     ///

@@ -1,4 +1,4 @@
-//! Computing the arrays of a mesh from paired sides.
+//! Computes the arrays of a mesh from the sides of polygons, after the two sides of each edge were paired.
 
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
@@ -53,7 +53,7 @@ impl Edges {
         }
     }
 
-    /// Computes all arrays. `origins` has the vertex of each corner.
+    /// Computes all arrays. `origins` contains the vertex of each corner.
     pub(super) fn arrays(
         &self,
         polygons: &Polygons,
@@ -85,8 +85,8 @@ impl Edges {
                     let c = to_id(c);
                     (next[0], origin[0], face[0]) = (of(polygons.next(c)), vertex(c), face_of(c));
                     (next[1], origin[1], face[1]) = if t == NONE {
-                        // The boundary half-edge beside the corner c ends at v. The boundary then continues along the
-                        // boundary half-edge that starts at v.
+                        // The boundary half-edge on the other side of the edge ends at v, the vertex of corner c. The
+                        // boundary then continues along the boundary half-edge that starts at v.
                         let v = vertex(c).index();
                         (vertex_half_edge[v], vertex(polygons.next(c)), FaceId::NONE)
                     } else {

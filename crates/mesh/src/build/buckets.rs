@@ -1,4 +1,4 @@
-//! Collecting the corners at each vertex by a counting sort.
+//! Collects the corners at each vertex by a counting sort.
 
 use rayon::prelude::*;
 
@@ -16,7 +16,7 @@ pub(super) struct Buckets {
 }
 
 impl Buckets {
-    /// Sorts corners into buckets. `vertices` has the vertex of each corner. All vertices must be below
+    /// Sorts corners into buckets. `vertices` contains the vertex of each corner. All of these indices must be below
     /// `n_vertices`.
     ///
     /// Each task owns a range of vertices, and selects the corners of these vertices from all corners. So no

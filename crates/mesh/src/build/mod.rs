@@ -1,9 +1,11 @@
-//! Building a mesh from polygons, without a hash map. The result is the same for any number of threads.
+//! Builds a mesh from polygons, without a hash map. The result is the same for any number of threads.
 //!
-//! A corner c of a polygon represents the directed side from its vertex a to the next vertex b. The twin of c is the
-//! corner of a side from b to a. The corners are bucketed by vertex. Around each vertex, outgoing sides are then paired
-//! with incoming sides. The pairs also show whether the faces around the vertex form one fan. Edges are numbered in the
-//! order in which the polygons first use them. The first half of an edge lies on the polygon that first used it.
+//! Each corner of a polygon also represents a directed side of the polygon. If the vertex of corner c is a and the next
+//! vertex is b, the side of c runs from a to b. The twin of c is a corner whose side runs from b to a. The corners are
+//! bucketed by vertex. Around each vertex, outgoing sides are then paired with incoming sides. The pairs also show
+//! whether the faces around the vertex form one fan, which means that they are all connected through edges at the
+//! vertex. Edges are numbered in the order in which the polygons first use them. The first half of an edge lies on the
+//! polygon that first used it.
 //!
 //! ```text
 //!    polygons --> buckets --> star, pair ----------------> assemble --> mesh
@@ -21,9 +23,9 @@
 //!   orientation. The smaller group is reversed. If both groups have the same size, the second one is reversed. If
 //!   the part cannot be made consistent, none of its polygons is reversed. The first corner of a reversed polygon
 //!   stays the first.
-//! - Two vertices a and b can have more than two sides between them, or two sides that run in the same
-//!   direction even after these reversals. In this case, the k-th side from a to b is paired with the k-th side
-//!   from b to a, in the order of the corners. Unpaired sides become boundary edges.
+//! - If there are more than two sides between two vertices a and b, or two sides that run in the same direction even
+//!   after these reversals, the k-th side from a to b is paired with the k-th side from b to a. The sides are counted
+//!   in the order of the corners. Unpaired sides become boundary edges.
 //! - If the faces around a vertex form several fans, the fan that contains the first corner at the vertex keeps the
 //!   vertex. Each other fan gets a copy of the vertex, appended after all other vertices.
 //! - A polygon that has fewer than three corners, or that contains a vertex twice, is dropped.
@@ -96,8 +98,8 @@ pub enum BuildError {
 /// How polygons that do not form a manifold are handled.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum NonManifold {
-    /// Reverse polygons where that makes the orientation consistent, then split edges and vertices until
-    /// the mesh is a manifold, and report all of these repairs.
+    /// Reverse polygons where this makes the orientation consistent with their neighbors. Then split edges and vertices
+    /// until the mesh is a manifold. All of these repairs are reported.
     #[default]
     Split,
     /// Like [`Split`](Self::Split), but every polygon keeps its orientation: if two neighbors run along
@@ -106,7 +108,7 @@ pub enum NonManifold {
     /// Reverse polygons where that makes the orientation consistent, and return an error if the result
     /// is not a manifold.
     Refuse,
-    /// Return an error if the polygons are not a manifold as given.
+    /// Keep the orientation of every polygon, and return an error if the polygons do not form a manifold.
     RefuseAsGiven,
 }
 
@@ -117,9 +119,9 @@ pub struct BuildOutput {
     pub mesh: Mesh,
     /// The repairs that made the mesh a manifold.
     pub report: BuildReport,
-    /// For each corner of the input, its half-edge: the one that leaves the corner's vertex on the
-    /// face of its polygon. `NONE` if the polygon was dropped. On a reversed polygon, this half-edge
-    /// runs along the side before the corner; see [`edges_of_sides`](Self::edges_of_sides).
+    /// For each corner of the input, its half-edge, which leaves the vertex of the corner and belongs to the face of
+    /// its polygon. `NONE` if the polygon was dropped. On a reversed polygon, this half-edge runs along the side before
+    /// the corner; see [`edges_of_sides`](Self::edges_of_sides).
     pub half_edge_of_corner: Vec<HalfEdgeId>,
     /// For each polygon of the input, its face; `NONE` if the polygon was dropped.
     pub face_of_polygon: Vec<FaceId>,
@@ -189,9 +191,9 @@ impl Mesh {
 ///
 /// # Errors
 ///
-/// Returns the errors of [`Mesh::from_polygons`], [`BuildError::BadOffsets`] if the offsets do not divide the corners
-/// into polygons, and [`BuildError::Degenerate`], [`BuildError::NonManifoldEdge`] or [`BuildError::NonManifoldVertex`]
-/// if `non_manifold` requires an error for non-manifold input.
+/// Returns an error in the same cases as [`Mesh::from_polygons`], and [`BuildError::BadOffsets`] if the offsets do not
+/// divide the corners into polygons. If `non_manifold` refuses non-manifold input, returns [`BuildError::Degenerate`],
+/// [`BuildError::NonManifoldEdge`] or [`BuildError::NonManifoldVertex`] for such input.
 pub fn build(
     positions: Vec<DVec3>,
     offsets: &[u32],
@@ -253,7 +255,7 @@ fn build_without(
     Ok(built)
 }
 
-/// Builds a mesh from polygons, none of which may be degenerate.
+/// Builds a mesh from polygons. Requires that no polygon is degenerate.
 fn build_clean(
     mut positions: Vec<DVec3>,
     offsets: &[u32],
@@ -305,8 +307,8 @@ fn check_manifold(paired: &PairedSides) -> Result<(), BuildError> {
     pinched.map_or(Ok(()), |v| Err(BuildError::NonManifoldVertex(v)))
 }
 
-/// Builds a mesh with some polygons reversed. The corner map of the result refers to the corners before the
-/// reversal.
+/// Builds a mesh with some polygons reversed. The map from corners to half-edges in the result refers to the corners
+/// before the reversal.
 fn build_reoriented(
     positions: Vec<DVec3>,
     offsets: &[u32],

@@ -1,4 +1,4 @@
-//! Reversing polygons until neighbors have a consistent orientation.
+//! Reverses polygons so that neighbors have a consistent orientation.
 //!
 //! ```text
 //!    +-------+-------+           +-------+-------+
@@ -8,10 +8,10 @@
 //!    +-------+-------+           +-------+-------+
 //! ```
 //!
-//! Neighbors are polygons that share an edge with exactly two sides. In each part that is connected through these
-//! edges, the polygons form two groups: those that have the same orientation as the first polygon of the part, and
-//! those that have the opposite orientation. The smaller group is reversed. If both groups have the same size, the
-//! second one is reversed.
+//! Neighbors are polygons that share an edge with exactly two sides. Polygons that are connected through such edges
+//! form a part. If the polygons of a part can get a consistent orientation, they form two groups: those that have the
+//! same orientation as the first polygon of the part, and those that have the opposite orientation. The smaller group
+//! is reversed. If both groups have the same size, the second one is reversed.
 
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
@@ -91,8 +91,8 @@ impl Orientation {
     }
 }
 
-/// Returns, for each side, the other side of its edge, or `NONE` if the edge does not have exactly two sides. The
-/// directions of the sides do not matter.
+/// Returns, for each side, the other side of its edge, or `NONE` if the edge does not have exactly two sides. The two
+/// sides can run in the same or in opposite directions.
 fn opposite_sides(polygons: &Polygons, buckets: &Buckets) -> Vec<u32> {
     let opposite_sides: Vec<AtomicU32> = (0..polygons.corners.len())
         .into_par_iter()

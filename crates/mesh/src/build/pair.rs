@@ -1,4 +1,4 @@
-//! Pairing the sides of polygons: each side with the side that runs in the opposite direction along the same
+//! Pairs each side of a polygon with the side of another polygon that runs in the opposite direction along the same
 //! edge.
 
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
@@ -17,7 +17,7 @@ pub(super) struct PairedSides {
     pub(super) twin: Vec<u32>,
     /// For each vertex, the outgoing half-edge that the mesh will store for it.
     pub(super) outgoing: Vec<Outgoing>,
-    /// The vertices that have more than one fan, in order. The `outgoing` of such a vertex can belong to any of
+    /// The vertices whose faces form more than one fan, in order. The `outgoing` of such a vertex can belong to any of
     /// its fans.
     pub(super) pinched: Vec<u32>,
     /// The edges with more than two sides, or with two sides that run in the same direction, ordered by their

@@ -1,4 +1,4 @@
-//! The polygons that a mesh is built from: validation, and navigation from corner to corner.
+//! Stores the polygons that a mesh is built from, validates them, and finds the neighbors of their corners.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -9,8 +9,8 @@ use crate::parallel::BLOCK;
 /// Marks a missing corner.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// Polygons as flat arrays: polygon f has the corners from `offsets[f]` to `offsets[f + 1]`, exclusive, and
-/// `corners` has the vertex of each corner.
+/// Polygons as flat arrays: polygon f has the corners from `offsets[f]` to `offsets[f + 1]`, exclusive, and `corners`
+/// contains the vertex of each corner.
 ///
 /// A corner also represents the side from it to the next corner of its polygon.
 pub(super) struct Polygons<'a> {
@@ -89,7 +89,7 @@ fn faces_of_corners(offsets: &[u32]) -> Vec<u32> {
         .enumerate()
         .for_each(|(block, (faces, firsts))| {
             // The loop visits the polygons from last to first. For each polygon, the slots of its corners are split off
-            // the end of the part that is not filled yet.
+            // the end of the slice that is not filled yet.
             let mut unfilled = faces;
             for (i, first) in firsts.iter().enumerate().rev() {
                 let Some(of_polygon) = unfilled.split_off_mut((first - firsts[0]) as usize..)
@@ -126,7 +126,7 @@ pub(super) fn sums_before(numbers: &[usize]) -> Vec<usize> {
 ///
 /// # Errors
 ///
-/// Fails if there are too many corners.
+/// Returns an error if there are too many corners.
 pub(super) fn flatten(
     polygons: &[impl AsRef<[u32]> + Sync],
 ) -> Result<(Vec<u32>, Vec<u32>), BuildError> {

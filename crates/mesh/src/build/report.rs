@@ -1,4 +1,4 @@
-//! Reporting how polygons were repaired to form a manifold.
+//! Reports how polygons were repaired to form a manifold.
 
 use std::fmt;
 
@@ -7,13 +7,13 @@ use crate::VertexId;
 /// The repairs that made polygons a manifold. All lists are empty if no repair was necessary.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct BuildReport {
-    /// Pairs of vertices, lower first, with more than two sides between them, or with two sides that
-    /// run in the same direction.
+    /// The edges that had more than two sides, or two sides that ran in the same direction. Each edge is a pair of
+    /// vertices, the lower one first.
     pub split_edges: Vec<[VertexId; 2]>,
-    /// Pairs of a vertex that joined several fans, and a copy of this vertex that one of the fans got.
+    /// The vertices that joined several fans, each paired with a copy that one of the fans got.
     pub split_vertices: Vec<(VertexId, VertexId)>,
-    /// Indices of polygons that were reversed to make their orientation consistent with their neighbors,
-    /// in order.
+    /// The indices, in ascending order, of the polygons that were reversed to make their orientation consistent with
+    /// that of their neighbors.
     pub reversed_faces: Vec<usize>,
     /// For each connected part without a consistent orientation, such as a Moebius strip, the index of
     /// its first polygon. The polygons of these parts are not reversed. Edges along which two polygons
@@ -96,8 +96,8 @@ pub struct Repair {
 }
 
 impl Repair {
-    /// Creates the repair of these elements, with the singular or the plural text. Returns `None` if the list
-    /// is empty.
+    /// Creates the repair of these elements. The description is the singular or the plural text, depending on their
+    /// number. Returns `None` if the list is empty.
     pub fn new(
         code: &'static str,
         singular: &'static str,

@@ -1,4 +1,4 @@
-//! Splitting vertices with several fans.
+//! Splits vertices whose faces form several fans.
 
 use std::borrow::Cow;
 
@@ -19,12 +19,12 @@ pub(super) struct Split<'a> {
     pub(super) copies: Vec<(VertexId, VertexId)>,
 }
 
-/// Splits the vertices with several fans. The first fan keeps the vertex; each other fan gets a copy of it,
-/// appended after all other vertices.
+/// Splits the vertices whose faces form several fans. The first fan keeps the vertex, and each other fan gets a copy of
+/// it. The copies are appended after all other vertices.
 ///
 /// # Errors
 ///
-/// Fails if there are too many vertices afterwards.
+/// Returns an error if there would be too many vertices afterwards.
 pub(super) fn split_vertices<'a>(
     positions: &mut Vec<DVec3>,
     polygons: &Polygons<'a>,

@@ -23,14 +23,16 @@ pub(super) struct Star {
     from: Vec<u32>,
     /// For each corner, the vertex of the corner after it in its polygon.
     to: Vec<u32>,
-    /// For each corner, the corner that follows clockwise, as an index into these lists; `NONE` on the boundary.
+    /// For each corner, the next corner clockwise around the vertex, as an index into these lists; `NONE` on the
+    /// boundary.
     pub(super) after: Vec<u32>,
-    /// A corner that has no predecessor, at the start of a fan, as an index into these lists; 0 if all fans are closed.
+    /// A corner without a predecessor, which is at the start of a fan, as an index into these lists. 0 if all fans are
+    /// closed.
     start: usize,
     is_closed: bool,
-    /// Whether any edge at the vertex is known to be non-manifold. If all sides along a non-manifold edge end at the
-    /// vertex, the flag can be false in this star. The flag is then true in the star of the vertex at the other end of
-    /// the edge.
+    /// Whether any edge at the vertex is known to be non-manifold. The flag can be false in spite of a non-manifold
+    /// edge if all sides along this edge end at the vertex. In this case, the flag is true in the star of the vertex at
+    /// the other end of the edge.
     pub(super) has_non_manifold_edge: bool,
 }
 
@@ -96,8 +98,8 @@ impl Star {
         }
     }
 
-    /// Finds, for each corner, the corner that follows clockwise. For each neighbor w of the vertex, the corner at the
-    /// start of the k-th side to w is followed by the corner at the end of the k-th side from w.
+    /// Finds, for each corner, the next corner clockwise around the vertex. For each neighbor w of the vertex, the
+    /// corner at the start of the k-th side to w is followed by the corner at the end of the k-th side from w.
     fn match_by_comparing(&mut self) {
         let n = self.to.len();
         let mut free = if n == MAX_COMPARED {
@@ -159,8 +161,8 @@ impl Star {
         self.start = start.unwrap_or(0);
     }
 
-    /// Chooses the first corner without a predecessor, or the first corner if all fans are closed. Returns the
-    /// outgoing half-edge of its fan. `corners` are those passed to [`set`](Self::set).
+    /// Returns the outgoing half-edge of the fan with the first corner that has no predecessor, or with the first
+    /// corner if all fans are closed. `corners` are those passed to [`set`](Self::set).
     pub(super) fn outgoing(&self, corners: &[u32]) -> Outgoing {
         if self.is_closed {
             Outgoing::along_side(corners[self.start])

@@ -1,4 +1,4 @@
-//! Replacing vertices and edges by faces.
+//! Bevels: replaces vertices and edges by faces.
 
 use crate::{EdgeId, EditError, FaceId, HalfEdgeId, Mesh, VertexId};
 
@@ -16,8 +16,8 @@ impl Mesh {
     ///
     /// `v` dies. The n edges of `v` keep their ids and end at the cuts. The new elements are n vertices, the n edges
     /// from each new vertex to the next, and the face, whose first corner is the first new vertex. The new vertices and
-    /// edges are in clockwise order, starting at the first edge of [`vertex_half_edges`](Self::vertex_half_edges). V, E
-    /// and F grow by n - 1, n and 1. A face with k corners at v gains k corners.
+    /// edges are in clockwise order, starting at the first edge of [`vertex_half_edges`](Self::vertex_half_edges). The
+    /// numbers of vertices, edges and faces grow by n - 1, n and 1. A face with k corners at v gains k corners.
     ///
     /// At a cut, vertex attributes are interpolated between v and the other end of the edge. Corner attributes are
     /// interpolated within their face, separately on each side of a seam. Attributes that are
@@ -50,7 +50,7 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// Returns the errors of [`bevel_vertex`](Self::bevel_vertex).
+    /// Returns an error in the same cases as [`bevel_vertex`](Self::bevel_vertex).
     pub fn bevel_vertex_with(
         &mut self,
         v: VertexId,
@@ -66,8 +66,8 @@ impl Mesh {
         Ok(new)
     }
 
-    /// Replaces `e` by a face: each of the other edges at the ends of `e` is cut at `fraction` of its length,
-    /// measured from the end of `e`, and the cuts are connected.
+    /// Replaces `e` by a face: each of the other edges at the two ends of `e` is cut at `fraction` of its length,
+    /// measured from its end at `e`, and the cuts are connected.
     ///
     /// ```text
     ///     \               /            \               /
@@ -80,8 +80,8 @@ impl Mesh {
     /// `e` and its ends a, b die. The n other edges at a and b keep their ids and end at the cuts. The new elements are
     /// n vertices, the n edges from each new vertex to the next, and the face, whose first corner is the first new
     /// vertex. The new vertices and edges are in clockwise order around e, from the edge after e at a (the origin of
-    /// the first half of e) to the last edge at b. V, E and F grow by n - 2, n - 1 and 1. The faces beside e keep their
-    /// number of corners. Any other face with k corners at a or b gains k corners.
+    /// the first half of e) to the last edge at b. The numbers of vertices, edges and faces grow by n - 2, n - 1 and 1.
+    /// The faces beside e keep their number of corners. Any other face with k corners at a or b gains k corners.
     ///
     /// Attributes are set as in [`bevel_vertex`](Self::bevel_vertex). The new face has the values of the face
     /// to the left of the first half of e.
@@ -104,7 +104,7 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// Returns the errors of [`bevel_edge`](Self::bevel_edge).
+    /// Returns an error in the same cases as [`bevel_edge`](Self::bevel_edge).
     pub fn bevel_edge_with(
         &mut self,
         e: EdgeId,
@@ -147,7 +147,7 @@ impl Mesh {
         }
     }
 
-    /// Returns the half-edges with their fractions. Checks the fractions.
+    /// Checks the fractions, and returns each half-edge with its fraction.
     fn check_cuts(
         &self,
         spokes: &[HalfEdgeId],

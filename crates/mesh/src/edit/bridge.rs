@@ -1,4 +1,4 @@
-//! Connecting two holes by a band of faces.
+//! Connects two holes by a band of faces.
 
 use crate::{EdgeId, EditError, FaceId, HalfEdgeId, Mesh};
 
@@ -12,17 +12,17 @@ impl Mesh {
     /// ```
     ///
     /// If the holes belong to one component of the mesh, this component gets a handle. If they belong to two
-    /// components, these become one. If one loop has n edges and the other m, with n at least m, the band has n new
-    /// edges and n faces: m quads, and n - m triangles spread evenly between them. One side of each triangle is an edge
-    /// of the longer loop. Choose `h` and `g` so that they face each other; otherwise the band is twisted.
+    /// components, these become one. Let n be the number of edges of the longer loop, and m that of the shorter loop.
+    /// The band has n new edges and n faces: m quads, and n - m triangles spread evenly between them. One side of each
+    /// triangle is an edge of the longer loop. Choose `h` and `g` so that they face each other; otherwise the band is
+    /// twisted.
     ///
     /// All existing ids stay the same. New edges and faces are numbered along the longer loop (that of `h` if both have
     /// the same length). The first face is f. The first new edge is a-d, or b-c if the loop of `g` is longer than the
-    /// loop of `h`. A new face has the values of the old face beside its edge of the longer loop. If the face
-    /// of a new corner has an edge of the loop on which the corner lies, the corner gets the values of the existing
-    /// corner at the same vertex, on the other side of this edge. A triangle has no edge of the shorter loop, so its
-    /// corner at the shorter loop uses the edge of the last quad before the triangle. New edges have zero attribute
-    /// values.
+    /// loop of `h`. A new face gets the values of the old face that shares its edge of the longer loop. If the face of
+    /// a new corner has an edge of the loop on which the corner lies, the corner gets the values of the existing corner
+    /// at the same vertex, on the other side of this edge. A triangle has no edge of the shorter loop, so its corner at
+    /// the shorter loop uses the edge of the last quad before the triangle. New edges have zero attribute values.
     ///
     /// Returns the new faces.
     ///

@@ -1,4 +1,4 @@
-//! Collapsing an edge to a vertex.
+//! Collapses an edge to a vertex.
 
 use glam::DVec3;
 
@@ -16,33 +16,34 @@ impl Mesh {
     ///        d               d                 d-----+           d-----+
     /// ```
     ///
-    /// v is the end with the lower id; the other end and `e` die. A triangle beside `e` dies, and its other two edges
-    /// become one: the edge at v remains, and the other edge dies. A face beside `e` with more than three corners loses
-    /// one corner, and a hole beside `e` loses one edge. Inside a triangle mesh, V, E and F shrink by 1, 3 and 2; on
-    /// its boundary by 1, 2 and 1. V - E + F stays the same. No ids are added, and all other elements keep their ids.
+    /// The merged vertex v is the end with the lower id; the other end and `e` die. A triangle beside `e` dies, and its
+    /// other two edges become one: the edge at v remains, and the other edge dies. A face beside `e` with more than
+    /// three corners loses one corner, and a hole beside `e` loses one edge. Let V, E and F be the numbers of vertices,
+    /// edges and faces. Inside a triangle mesh, V, E and F decrease by 1, 3 and 2; on its boundary, by 1, 2 and 1. V -
+    /// E + F stays the same. No ids are added, and all other elements keep their ids.
     ///
     /// Vertex attributes of v are interpolated between the two ends, except attributes whose rule does not interpolate:
     /// these keep their values at v. The corners at v of the faces beside `e` are interpolated within their face,
-    /// separately on each side of a seam. Each corner that another face has at an end of `e` is compared with the
-    /// corners of the faces beside `e` at the same end, separately for each attribute. If the corner has the same value
-    /// as one of them, it gets the new value of that corner. Otherwise it keeps its value. When two edges become one,
-    /// the remaining edge gets the larger of their floating-point values, so that creases are preserved. A tag is set
-    /// if either edge had it. Attributes of other types keep the value of the remaining edge.
+    /// separately on each side of a seam. Other faces can also have corners at the ends of `e`. For each attribute,
+    /// such a corner is compared with the corners of the faces beside `e` at the same end. If it has the same value as
+    /// one of them, it gets the new value of that corner. Otherwise, it keeps its value. When two edges become one, the
+    /// remaining edge gets the larger of their floating-point values, so that creases are preserved. A tag is set if
+    /// either edge had it. Attributes of other types keep the value of the remaining edge.
     ///
     /// A collapse is refused if it would change the topology of the surface or make two elements coincide. The test is
     /// the link condition of Dey, Edelsbrunner, Guha and Nekhayev ("Topology preserving edge contraction", 1999),
     /// extended to polygons. The condition is applied to the surface in which each hole is closed by triangles that
-    /// join the edges of the hole to an additional vertex (a cone). The ends may share a neighbor only if the neighbor
-    /// is a corner of a triangle beside `e`, and may share a face only if the face is beside `e`.
+    /// join the edges of the hole to an additional vertex (a cone). The ends are allowed to share a neighbor only if it
+    /// is a corner of a triangle beside `e`, and to share a face only if it is beside `e`.
     ///
     /// Returns v.
     ///
     /// # Errors
     ///
     /// - [`EditError::JoinsBoundaries`] if both ends are on the boundary, but `e` is not.
-    /// - [`EditError::Link`] if the ends have a common neighbor that is not a corner of a triangle beside `e`,
-    ///   because this neighbor would be joined to v twice. This error is also returned if `e` is a side of a
-    ///   hole with three edges.
+    /// - [`EditError::Link`] if the ends have a common neighbor that is not a corner of a triangle beside `e`, because
+    ///   two edges would join this neighbor to v. This error is also returned if `e` is a side of a hole with three
+    ///   edges.
     /// - [`EditError::DuplicateEdge`] if a second edge joins the ends.
     /// - [`EditError::VisitsTwice`] if a face that is not beside `e` has both ends as corners, because this
     ///   face would contain v twice.
@@ -75,8 +76,8 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// Returns the errors of [`collapse_edge`](Self::collapse_edge), and [`EditError::OutsideEdge`] if `t` is below
-    /// 0, above 1 or not a number.
+    /// Returns an error in the same cases as [`collapse_edge`](Self::collapse_edge), and [`EditError::OutsideEdge`] if
+    /// `t` is below 0, above 1 or not a number.
     pub fn collapse_edge_at(&mut self, e: EdgeId, t: f64) -> Result<VertexId, EditError> {
         self.check_edge(e)?;
         if !(0.0..=1.0).contains(&t) {
@@ -92,7 +93,7 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// Returns the errors of [`collapse_edge`](Self::collapse_edge), and [`EditError::BadNumber`] if a
+    /// Returns an error in the same cases as [`collapse_edge`](Self::collapse_edge), and [`EditError::BadNumber`] if a
     /// coordinate is not finite.
     pub fn collapse_edge_to(&mut self, e: EdgeId, point: DVec3) -> Result<VertexId, EditError> {
         self.check_edge(e)?;
@@ -154,7 +155,8 @@ impl Mesh {
         }
         self.check_outer_faces(e)?;
 
-        // The third corners of the triangles beside the edge. Only these corners may be neighbors of both ends.
+        // The third corners of the triangles beside the edge. Only these corners are allowed to be neighbors of both
+        // ends.
         let apexes = [ab, ba].map(|h| {
             self.is_beside_triangle(h)
                 .then(|| self.target(self.next(h)))
@@ -192,8 +194,8 @@ impl Mesh {
             h = self.next(h.twin());
         }
         // For each triangle beside the edge, the collapse merges the two edges that lead to the apex of the triangle.
-        // More edges at an apex would be merged only if there are parallel edges, or a hole with three edges whose
-        // third corner is the apex.
+        // If more edges at an apex would be merged, there are parallel edges, or the apex is the third corner of a hole
+        // with three edges.
         for (i, x) in apexes.into_iter().enumerate() {
             let merged = apexes.iter().filter(|&&apex| apex == x).count();
             if let Some(x) = x.filter(|&x| shared[i].min(vertices.count(x)) > merged) {
@@ -216,10 +218,9 @@ impl Mesh {
         Ok(())
     }
 
-    /// Checks the outer faces of each triangle beside `e`: the faces on the far sides of its other two edges,
-    /// which become one edge. The outer faces must not both be missing, and must not both be the face on the
-    /// other side of `e`. If the face on the other side of `e` is a triangle, no outer face may be that
-    /// triangle.
+    /// Checks the outer faces of each triangle beside `e`: the faces on the far sides of its other two edges, which
+    /// become one edge. The outer faces must not both be missing, and must not both be the face on the other side of
+    /// `e`. If the face on the other side of `e` is a triangle, neither outer face is allowed to be this triangle.
     fn check_outer_faces(&self, e: EdgeId) -> Result<(), EditError> {
         for h in e.half_edges() {
             if !self.is_beside_triangle(h) {
@@ -247,9 +248,8 @@ impl Mesh {
         Ok(())
     }
 
-    /// Must be called only if the merged vertex would have two edges and two faces. Returns whether the two faces at
-    /// the merged vertex would lie back to back. This is true if every vertex of one of these faces would have two
-    /// edges.
+    /// Requires that the merged vertex would have two edges and two faces. Returns whether these two faces would lie
+    /// back to back. This is true if every vertex of one of these faces would have two edges.
     fn would_fold(&self, e: EdgeId, apexes: [Option<VertexId>; 2]) -> bool {
         let [ab, ba] = e.half_edges();
         // Finds one of the two faces. A face beside e remains after the collapse if it is not a triangle. If both faces
@@ -277,7 +277,7 @@ impl Mesh {
 
     // ---- Changes -------------------------------------------------------------------------------
 
-    /// Moves the outgoing half-edges of the origin of `h` to `v`, the target of `h`.
+    /// Changes the origin of all half-edges that leave the origin of `h`. Their new origin is `v`, the target of `h`.
     fn move_half_edges(&mut self, h: HalfEdgeId, v: VertexId) {
         let removed = self.origin(h);
         // The stored half-edge of a boundary vertex must be a half-edge without a face.

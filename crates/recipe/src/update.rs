@@ -122,8 +122,8 @@ fn unmet_in_text<'o>(
     places.into_values().collect()
 }
 
-/// Returns an expectation in the tree and the fix that makes it record the actual value, or the reason why it cannot be
-/// fixed. `turns` has one entry for each repetition of the step.
+/// Finds the expectation that is not met. Returns its value in the tree and the fix, which records the actual value, or
+/// the reason why the expectation cannot be fixed. `turns` has one entry for each repetition of the step.
 fn find_fix<'t>(
     tree: &'t Value,
     recipe: &Recipe,

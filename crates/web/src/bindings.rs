@@ -101,7 +101,7 @@ impl Session {
         LISTENER.set(Some(listener));
         let result = self.0.run(path, text, values, &|event| {
             LISTENER.with_borrow(|listener| {
-                // Other threads have no listener, and do not report progress.
+                // Only the thread that started the run has a listener. The other threads do not report progress.
                 listener.as_ref().is_none_or(|listener| {
                     // If the listener throws an exception, the run ends too.
                     listener.event(&event.to_string()).unwrap_or(false)

@@ -69,7 +69,7 @@ impl Torus {
             return source;
         }
         let warning = Problem::warning("the tube intersects itself").at(["minor"]);
-        source.with(warning.help("a torus has a hole if `minor` is less than `major`"))
+        source.with(warning.help("make `minor` less than `major`, so that the torus has a hole"))
     }
 }
 

@@ -222,8 +222,8 @@ impl<'a> Collapser<'a> {
         if marks.iter().any(|mark| mark.touched == self.queue.pass()) {
             return Cost::Touched;
         }
-        // The cost of an edge on a line also depends on the next vertex of the line at each end of the edge. Therefore
-        // this cost is always computed again.
+        // The cost of an edge on a line also depends on the vertices of the line just before and just after the edge.
+        // Therefore this cost is always computed again.
         let is_line = self.lines[edge.index()];
         if !is_line && marks.iter().all(|mark| mark.changed < computed) {
             return Cost::Unchanged;

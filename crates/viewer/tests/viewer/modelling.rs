@@ -399,7 +399,7 @@ fn a_window_has_the_operations_that_it_is_given() {
         .with_size(Vec2::new(1280.0, 800.0))
         .with_max_steps(60)
         .wgpu_setup(setup)
-        .build_eframe(|cc| App::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), &start));
+        .build_eframe(|cc| App::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), start));
     let end = Instant::now() + Duration::from_mins(1);
     while harness.state().editor().is_running() && Instant::now() < end {
         harness.run_steps(2);

@@ -199,9 +199,7 @@ fn widget(ui: &mut Ui, field: &Field) -> Option<Change> {
             {
                 ui.add(Slider::new(&mut n, integer(min)..=integer(max)))
             } else {
-                let low = limits.min.map_or(i64::MIN, integer);
-                let high = limits.max.map_or(i64::MAX, integer);
-                ui.add(DragValue::new(&mut n).speed(0.1).range(low..=high))
+                ui.add(whole(&mut n, limits))
             };
             dragged(
                 &response.accessible_name(name),
@@ -234,27 +232,37 @@ fn widget(ui: &mut Ui, field: &Field) -> Option<Change> {
             let chosen = choice(ui, field, &current, choices);
             chosen.map(|i| Change::Set(variants[i].first()))
         }
-        (FieldKind::Vector(_), FieldValue::Vector(mut parts)) => {
-            let mut change = None;
-            // The layout is from right to left, so the last part is added first.
-            for i in (0..parts.len()).rev() {
-                let speed = (parts[i].abs() * 0.01).max(0.01);
-                let axis = ["x", "y", "z"][i.min(2)];
-                let response = ui.add(
-                    DragValue::new(&mut parts[i])
-                        .speed(speed)
-                        .custom_formatter(|x, _| format!("{}", rounded(x))),
-                );
-                let response = response
-                    .accessible_name(format!("{} {axis}", of.name))
-                    .on_hover_text(axis);
-                let now: Vec<f64> = parts.iter().map(|&x| rounded(x)).collect();
-                change = change.or(dragged(&response, || FieldValue::Vector(now), true));
-            }
-            change
+        (FieldKind::Vector(_), FieldValue::Vector(parts)) => {
+            let value =
+                |parts: &[f64]| FieldValue::Vector(parts.iter().map(|&x| rounded(x)).collect());
+            tuple(ui, &name, parts, component, value)
+        }
+        (FieldKind::Integers(_, limits), FieldValue::Integers(parts)) => {
+            let value = |parts: &[i64]| FieldValue::Integers(parts.to_vec());
+            tuple(ui, &name, parts, |n| whole(n, limits), value)
         }
         _ => None,
     }
+}
+
+/// The number fields of a tuple, from right to left as the layout.
+fn tuple<N>(
+    ui: &mut Ui,
+    name: &str,
+    mut parts: Vec<N>,
+    number_field: impl for<'n> Fn(&'n mut N) -> DragValue<'n>,
+    value: impl Fn(&[N]) -> FieldValue,
+) -> Option<Change> {
+    let mut change = None;
+    for i in (0..parts.len()).rev() {
+        let axis = ["x", "y", "z"][i.min(2)];
+        let response = ui.add(number_field(&mut parts[i]));
+        let response = response
+            .accessible_name(format!("{name} {axis}"))
+            .on_hover_text(axis);
+        change = change.or(dragged(&response, || value(&parts), true));
+    }
+    change
 }
 
 /// A list of choices, each with its description. Returns the index of the choice that was clicked.
@@ -285,6 +293,20 @@ fn choice<'c>(
         });
     combo.response.accessible_name(name.clone());
     chosen
+}
+
+/// A number field for a whole number.
+fn whole<'a>(n: &'a mut i64, limits: &Limits) -> DragValue<'a> {
+    let speed = (n.unsigned_abs() as f64 * 0.001).max(0.1);
+    let low = limits.min.map_or(i64::MIN, integer);
+    let high = limits.max.map_or(i64::MAX, integer);
+    DragValue::new(n).speed(speed).range(low..=high)
+}
+
+/// A number field for a number of a vector.
+fn component(x: &mut f64) -> DragValue<'_> {
+    let speed = (x.abs() * 0.01).max(0.01);
+    unlimited(x, &Limits::default()).speed(speed)
 }
 
 fn unlimited<'a>(x: &'a mut f64, limits: &Limits) -> DragValue<'a> {

@@ -35,7 +35,7 @@ use eframe::egui;
 use op::Registry;
 use view_pane::Loss;
 
-pub use app::{App, Start};
+pub use app::{App, Opened, Start};
 
 /// How the program is used.
 const USAGE: &str = "\
@@ -87,13 +87,15 @@ pub fn run(registry: Registry, arguments: &[String]) -> ExitCode {
         renderer: eframe::Renderer::Wgpu,
         ..eframe::NativeOptions::default()
     };
+    // The engine computes the scene while the window and the graphics device are created.
+    let opened = start.open();
     let loss = Arc::new(OnceLock::new());
     let to_loss = loss.clone();
     let result = eframe::run_native(
         "Meshwright",
         options,
         Box::new(move |cc| {
-            let app = App::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), &start);
+            let app = App::with(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), opened);
             to_loss.get_or_init(|| app.loss());
             Ok(Box::new(app))
         }),

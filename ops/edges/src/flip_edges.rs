@@ -25,8 +25,8 @@ use goal::Goal;
 /// if the edge is on the boundary, if the same face is on both sides of the edge, or if an end of the edge has only two
 /// edges. A flip is also refused if the two corners opposite to the edge are the same vertex or are already joined by
 /// an edge. At a seam, a flip is refused unless `seams` is `Drop`. All elements keep their ids, and no vertex moves.
-/// Vertices, edges and faces keep their values. Each triangle gets one new corner. The new corner of a triangle gets
-/// its values from the corner of the other triangle at the same vertex. All other corners keep their values.
+/// Vertices, edges and faces keep their values. Each of the two faces gets one new corner. The new corner of a face
+/// gets its values from the corner of the other face at the same vertex. All other corners keep their values.
 ///
 /// If a face beside the edge has more than three corners, each end of the edge moves to the next corner of the polygon
 /// that the two faces form. With `until: Delaunay` or `until: Valence`, such an edge is not flipped.
@@ -88,17 +88,19 @@ impl MeshOperation for FlipEdges {
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let mut problems = Vec::new();
-        // A flip does not change the counts of elements, the degrees of faces or the attributes. In a mesh without
-        // triangles, every flip is refused.
-        if plan.degrees.min > 3 && self.edges.count(plan).min > 0 {
+        // A flip does not change the counts of elements, the degrees of faces or the attributes. Edges between polygons
+        // can be flipped, but only flips between triangles improve a mesh.
+        let needs_triangles = match self.until {
+            Until::Once => false,
+            Until::Delaunay | Until::Valence => true,
+        };
+        if needs_triangles && plan.degrees.min > 3 && self.edges.count(plan).min > 0 {
             let message = format!(
-                "FlipEdges flips edges between triangles, but every face has at least {} corners",
-                plan.degrees.min
+                "with `until: {:?}`, FlipEdges flips only edges between triangles, but every face has at least {} \
+                 corners",
+                self.until, plan.degrees.min
             );
-            let problem = match self.until {
-                Until::Once => self.on_refusal.problem(message),
-                Until::Delaunay | Until::Valence => Problem::warning(message),
-            };
+            let problem = Problem::warning(message);
             problems.push(problem.help("triangulate the faces first, with `Triangulate`"));
         }
         problems
@@ -130,8 +132,7 @@ impl MeshOperation for FlipEdges {
             n => {
                 let edges = counted(n, "seam edge");
                 report.note(format!(
-                    "flipped {edges}; each new corner took the values that the other triangle had at the same \
-                     vertex"
+                    "flipped {edges}; each new corner took the values that the other face had at the same vertex"
                 ))
             }
         })

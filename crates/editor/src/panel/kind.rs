@@ -22,6 +22,8 @@ pub enum FieldKind {
     Text,
     /// A tuple of two or three numbers, such as `(x, y, z)`. The content of the variant is the length.
     Vector(usize),
+    /// A tuple of two or three whole numbers, such as `(1280, 960)`: the length, and the range of each number.
+    Integers(usize, Limits),
     /// One variant of an enumeration in which some variants have content.
     Variants(Vec<Variant>),
     /// A struct with these fields.
@@ -143,7 +145,7 @@ impl FieldKind {
             "integer" => Self::Integer(limits(json)),
             "boolean" => Self::Bool,
             "string" => Self::Text,
-            "array" => vector(json).map_or(Self::Other, Self::Vector),
+            "array" => tuple(json).unwrap_or(Self::Other),
             "object" if json["properties"].is_object() => {
                 Self::Struct(panel_fields(json, root, depth + 1))
             }
@@ -169,6 +171,7 @@ impl FieldKind {
             ),
             Self::Text => FieldValue::Text(String::new()),
             Self::Vector(n) => FieldValue::Vector(vec![0.0; *n]),
+            Self::Integers(n, limits) => FieldValue::Integers(vec![integer(limits.first()); *n]),
             Self::Variants(all) => {
                 FieldValue::Ron(all.first().map_or_else(String::new, Variant::first))
             }
@@ -222,17 +225,23 @@ fn limits(json: &Json) -> Limits {
     }
 }
 
-/// Returns the length of an array if its schema allows exactly two or exactly three numbers.
-fn vector(json: &Json) -> Option<usize> {
-    let is_number = |item: &Json| item["type"] == "number";
-    let n = if let Some(items) = json["prefixItems"].as_array() {
-        items.iter().all(is_number).then_some(items.len())?
+/// Returns the kind of a tuple of two or three numbers. Returns `None` if the schema allows other items, or items with
+/// different limits.
+fn tuple(json: &Json) -> Option<FieldKind> {
+    let (n, item) = if let Some(items) = json["prefixItems"].as_array() {
+        let first = items.first()?;
+        (items.iter().all(|item| item == first)).then_some((items.len(), first))?
     } else {
         let n = json["minItems"].as_u64()?;
-        let is_fixed = json["maxItems"].as_u64() == Some(n) && is_number(&json["items"]);
-        is_fixed.then(|| usize::try_from(n).ok())??
+        let is_fixed = json["maxItems"].as_u64() == Some(n);
+        is_fixed.then_some((usize::try_from(n).ok()?, &json["items"]))?
     };
-    (2..=3).contains(&n).then_some(n)
+    let kind = match item["type"].as_str()? {
+        "number" => FieldKind::Vector(n),
+        "integer" => FieldKind::Integers(n, limits(item)),
+        _ => return None,
+    };
+    (2..=3).contains(&n).then_some(kind)
 }
 
 /// The value of a field, in the form in which a widget shows it.
@@ -250,6 +259,8 @@ pub enum FieldValue {
     Text(String),
     /// The numbers of a vector.
     Vector(Vec<f64>),
+    /// The whole numbers of a tuple.
+    Integers(Vec<i64>),
     /// Any other value as RON.
     Ron(String),
     /// The field is optional and has no value.
@@ -267,6 +278,10 @@ impl FieldValue {
             Self::Text(text) => string_literal(text),
             Self::Vector(parts) => {
                 let parts: Vec<String> = parts.iter().map(|x| number(*x)).collect();
+                format!("({})", parts.join(", "))
+            }
+            Self::Integers(parts) => {
+                let parts: Vec<String> = parts.iter().map(i64::to_string).collect();
                 format!("({})", parts.join(", "))
             }
             Self::Ron(text) => text.clone(),
@@ -307,6 +322,13 @@ impl FieldValue {
                     _ => None,
                 };
                 Self::Vector(items.iter().map(number).collect::<Option<_>>()?)
+            }
+            (FieldKind::Integers(n, _), ValueKind::Tuple(items)) if items.len() == *n => {
+                let whole = |item: &Value| match &item.kind {
+                    ValueKind::Number(number) => i64::try_from(number.to_int()?).ok(),
+                    _ => None,
+                };
+                Self::Integers(items.iter().map(whole).collect::<Option<_>>()?)
             }
             (FieldKind::Variants(variants), _) => {
                 let name = value.name()?.0;

@@ -26,7 +26,7 @@ enum Content {
     /// `Name(value)`
     Value(FieldKind),
     /// `Name(x, y, z)`
-    Numbers(usize),
+    Tuple(FieldKind),
     /// `Name(field: value, ..)`
     Fields(Vec<PanelField>),
 }
@@ -81,7 +81,7 @@ impl Variant {
         match &self.content {
             Content::Nothing => name.clone(),
             Content::Value(kind) => format!("{name}({})", kind.first().to_ron()),
-            Content::Numbers(n) => format!("{name}{}", FieldKind::Vector(*n).first().to_ron()),
+            Content::Tuple(kind) => format!("{name}{}", kind.first().to_ron()),
             Content::Fields(fields) => format!("{name}{}", first_fields(fields)),
         }
     }
@@ -94,7 +94,9 @@ impl Content {
         }
         // A tuple without a name of its own consists of several values in the parentheses of the variant.
         match FieldKind::at_depth(json, root, depth) {
-            FieldKind::Vector(n) if json["$ref"].is_null() => Self::Numbers(n),
+            kind @ (FieldKind::Vector(_) | FieldKind::Integers(..)) if json["$ref"].is_null() => {
+                Self::Tuple(kind)
+            }
             kind => Self::Value(kind),
         }
     }
@@ -156,12 +158,12 @@ impl Variant {
                     inside.map(|inside| inside.span.of(whole)),
                 )
             }
-            Content::Numbers(n) => {
+            Content::Tuple(kind) => {
                 let body = match &value.kind {
                     ValueKind::Call(call) => Some(call.body.span.of(whole)),
                     _ => None,
                 };
-                single(FieldKind::Vector(*n), Vec::new(), body)
+                single(kind.clone(), Vec::new(), body)
             }
             Content::Fields(fields) => parts_of(fields, &[name], value, whole),
         }

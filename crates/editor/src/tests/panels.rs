@@ -141,6 +141,36 @@ fn the_kinds_of_fields_come_from_the_schema() {
     assert!(all.len() < 20, "{all:?}");
 }
 
+#[test]
+fn a_tuple_of_whole_numbers_is_read_and_written() {
+    let registry = ops_all::registry();
+    let field = |operation: &str| {
+        let panel = Panel::new(registry.get(operation).unwrap());
+        panel.field("size").unwrap().clone()
+    };
+    let size = field("Picture");
+    let FieldKind::Integers(2, limits) = size.kind else {
+        panic!("{:?}", size.kind)
+    };
+    assert_eq!((limits.min, limits.max), (Some(1.0), Some(16384.0)));
+    assert_eq!(size.typed(), Some(FieldValue::Integers(vec![1280, 960])));
+    let read = |text: &str| FieldValue::read(&size.kind, text);
+    let value = read("(1600, 900)").unwrap();
+    assert_eq!(value, FieldValue::Integers(vec![1600, 900]));
+    assert_eq!(value.to_ron(), "(1600, 900)");
+    for other in [
+        "(1600, 900.5)",
+        "(1600, arg(\"height\"))",
+        "(1600, 900, 1)",
+        "1600",
+    ] {
+        assert_eq!(read(other), None, "{other}");
+    }
+    let kind = field("Lattice").kind;
+    assert!(matches!(kind, FieldKind::Integers(3, _)), "{kind:?}");
+    assert_eq!(kind.first(), FieldValue::Integers(vec![9; 3]));
+}
+
 /// Returns `whole` with another value of one part. `path` has the names of the parts.
 fn with_part(kind: &FieldKind, whole: &str, path: &[&str], new: Option<&str>) -> String {
     let (name, rest) = path.split_first().unwrap();

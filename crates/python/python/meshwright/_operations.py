@@ -878,8 +878,8 @@ class SceneOperations:
         refused if the edge is on the boundary, if the same face is on both sides of the edge, or if an end of the edge
         has only two edges. A flip is also refused if the two corners opposite to the edge are the same vertex or are
         already joined by an edge. At a seam, a flip is refused unless ``seams`` is ``Drop``. All elements keep their
-        ids, and no vertex moves. Vertices, edges and faces keep their values. Each triangle gets one new corner. The
-        new corner of a triangle gets its values from the corner of the other triangle at the same vertex. All other
+        ids, and no vertex moves. Vertices, edges and faces keep their values. Each of the two faces gets one new
+        corner. The new corner of a face gets its values from the corner of the other face at the same vertex. All other
         corners keep their values.
 
         If a face beside the edge has more than three corners, each end of the edge moves to the next corner of the
@@ -3352,8 +3352,8 @@ class MeshOperations:
         refused if the edge is on the boundary, if the same face is on both sides of the edge, or if an end of the edge
         has only two edges. A flip is also refused if the two corners opposite to the edge are the same vertex or are
         already joined by an edge. At a seam, a flip is refused unless ``seams`` is ``Drop``. All elements keep their
-        ids, and no vertex moves. Vertices, edges and faces keep their values. Each triangle gets one new corner. The
-        new corner of a triangle gets its values from the corner of the other triangle at the same vertex. All other
+        ids, and no vertex moves. Vertices, edges and faces keep their values. Each of the two faces gets one new
+        corner. The new corner of a face gets its values from the corner of the other face at the same vertex. All other
         corners keep their values.
 
         If a face beside the edge has more than three corners, each end of the edge moves to the next corner of the

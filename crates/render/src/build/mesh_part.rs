@@ -207,6 +207,9 @@ fn triangulate(mesh: &Mesh, with_corners: bool) -> Triangulation {
     let n = mesh.domain_len(Domain::Face);
     // If the mesh has no deleted elements and all faces are triangles, each triangle has the index of its face.
     let is_simple = mesh.is_dense() && 3 * mesh.n_faces() == n_corners(mesh);
+    if is_simple {
+        return triangles_of(mesh, with_corners);
+    }
     let chunks: Vec<Triangulation> = (0..n.div_ceil(CHUNK))
         .into_par_iter()
         .map(|chunk| {
@@ -231,9 +234,7 @@ fn triangulate(mesh: &Mesh, with_corners: bool) -> Triangulation {
                             .corners
                             .push(corners.map(|h| index(h.index())));
                     }
-                    if !is_simple {
-                        triangulation.faces.push(index(i));
-                    }
+                    triangulation.faces.push(index(i));
                 };
                 if half_edges.len() == 3 {
                     add([0, 1, 2]);
@@ -256,6 +257,23 @@ fn triangulate(mesh: &Mesh, with_corners: bool) -> Triangulation {
         all.faces.extend(chunk.faces);
     }
     all
+}
+
+/// Returns the triangles of a dense mesh in which all faces are triangles.
+fn triangles_of(mesh: &Mesh, with_corners: bool) -> Triangulation {
+    let half_edges = |i: usize| {
+        let h = mesh.face_half_edge(FaceId::new(i));
+        [h, mesh.next(h), mesh.next(mesh.next(h))]
+    };
+    let index = |i: usize| u32::try_from(i).unwrap_or(u32::MAX);
+    let n_corners = if with_corners { mesh.n_faces() } else { 0 };
+    Triangulation {
+        triangles: map_indices(mesh.n_faces(), |i| {
+            half_edges(i).map(|h| index(mesh.origin(h).index()))
+        }),
+        corners: map_indices(n_corners, |i| half_edges(i).map(|h| index(h.index()))),
+        faces: Vec::new(),
+    }
 }
 
 /// Returns the number of corners of all faces of a mesh without deleted elements.

@@ -70,10 +70,21 @@ fn sharp_edges(mesh: &Mesh, areas: &[[f32; 3]], sharp: f64) -> Vec<bool> {
             let (f, g) = (groups[f.index()], groups[g.index()]);
             return f != g || f == 0;
         }
-        let normal = |f: FaceId| DVec3::from(areas[f.index()].map(f64::from)).normalize_or_zero();
-        let (n, m) = (normal(f), normal(g));
+        let [a, b] = [f, g].map(|f| DVec3::from(areas[f.index()].map(f64::from)));
+        if is_clearly_smooth(a, b, limit) {
+            return false;
+        }
+        let (n, m) = (a.normalize_or_zero(), b.normalize_or_zero());
         n != DVec3::ZERO && m != DVec3::ZERO && n.dot(m) <= limit
     })
+}
+
+/// Whether the cosine of the angle between two vectors is greater than `limit` by more than the rounding errors. Most
+/// edges are decided by this test, which needs no square root and no division.
+fn is_clearly_smooth(a: DVec3, b: DVec3, limit: f64) -> bool {
+    let dot = a.dot(b);
+    let lengths = a.length_squared() * b.length_squared();
+    limit > 0.0 && dot > 0.0 && dot * dot > (1.0 + 1e-9) * limit * limit * lengths
 }
 
 /// Returns the sum of the area vectors of the faces around the origin of `h`. Faces that a sharp edge separates from
@@ -128,6 +139,29 @@ mod tests {
 
     fn unit(n: [f32; 3]) -> DVec3 {
         DVec3::from(n.map(f64::from)).normalize_or_zero()
+    }
+
+    #[test]
+    fn angles_near_the_limit_are_not_clearly_smooth() {
+        let vector = |degrees: f64, length: f64| {
+            let angle = degrees.to_radians();
+            length * DVec3::new(libm::cos(angle), libm::sin(angle), 0.0)
+        };
+        for limit in [10.0_f64, 40.0, 89.0] {
+            let cosine = libm::cos(limit.to_radians());
+            for length in [1e-38, 1.0, 1e30] {
+                let smooth =
+                    |degrees| is_clearly_smooth(vector(0.0, 1.0), vector(degrees, length), cosine);
+                assert!(smooth(0.0) && smooth(limit - 0.001), "{limit} {length}");
+                assert!(!smooth(limit) && !smooth(limit + 0.001) && !smooth(180.0));
+            }
+        }
+        assert!(!is_clearly_smooth(DVec3::ZERO, DVec3::X, 0.5));
+        assert!(!is_clearly_smooth(
+            DVec3::X,
+            DVec3::X,
+            libm::cos(120.0_f64.to_radians())
+        ));
     }
 
     #[test]

@@ -5,17 +5,17 @@ mod documents;
 mod layout;
 mod picks;
 mod remembered;
+mod start;
 
-use std::path::PathBuf;
+use std::fmt::Display;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use editor::{Action, Editor, FileChange, Keys, Settings};
+use editor::{Action, Editor, FileChange, Keys};
 use eframe::egui::{self, Ui};
 use eframe::egui_wgpu;
 use egui_tiles::Tree;
 use mesh::Mesh;
-use op::Registry;
 use scene::ErrorLocation;
 
 use crate::export::Export;
@@ -29,6 +29,7 @@ use crate::{controls, files, help, keyboard, overlay, paths, theme, top_bar};
 pub(crate) use documents::Pending;
 use layout::Pane;
 pub(crate) use remembered::Remembered;
+pub use start::{Opened, Start};
 
 /// The time after which the window shows the progress of a run.
 const LONG: Duration = Duration::from_millis(100);
@@ -40,26 +41,11 @@ pub(crate) struct Notice {
     pub(crate) is_error: bool,
 }
 
-/// What to open at the start.
-#[derive(Clone, Debug)]
-pub struct Start {
-    /// The operations.
-    pub registry: Arc<Registry>,
-    /// A model or a recipe.
-    pub path: Option<PathBuf>,
-    /// The folder for the list of recent files and the recovery of texts. If omitted, nothing is stored.
-    pub state_folder: Option<PathBuf>,
-    /// Whether dialogs of the system ask for paths of files. If not, a line in the window asks for the paths.
-    pub has_dialogs: bool,
-}
-
-impl Default for Start {
-    fn default() -> Self {
+impl Notice {
+    pub(crate) fn error(message: impl Display) -> Self {
         Self {
-            registry: Arc::new(ops_all::registry()),
-            path: None,
-            state_folder: None,
-            has_dialogs: false,
+            text: message.to_string(),
+            is_error: true,
         }
     }
 }
@@ -111,15 +97,19 @@ pub(crate) struct Parts {
 
 impl App {
     /// Creates the window's contents. Opens the file of `start`, if there is one.
-    pub fn new(ctx: &egui::Context, gpu: Option<&egui_wgpu::RenderState>, start: &Start) -> Self {
+    pub fn new(ctx: &egui::Context, gpu: Option<&egui_wgpu::RenderState>, start: Start) -> Self {
+        Self::with(ctx, gpu, start.open())
+    }
+
+    /// Creates the contents of a window for an editor that was created before the window.
+    pub fn with(ctx: &egui::Context, gpu: Option<&egui_wgpu::RenderState>, opened: Opened) -> Self {
         theme::apply(ctx);
-        // Looks for the journals of other sessions, before this editor has its own journal.
-        let files = files::Files::new(start.state_folder.clone());
-        let settings = Settings {
-            journals: files::journals(start.state_folder.as_deref()),
-            ..Settings::default()
-        };
-        let editor = Editor::new(start.registry.clone(), Arc::new(engine::Disk), settings);
+        let Opened {
+            editor,
+            files,
+            notice,
+            start,
+        } = opened;
         let wake = ctx.clone();
         editor.on_wake(Arc::new(move || wake.request_repaint()));
         let mut parts = Parts {
@@ -145,8 +135,8 @@ impl App {
             is_closing: false,
         };
         parts.read_keys();
-        if let Some(path) = &start.path {
-            parts.open(path);
+        if notice.is_some() {
+            parts.notice = notice;
         }
         let mut tree = layout::initial();
         let remembered = Remembered::read(start.state_folder.as_deref());
@@ -285,14 +275,11 @@ impl Parts {
     }
 
     pub(crate) fn warn(&mut self, text: impl Into<String>) {
-        self.notice = Some(Notice {
-            text: text.into(),
-            is_error: true,
-        });
+        self.notice = Some(Notice::error(text.into()));
     }
 
     /// Shows the error of an edit, if there is one.
-    pub(crate) fn report<E: std::fmt::Display>(&mut self, result: Result<(), E>) {
+    pub(crate) fn report<E: Display>(&mut self, result: Result<(), E>) {
         match result {
             Ok(()) => self.notice = None,
             Err(error) => self.warn(error.to_string()),

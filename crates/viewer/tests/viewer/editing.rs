@@ -261,7 +261,7 @@ fn an_unsaved_text_is_offered_after_a_crash() {
         .with_size(Vec2::new(1280.0, 800.0))
         .with_max_steps(60)
         .wgpu_setup(setup)
-        .build_eframe(|cc| App::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), &start));
+        .build_eframe(|cc| App::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), start));
     let mut window = Window { harness, folder };
     window.settle();
     window.harness.get_by_label("Recover").click();

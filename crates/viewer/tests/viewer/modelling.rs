@@ -121,6 +121,25 @@ fn the_content_of_a_variant_has_its_own_number_field() {
 }
 
 #[test]
+fn the_size_of_a_picture_has_two_number_fields() {
+    let recipe = "(recipe: 1, steps: [Cube(), Picture(path: \"a.png\", size: (1600, 900))])";
+    let Some(mut window) = Window::open("a.ron", recipe) else {
+        return;
+    };
+    for (name, new, expected) in [
+        ("size x", 800.0, "size: (800, 900)"),
+        ("size y", 600.4, "size: (800, 600)"),
+        ("size y", 0.0, "size: (800, 1)"),
+    ] {
+        let harness = &window.harness;
+        let field = harness.get_by_role_and_label(Role::SpinButton, name);
+        field.set_value_accesskit(new);
+        window.settle();
+        assert!(window.text().contains(expected), "{}", window.text());
+    }
+}
+
+#[test]
 fn a_recorded_test_is_about_the_scene_at_the_cursor() {
     let Some(mut window) = Window::open("cube.ron", CUBE) else {
         return;
@@ -380,7 +399,7 @@ fn a_window_has_the_operations_that_it_is_given() {
         .with_size(Vec2::new(1280.0, 800.0))
         .with_max_steps(60)
         .wgpu_setup(setup)
-        .build_eframe(|cc| App::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), &start));
+        .build_eframe(|cc| App::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), start));
     let end = Instant::now() + Duration::from_mins(1);
     while harness.state().editor().is_running() && Instant::now() < end {
         harness.run_steps(2);

@@ -159,7 +159,7 @@ fn edit_and_save(state: Option<&RenderState>) {
     let harness = Harness::builder()
         .with_size(Vec2::new(1280.0, 800.0))
         .with_max_steps(60)
-        .build_eframe(|cc| App::new(&cc.egui_ctx, state, &start));
+        .build_eframe(|cc| App::new(&cc.egui_ctx, state, start));
     let mut window = Window { harness, folder };
     window.settle();
     window.press(Key::L);
@@ -211,7 +211,7 @@ fn a_lost_graphics_device_closes_the_window_and_the_next_start_offers_the_text()
         .build_eframe(move |cc| {
             let state = cc.wgpu_render_state.as_ref();
             to_device.get_or_init(|| state.unwrap().device.clone());
-            App::new(&cc.egui_ctx, state, &start)
+            App::new(&cc.egui_ctx, state, start)
         });
     let mut window = Window { harness, folder };
     window.settle();
@@ -244,7 +244,7 @@ fn a_lost_graphics_device_closes_the_window_and_the_next_start_offers_the_text()
         .with_size(Vec2::new(1280.0, 800.0))
         .with_max_steps(60)
         .wgpu_setup(setup)
-        .build_eframe(move |cc| App::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), &start));
+        .build_eframe(move |cc| App::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), start));
     let mut window = Window { harness, folder };
     window.settle();
     window.harness.get_by_label("Recover").click();
@@ -267,7 +267,7 @@ fn the_layout_of_the_window_is_remembered() {
             .with_size(Vec2::new(1280.0, 800.0))
             .with_max_steps(60)
             .wgpu_setup(setup)
-            .build_eframe(move |cc| App::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), &start))
+            .build_eframe(move |cc| App::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), start))
     };
     let folder = tempfile::tempdir().unwrap();
     let mut window = Window {

@@ -31,21 +31,27 @@ impl Window {
 
     /// Opens a window with a file. `None` if there is no graphics adapter.
     pub(crate) fn open_file(path: PathBuf, folder: tempfile::TempDir) -> Option<Self> {
+        let mut window = Self::start(path, folder)?;
+        window.settle();
+        Some(window)
+    }
+
+    /// Creates a window that opens a file, and does not wait for the run. `None` if there is no graphics adapter.
+    pub(crate) fn start(path: PathBuf, folder: tempfile::TempDir) -> Option<Self> {
         let setup = setup()?;
         let start = Start {
             path: Some(path),
             state_folder: Some(folder.path().join("state")),
             ..Start::default()
         };
+        let opened = start.open();
         let harness = Harness::builder()
             .with_size(Vec2::new(1280.0, 800.0))
             .with_theme(eframe::egui::Theme::Dark)
             .with_max_steps(60)
             .wgpu_setup(setup)
-            .build_eframe(|cc| App::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), &start));
-        let mut window = Self { harness, folder };
-        window.settle();
-        Some(window)
+            .build_eframe(|cc| App::with(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), opened));
+        Some(Self { harness, folder })
     }
 
     pub(crate) fn path(&self, name: &str) -> PathBuf {

@@ -91,11 +91,33 @@ fn the_plan_reports_a_mesh_without_triangles() {
     let all = parse("(edges: All)");
     assert_eq!(plan(&all, &shapes::octahedron()), []);
     assert_eq!(plan(&all, &Mesh::default()), []);
-    assert!(!plan(&all, &shapes::cube())[0].is_warning);
-    for skips in ["on_refusal: Skip", "until: Delaunay", "until: Valence"] {
-        let flip = parse(&format!("(edges: All, {skips})"));
-        assert!(plan(&flip, &shapes::cube())[0].is_warning, "{skips}");
+    for until in ["Delaunay", "Valence"] {
+        let flip = parse(&format!("(edges: All, until: {until})"));
+        assert_eq!(plan(&flip, &shapes::octahedron()), []);
+        let [problem] = &plan(&flip, &shapes::cube())[..] else {
+            panic!("one problem")
+        };
+        assert!(problem.is_warning, "{until}");
     }
+}
+
+#[test]
+fn an_edge_between_polygons_is_flipped_once_as_planned() {
+    let cube = shapes::cube();
+    let once = parse("(edges: Between(0, 1))");
+    assert_eq!(op::test::planned(&once, &cube).1, []);
+    let mesh = op::test::applied_as_planned(&once, &cube);
+    let v = mesh::VertexId::new;
+    assert!(mesh.find_half_edge(v(0), v(1)).is_none());
+    assert!(mesh.faces().all(|f| mesh.degree(f) == 4));
+    assert_eq!(op::test::counts(&mesh), op::test::counts(&cube));
+    // Each end of the edge moves to the next corner, so six flips bring it back.
+    let e = cube.find_half_edge(v(0), v(1)).unwrap().edge();
+    let mut back = mesh;
+    for _ in 0..5 {
+        back.flip_edge(e).unwrap();
+    }
+    assert_eq!(back.connectivity().next, cube.connectivity().next);
 }
 
 #[test]

@@ -34,6 +34,10 @@ pub use start::{Opened, Start};
 /// The time after which the window shows the progress of a run.
 const LONG: Duration = Duration::from_millis(100);
 
+/// The longest time for which the first frame waits for the scene, so that a window that opens a file does not draw an
+/// empty scene first.
+const FIRST_FRAME: Duration = Duration::from_millis(250);
+
 /// A message at the top of the view.
 #[derive(Clone, Debug)]
 pub(crate) struct Notice {
@@ -134,6 +138,7 @@ impl App {
             description: String::new(),
             is_closing: false,
         };
+        parts.wait_for_scene(FIRST_FRAME);
         parts.read_keys();
         if notice.is_some() {
             parts.notice = notice;
@@ -215,6 +220,19 @@ impl Parts {
         } else if let Some(error) = self.view.loss.take_error() {
             self.warn(format!("The graphics adapter reports an error: {error}"));
         }
+    }
+
+    /// Waits until there is a scene or the run has ended, but not longer than the given time.
+    fn wait_for_scene(&mut self, time: Duration) {
+        let end = Instant::now() + time;
+        let is_waiting = |editor: &Editor| {
+            editor.is_running() && editor.view().scene.objects().is_empty() && Instant::now() < end
+        };
+        while is_waiting(&self.editor) {
+            std::thread::sleep(Duration::from_millis(1));
+            self.editor.poll();
+        }
+        self.places = self.places_of_errors();
     }
 
     /// Takes the results of the engine.

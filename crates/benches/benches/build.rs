@@ -5,7 +5,8 @@
 //! neighbors are close in memory. The input is in memory before the timing starts; the output is written to newly
 //! allocated memory.
 //!
-//! - `build`: from offsets and corners.
+//! - `build`: from an array of all corners and an array of offsets, which are the indices in the corners at which the
+//!   faces start.
 //! - `from_polygons`: from one list of corners for each triangle. The library first copies these lists into offsets and
 //!   corners.
 //! - `shuffled`: the same triangles and vertices in random order, so that neighbors are far apart in memory.

@@ -27,8 +27,9 @@
 //! collapse, so its collapses are not measured. All positions are `f64`.
 //!
 //! In this benchmark, Meshwright prefetches the memory of the next edits. Meshwright also checks in each edit whether
-//! the mesh has an open journal, attribute columns or dead elements. The measured mesh has none of these. alum also
-//! marks dead elements. tri-mesh finds its elements through hash maps.
+//! the mesh has an open journal, attribute columns, or dead elements (deleted elements that are still stored). The
+//! measured mesh has none of these. Like Meshwright, alum marks deleted elements as dead. tri-mesh finds its elements
+//! through hash maps.
 //!
 //! At the end, the program compares the libraries that check for double edges: all of them must have flipped the same
 //! number of edges.

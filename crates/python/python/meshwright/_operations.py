@@ -134,10 +134,10 @@ class SceneOperations:
             omitted, numbers are stored as 32-bit floats. ``quantize={}`` uses the default number of bits for each
             attribute. The report states the largest errors of positions, of normals and tangents, and of texture
             coordinates.
-            ``"position"``: The number of bits of each coordinate of a position. Positions are rounded to a grid that
-                covers the bounding box of the object and has the same step along all axes. The longest side of the box
-                has 2^bits - 1 steps. Positions of objects with joints or morph targets are not quantized. Defaults to
-                16.
+            ``"position"``: The number of bits of each coordinate of a position. Positions are rounded to the points of
+                a grid. The grid covers the bounding box of the object and has the same spacing along all axes. Along
+                the longest side of the box, the grid has 2^bits - 1 steps. Positions of objects with joints or morph
+                targets are not quantized. Defaults to 16.
             ``"normal"``: The number of bits of each of the two numbers that represent a normal or a tangent. The two
                 numbers locate a point on an octahedron. Defaults to 8.
             ``"uv"``: The number of bits of each texture coordinate. A set of texture coordinates is not quantized if a
@@ -301,7 +301,7 @@ class SceneOperations:
     ) -> Self:
         """Creates a flat sheet of squares whose normals point to +z.
 
-        The ids of vertices and faces follow the rows, from -x to +x and from -y to +y.
+        The ids of vertices and faces increase along each row from -x to +x, and from row to row towards +y.
 
         Example: ``scene.grid(name="new", columns=3, rows=2)``, in a recipe ``Grid(name: "new", columns: 3, rows: 2)``
 
@@ -630,7 +630,7 @@ class SceneOperations:
         "other"], name: "joined")``
 
         :param objects: The names of the meshes. At least one name, without duplicates.
-        :param name: The name of the result. This name may be the name of one of the meshes.
+        :param name: The name of the result. The name of one of the meshes is allowed.
         :param tag_parts: Whether to tag the faces of each part with the name of the part, so that
             ``sel.Tagged("head")`` selects them in later operations. Defaults to ``True``.
         :param id, progress: See :meth:`Scene.apply`.
@@ -656,8 +656,9 @@ class SceneOperations:
         Nodes that placed the object place the first part instead. Each of these nodes gets child nodes that place the
         other parts.
 
-        If parts of one component are separated, each part gets its own copies of the edges and vertices between two
-        parts. If the faces of a part around a vertex form several fans, each fan gets a separate copy of the vertex.
+        If a connected component is divided, each of its parts gets its own copies of the edges and vertices that the
+        parts shared. If the faces of a part around a vertex form several fans, each fan gets a separate copy of the
+        vertex.
 
         Example: ``scene.separate(object="mesh")``, in a recipe ``Separate(object: "mesh")``
 
@@ -690,11 +691,11 @@ class SceneOperations:
 
         Points are first scaled, then rotated, then moved. The operation changes the points of meshes, patches, curves
         and polylines. If nodes place an object and ``space`` is ``Scene``, the operation changes the placements of
-        these nodes instead of the points. Everything below these nodes also moves. With ``space="Scene"``, a skinned
-        mesh moves with its joints. If the placement of a node is animated, the node gets a new parent, and the
-        operation moves this parent instead. If ``space`` is ``Scene``, ``on:`` is omitted and ``about`` is not
-        ``Center``, all other root nodes also move, for example the nodes of cameras and lights. A curve must stay in
-        the plane z = 0.
+        these nodes instead of the points. Everything below these nodes also moves. With ``space="Scene"``, the
+        operation moves a skinned mesh by moving its joints. If the placement of a node is animated, the node gets a new
+        parent, and the operation moves this parent instead. If ``space`` is ``Scene``, ``on:`` is omitted and ``about``
+        is not ``Center``, all other root nodes also move, for example the nodes of cameras and lights. A curve must
+        stay in the plane z = 0.
 
         Ids do not change. If the points of a mesh change, its normals, tangents and deltas of morph targets are also
         transformed; other attributes do not change. If the points are mirrored (one or three negative factors in
@@ -835,18 +836,18 @@ class SceneOperations:
 
         A quadrilateral is cut along its shorter diagonal. If both diagonals have the same length, the quadrilateral is
         cut along the diagonal at its vertex with the lowest id. Two lengths count as the same if the relative
-        difference of their squares is at most 1e-12. A diagonal is avoided if it gives a zero-area triangle or a
-        triangle that is turned over relative to the normal of the face. It is not avoided if the other diagonal has the
-        same problem. A quadrilateral with a reflex corner is therefore cut at that corner. If a diagonal would join two
-        vertices that are already joined by an edge or another diagonal, the other diagonal is chosen where possible.
-        The report counts the duplicate diagonals that remain.
+        difference of their squares is at most 1e-12. If the chosen diagonal gives a zero-area triangle, or a triangle
+        that is turned over relative to the normal of the face, the other diagonal is used, unless it has the same
+        problem. A quadrilateral with a reflex corner is therefore cut at that corner. If a diagonal would join two
+        vertices that are already joined by an edge or by a diagonal of another face, the quadrilateral is cut along its
+        other diagonal where possible. The report counts the duplicate diagonals that remain.
 
         A face with more than four corners is projected along its normal. The projected face is cut by ear clipping, or
         into monotone pieces if it has more than 4096 corners. Then diagonals are flipped until the triangulation is a
         constrained Delaunay triangulation. Some faces cannot be triangulated in this way: faces with zero area, faces
-        whose sides cross, and faces with more than ten million corners. If a face has more than 4096 corners, its sides
-        must not overlap either. A face that cannot be triangulated in this way becomes a triangle fan around its vertex
-        with the lowest id. The report counts these faces.
+        whose sides cross, faces with more than 4096 corners whose sides overlap, and faces with more than ten million
+        corners. A face that cannot be triangulated in this way becomes a triangle fan around its vertex with the lowest
+        id. The report counts these faces.
 
         The triangles of a face take its place in the order of the faces and have its values. Vertices and edges keep
         their ids. The corners of the triangles have the values of the corners of the face at the same vertices.
@@ -1011,10 +1012,10 @@ class SceneOperations:
         """Removes edges and merges the faces beside them.
 
         Edges are removed in order of their ids. Each removal is checked against the mesh as edited so far. Each removal
-        reduces the numbers of edges and faces by 1. Of the two faces beside the edge, the face with the lower id is
-        kept, with its values. No vertex is removed or moved. To remove vertices that are left with two edges, use
-        ``dissolve_vertices(vertices=sel.Valence(2))`` in a later operation. The remaining elements keep their order and
-        their values but get new ids.
+        reduces the number of edges by 1 and the number of faces by 1. Of the two faces beside the edge, the face with
+        the lower id is kept, with its values. No vertex is removed or moved. To remove vertices that are left with two
+        edges, use ``dissolve_vertices(vertices=sel.Valence(2))`` in a later operation. The remaining elements keep
+        their order and their values but get new ids.
 
         An edge cannot be removed if it is on the boundary, if the same face is on both of its sides, or if one of its
         ends has only two edges. An edge also cannot be removed if its two faces have a common corner that is not an end
@@ -1136,7 +1137,7 @@ class SceneOperations:
         A face with n corners becomes n triangles. Each poked face adds 1 vertex, n edges and n - 1 faces. The first
         triangle keeps the id of the face. The other triangles and the new vertices and edges get the highest ids, in
         order of the faces. The new vertex is at the mean of the corners, moved along the normal of the face by
-        ``distance``. If edits interpolate a vertex or corner attribute, its value at the new vertex is the mean of its
+        ``distance``. Vertex and corner attributes that edits interpolate get, at the new vertex, the mean of their
         values at the corners. The triangles have the values of their face, and the new edges have zero values (no
         crease, no tags). If ``distance`` is not 0, normals are dropped.
 
@@ -1515,7 +1516,7 @@ class SceneOperations:
         For holes with up to 500 edges, the triangles have the smallest possible total area. A hole with more than 500
         edges is filled one triangle at a time. Each triangle is added at the corner whose two neighbors are closest to
         each other. Triangles at straight and reflex corners are added last. If the hole is far from convex, the
-        triangles may overlap. Two vertices that are already joined by an edge are not joined by a second edge. If no
+        triangles can overlap. Two vertices that are already joined by an edge are not joined by a second edge. If no
         triangulation without duplicate edges is found, the hole cannot be filled (``DuplicateEdge``). A hole with two
         edges cannot be filled (``WrongPlace``). Use ``stitch()`` to close it.
 
@@ -1551,17 +1552,17 @@ class SceneOperations:
 
         Each hole is identified by one of its vertices. The band starts at a new edge that joins the two given vertices,
         and goes around both holes. Holes with n and m edges, where n is at least m, are joined by m quadrilaterals and
-        n - m evenly spread triangles. The operation adds n edges and no vertices. Both holes may be in one connected
-        part of the mesh, which then gets a tunnel or a handle, or in two separate parts of the same mesh. (``join()``
-        joins two objects into one.)
+        n - m evenly spread triangles. The operation adds n edges and no vertices. Both holes can be in one connected
+        part of the mesh, which then gets a tunnel or a handle. They can also be in two separate parts of the same mesh.
+        (``join()`` joins two objects into one.)
 
         Each new face copies the attribute values of the adjacent face at the hole with more edges. New corners have the
         values of the corners at the same vertices in the adjacent faces. Normals are dropped.
 
         The operation is refused if a vertex is not on the boundary (``NotBoundary``), or if both vertices are on the
         same hole (``WrongPlace``). The operation is also refused if the band would join two vertices that are already
-        joined by an edge (``DuplicateEdge``). If an operation is refused as ``DuplicateEdge``, it may succeed with
-        other vertices of the same holes.
+        joined by an edge (``DuplicateEdge``). In this case, the operation can succeed with other vertices of the same
+        holes.
 
         Example: ``scene.bridge_loops(first=0, second=5)``, in a recipe ``BridgeLoops(first: 0, second: 5)``
 
@@ -1621,7 +1622,7 @@ class SceneOperations:
     ) -> Self:
         """Opens the mesh along edges.
 
-        The edges may form paths, loops and trees. A loop can cut out a piece. Each edge becomes two edges, one for each
+        The edges can form paths, loops and trees. A loop can cut out a piece. Each edge becomes two edges, one for each
         side of the cut. If the cuts separate the faces around a vertex into several parts, each part gets a separate
         copy of the vertex. The part that contains the face with the lowest id keeps the id of the vertex, and new
         vertices get the highest ids. Faces keep their ids, and no vertex moves. Copies of vertices and edges have the
@@ -2137,8 +2138,8 @@ class SceneOperations:
             ``meshwright.sel``.
         :param pin: Vertices that are never removed and keep their exact positions, for example ``Boundary``. If
             omitted, no vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
-        :param intersections: Whether the operation may create intersections of faces. Such intersections can occur
-            where parts of the surface are close together. Defaults to ``"Allow"``.
+        :param intersections: Whether the operation is allowed to create intersections of faces. Such intersections can
+            occur where parts of the surface are close together. Defaults to ``"Allow"``.
             ``"Allow"``: New intersections are allowed, and not detected.
             ``"Refuse"``: No changed face intersects another face, so a mesh without self-intersections stays without
                 self-intersections.
@@ -2623,9 +2624,9 @@ class SceneOperations:
         Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch
         with the surface.
 
-        Vertices that would move farther than ``distance`` do not move. With ``Normal`` and ``choice.Direction``,
-        vertices whose line misses the surface do not move either. The report counts the vertices that would move too
-        far, and the vertices whose line misses the surface.
+        Vertices that would move farther than ``distance`` do not move. With ``Normal`` and ``choice.Direction``, a
+        vertex moves along a line, and vertices whose line misses the surface do not move either. The report counts the
+        vertices that would move too far, and the vertices whose line misses the surface.
 
         Example: ``scene.project(onto="scan", distance=0.1)``, in a recipe ``Project(onto: "scan", distance: 0.1)``
 
@@ -2722,7 +2723,7 @@ class SceneOperations:
         and the hybrid method of Liu and others (2008). A chart is cut again if it would overlap itself or exceed
         ``max_stretch``. It is also cut again if the ratio of the largest to the smallest stretch would exceed 1.15 on
         more than 5 % of its area. All charts of a mesh have the same scale, and no chart is mirrored. A polygon stays
-        in one chart. Each mesh gets its own page.
+        in one chart. Each mesh gets its own page, on which the charts are arranged as by ``pack_uvs()``.
 
         The coordinates are written to the corner attribute ``uv``, which is replaced if it exists. Edges at which
         charts meet become seams. Positions, faces and other attributes do not change, but tangents are removed.
@@ -2770,6 +2771,9 @@ class SceneOperations:
         change, even if it is stretched, mirrored or overlaps itself. Each zero-area chart becomes a point. The report
         counts zero-area charts and charts that overlap themselves. Each mesh gets its own page, that is, the whole
         square of a texture. Tangents are removed, because charts are rotated.
+
+        Up to 256 charts can lie in the hollows and holes of each other. More charts are packed in rows, which is much
+        faster but leaves more of the page empty.
 
         Example: ``scene.pack_uvs(page=2048, padding=4)``, in a recipe ``PackUvs(page: 2048, padding: 4)``
 
@@ -2825,10 +2829,10 @@ class SceneOperations:
         :param style: The style: shading, lines, background.
             ``"shading"``: The lighting of surfaces.
             ``"sharp"``: The minimum angle between the normals of two faces, in degrees, at which the edge between the
-                faces is shaded as sharp. Ignored if the mesh has normals.
+                faces is shaded as sharp. This angle has no effect if the mesh has normals.
             ``"occlusion"``: The strength of ambient occlusion, which darkens hollows, from 0 (none) to 1.
             ``"background"``: The background.
-            ``"color"``: The color of all surfaces. If omitted, the colors of the scene.
+            ``"color"``: The color of all surfaces. If omitted, surfaces have the colors of the scene.
             ``"back"``: The color of the back of faces. The back is visible where a mesh is open or inside out.
             ``"wireframe"``: Draws the edges of meshes, and grids on Bezier patches. Lines that are only a few pixels
                 apart are thinner, so that they do not cover the surface.
@@ -2857,8 +2861,8 @@ class SceneOperations:
             ``"DihedralAngle"``, ``"MeanCurvature"``, ``"GaussianCurvature"``, or a value of ``meshwright.choice``), the
             name of an attribute, or a mapping with more details.
             ``"of"``: The quantity that the colors show.
-            ``"map"``: The color map. If omitted, ``Classes`` for valences, ``Diverging`` for curvatures, else
-                ``Viridis``.
+            ``"map"``: The color map. The default is ``Classes`` for valences, ``Diverging`` for curvatures, and
+                ``Viridis`` for all other quantities.
             ``"range"``: The values that the first and the last color represent, as in ``(0, 60)``. If omitted, the
                 range depends on the values of the quantity. For curvatures, the range is symmetric about 0. It leaves
                 out the lowest and the highest eighth of the values, or fewer values if all remaining values are 0.
@@ -3050,10 +3054,10 @@ class MeshOperations:
             omitted, numbers are stored as 32-bit floats. ``quantize={}`` uses the default number of bits for each
             attribute. The report states the largest errors of positions, of normals and tangents, and of texture
             coordinates.
-            ``"position"``: The number of bits of each coordinate of a position. Positions are rounded to a grid that
-                covers the bounding box of the object and has the same step along all axes. The longest side of the box
-                has 2^bits - 1 steps. Positions of objects with joints or morph targets are not quantized. Defaults to
-                16.
+            ``"position"``: The number of bits of each coordinate of a position. Positions are rounded to the points of
+                a grid. The grid covers the bounding box of the object and has the same spacing along all axes. Along
+                the longest side of the box, the grid has 2^bits - 1 steps. Positions of objects with joints or morph
+                targets are not quantized. Defaults to 16.
             ``"normal"``: The number of bits of each of the two numbers that represent a normal or a tangent. The two
                 numbers locate a point on an octahedron. Defaults to 8.
             ``"uv"``: The number of bits of each texture coordinate. A set of texture coordinates is not quantized if a
@@ -3210,11 +3214,11 @@ class MeshOperations:
 
         Points are first scaled, then rotated, then moved. The operation changes the points of meshes, patches, curves
         and polylines. If nodes place an object and ``space`` is ``Scene``, the operation changes the placements of
-        these nodes instead of the points. Everything below these nodes also moves. With ``space="Scene"``, a skinned
-        mesh moves with its joints. If the placement of a node is animated, the node gets a new parent, and the
-        operation moves this parent instead. If ``space`` is ``Scene``, ``on:`` is omitted and ``about`` is not
-        ``Center``, all other root nodes also move, for example the nodes of cameras and lights. A curve must stay in
-        the plane z = 0.
+        these nodes instead of the points. Everything below these nodes also moves. With ``space="Scene"``, the
+        operation moves a skinned mesh by moving its joints. If the placement of a node is animated, the node gets a new
+        parent, and the operation moves this parent instead. If ``space`` is ``Scene``, ``on:`` is omitted and ``about``
+        is not ``Center``, all other root nodes also move, for example the nodes of cameras and lights. A curve must
+        stay in the plane z = 0.
 
         Ids do not change. If the points of a mesh change, its normals, tangents and deltas of morph targets are also
         transformed; other attributes do not change. If the points are mirrored (one or three negative factors in
@@ -3310,18 +3314,18 @@ class MeshOperations:
 
         A quadrilateral is cut along its shorter diagonal. If both diagonals have the same length, the quadrilateral is
         cut along the diagonal at its vertex with the lowest id. Two lengths count as the same if the relative
-        difference of their squares is at most 1e-12. A diagonal is avoided if it gives a zero-area triangle or a
-        triangle that is turned over relative to the normal of the face. It is not avoided if the other diagonal has the
-        same problem. A quadrilateral with a reflex corner is therefore cut at that corner. If a diagonal would join two
-        vertices that are already joined by an edge or another diagonal, the other diagonal is chosen where possible.
-        The report counts the duplicate diagonals that remain.
+        difference of their squares is at most 1e-12. If the chosen diagonal gives a zero-area triangle, or a triangle
+        that is turned over relative to the normal of the face, the other diagonal is used, unless it has the same
+        problem. A quadrilateral with a reflex corner is therefore cut at that corner. If a diagonal would join two
+        vertices that are already joined by an edge or by a diagonal of another face, the quadrilateral is cut along its
+        other diagonal where possible. The report counts the duplicate diagonals that remain.
 
         A face with more than four corners is projected along its normal. The projected face is cut by ear clipping, or
         into monotone pieces if it has more than 4096 corners. Then diagonals are flipped until the triangulation is a
         constrained Delaunay triangulation. Some faces cannot be triangulated in this way: faces with zero area, faces
-        whose sides cross, and faces with more than ten million corners. If a face has more than 4096 corners, its sides
-        must not overlap either. A face that cannot be triangulated in this way becomes a triangle fan around its vertex
-        with the lowest id. The report counts these faces.
+        whose sides cross, faces with more than 4096 corners whose sides overlap, and faces with more than ten million
+        corners. A face that cannot be triangulated in this way becomes a triangle fan around its vertex with the lowest
+        id. The report counts these faces.
 
         The triangles of a face take its place in the order of the faces and have its values. Vertices and edges keep
         their ids. The corners of the triangles have the values of the corners of the face at the same vertices.
@@ -3481,10 +3485,10 @@ class MeshOperations:
         """Removes edges and merges the faces beside them.
 
         Edges are removed in order of their ids. Each removal is checked against the mesh as edited so far. Each removal
-        reduces the numbers of edges and faces by 1. Of the two faces beside the edge, the face with the lower id is
-        kept, with its values. No vertex is removed or moved. To remove vertices that are left with two edges, use
-        ``dissolve_vertices(vertices=sel.Valence(2))`` in a later operation. The remaining elements keep their order and
-        their values but get new ids.
+        reduces the number of edges by 1 and the number of faces by 1. Of the two faces beside the edge, the face with
+        the lower id is kept, with its values. No vertex is removed or moved. To remove vertices that are left with two
+        edges, use ``dissolve_vertices(vertices=sel.Valence(2))`` in a later operation. The remaining elements keep
+        their order and their values but get new ids.
 
         An edge cannot be removed if it is on the boundary, if the same face is on both of its sides, or if one of its
         ends has only two edges. An edge also cannot be removed if its two faces have a common corner that is not an end
@@ -3601,7 +3605,7 @@ class MeshOperations:
         A face with n corners becomes n triangles. Each poked face adds 1 vertex, n edges and n - 1 faces. The first
         triangle keeps the id of the face. The other triangles and the new vertices and edges get the highest ids, in
         order of the faces. The new vertex is at the mean of the corners, moved along the normal of the face by
-        ``distance``. If edits interpolate a vertex or corner attribute, its value at the new vertex is the mean of its
+        ``distance``. Vertex and corner attributes that edits interpolate get, at the new vertex, the mean of their
         values at the corners. The triangles have the values of their face, and the new edges have zero values (no
         crease, no tags). If ``distance`` is not 0, normals are dropped.
 
@@ -3965,7 +3969,7 @@ class MeshOperations:
         For holes with up to 500 edges, the triangles have the smallest possible total area. A hole with more than 500
         edges is filled one triangle at a time. Each triangle is added at the corner whose two neighbors are closest to
         each other. Triangles at straight and reflex corners are added last. If the hole is far from convex, the
-        triangles may overlap. Two vertices that are already joined by an edge are not joined by a second edge. If no
+        triangles can overlap. Two vertices that are already joined by an edge are not joined by a second edge. If no
         triangulation without duplicate edges is found, the hole cannot be filled (``DuplicateEdge``). A hole with two
         edges cannot be filled (``WrongPlace``). Use ``stitch()`` to close it.
 
@@ -4000,17 +4004,17 @@ class MeshOperations:
 
         Each hole is identified by one of its vertices. The band starts at a new edge that joins the two given vertices,
         and goes around both holes. Holes with n and m edges, where n is at least m, are joined by m quadrilaterals and
-        n - m evenly spread triangles. The operation adds n edges and no vertices. Both holes may be in one connected
-        part of the mesh, which then gets a tunnel or a handle, or in two separate parts of the same mesh. (``join()``
-        joins two objects into one.)
+        n - m evenly spread triangles. The operation adds n edges and no vertices. Both holes can be in one connected
+        part of the mesh, which then gets a tunnel or a handle. They can also be in two separate parts of the same mesh.
+        (``join()`` joins two objects into one.)
 
         Each new face copies the attribute values of the adjacent face at the hole with more edges. New corners have the
         values of the corners at the same vertices in the adjacent faces. Normals are dropped.
 
         The operation is refused if a vertex is not on the boundary (``NotBoundary``), or if both vertices are on the
         same hole (``WrongPlace``). The operation is also refused if the band would join two vertices that are already
-        joined by an edge (``DuplicateEdge``). If an operation is refused as ``DuplicateEdge``, it may succeed with
-        other vertices of the same holes.
+        joined by an edge (``DuplicateEdge``). In this case, the operation can succeed with other vertices of the same
+        holes.
 
         Example: ``mesh.bridge_loops(first=0, second=5)``
 
@@ -4068,7 +4072,7 @@ class MeshOperations:
     ) -> Self:
         """Opens the mesh along edges.
 
-        The edges may form paths, loops and trees. A loop can cut out a piece. Each edge becomes two edges, one for each
+        The edges can form paths, loops and trees. A loop can cut out a piece. Each edge becomes two edges, one for each
         side of the cut. If the cuts separate the faces around a vertex into several parts, each part gets a separate
         copy of the vertex. The part that contains the face with the lowest id keeps the id of the vertex, and new
         vertices get the highest ids. Faces keep their ids, and no vertex moves. Copies of vertices and edges have the
@@ -4569,8 +4573,8 @@ class MeshOperations:
             ``meshwright.sel``.
         :param pin: Vertices that are never removed and keep their exact positions, for example ``Boundary``. If
             omitted, no vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
-        :param intersections: Whether the operation may create intersections of faces. Such intersections can occur
-            where parts of the surface are close together. Defaults to ``"Allow"``.
+        :param intersections: Whether the operation is allowed to create intersections of faces. Such intersections can
+            occur where parts of the surface are close together. Defaults to ``"Allow"``.
             ``"Allow"``: New intersections are allowed, and not detected.
             ``"Refuse"``: No changed face intersects another face, so a mesh without self-intersections stays without
                 self-intersections.
@@ -5003,9 +5007,9 @@ class MeshOperations:
         Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch
         with the surface.
 
-        Vertices that would move farther than ``distance`` do not move. With ``Normal`` and ``choice.Direction``,
-        vertices whose line misses the surface do not move either. The report counts the vertices that would move too
-        far, and the vertices whose line misses the surface.
+        Vertices that would move farther than ``distance`` do not move. With ``Normal`` and ``choice.Direction``, a
+        vertex moves along a line, and vertices whose line misses the surface do not move either. The report counts the
+        vertices that would move too far, and the vertices whose line misses the surface.
 
         Example: ``mesh.project(onto=scan, distance=0.1)``
 
@@ -5101,7 +5105,7 @@ class MeshOperations:
         and the hybrid method of Liu and others (2008). A chart is cut again if it would overlap itself or exceed
         ``max_stretch``. It is also cut again if the ratio of the largest to the smallest stretch would exceed 1.15 on
         more than 5 % of its area. All charts of a mesh have the same scale, and no chart is mirrored. A polygon stays
-        in one chart. Each mesh gets its own page.
+        in one chart. Each mesh gets its own page, on which the charts are arranged as by ``pack_uvs()``.
 
         The coordinates are written to the corner attribute ``uv``, which is replaced if it exists. Edges at which
         charts meet become seams. Positions, faces and other attributes do not change, but tangents are removed.
@@ -5149,6 +5153,9 @@ class MeshOperations:
         change, even if it is stretched, mirrored or overlaps itself. Each zero-area chart becomes a point. The report
         counts zero-area charts and charts that overlap themselves. Each mesh gets its own page, that is, the whole
         square of a texture. Tangents are removed, because charts are rotated.
+
+        Up to 256 charts can lie in the hollows and holes of each other. More charts are packed in rows, which is much
+        faster but leaves more of the page empty.
 
         Example: ``mesh.pack_uvs(page=2048, padding=4)``
 
@@ -5199,10 +5206,10 @@ class MeshOperations:
         :param style: The style: shading, lines, background.
             ``"shading"``: The lighting of surfaces.
             ``"sharp"``: The minimum angle between the normals of two faces, in degrees, at which the edge between the
-                faces is shaded as sharp. Ignored if the mesh has normals.
+                faces is shaded as sharp. This angle has no effect if the mesh has normals.
             ``"occlusion"``: The strength of ambient occlusion, which darkens hollows, from 0 (none) to 1.
             ``"background"``: The background.
-            ``"color"``: The color of all surfaces. If omitted, the colors of the scene.
+            ``"color"``: The color of all surfaces. If omitted, surfaces have the colors of the scene.
             ``"back"``: The color of the back of faces. The back is visible where a mesh is open or inside out.
             ``"wireframe"``: Draws the edges of meshes, and grids on Bezier patches. Lines that are only a few pixels
                 apart are thinner, so that they do not cover the surface.
@@ -5231,8 +5238,8 @@ class MeshOperations:
             ``"DihedralAngle"``, ``"MeanCurvature"``, ``"GaussianCurvature"``, or a value of ``meshwright.choice``), the
             name of an attribute, or a mapping with more details.
             ``"of"``: The quantity that the colors show.
-            ``"map"``: The color map. If omitted, ``Classes`` for valences, ``Diverging`` for curvatures, else
-                ``Viridis``.
+            ``"map"``: The color map. The default is ``Classes`` for valences, ``Diverging`` for curvatures, and
+                ``Viridis`` for all other quantities.
             ``"range"``: The values that the first and the last color represent, as in ``(0, 60)``. If omitted, the
                 range depends on the values of the quantity. For curvatures, the range is symmetric about 0. It leaves
                 out the lowest and the highest eighth of the values, or fewer values if all remaining values are 0.

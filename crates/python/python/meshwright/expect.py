@@ -259,7 +259,7 @@ def Faces(
 def File(value: str | Arg | Ron, /) -> Choice:
     """The first mesh in a file.
 
-    The path of a file, relative to the recipe's folder.
+    The value is the path of the file, relative to the recipe's folder.
     """
     return Choice('File', value)
 

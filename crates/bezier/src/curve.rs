@@ -118,8 +118,8 @@ impl<P: Point> Curve<P> {
     /// Returns the n + 1 points at i/n for i from 0 to n, where n is `segments`. The first and the last point are
     /// exactly the first and the last control point.
     ///
-    /// For 0 segments, returns only the start point. For the reversed curve, the function returns exactly the same
-    /// points in reverse order, bit for bit.
+    /// For 0 segments, returns only the start point. If the order of the control points is reversed, the function
+    /// returns the same points in reverse order, equal bit for bit.
     pub fn sample(&self, segments: u32) -> impl Iterator<Item = P> {
         let points = &self.points;
         (0..=segments).map(move |i| match i {

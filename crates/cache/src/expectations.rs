@@ -18,8 +18,8 @@ pub(crate) struct MetExpectation {
 }
 
 impl MetExpectation {
-    /// Records an expectation, with the files that it has read or looked for. `None` if the state of a file cannot be
-    /// determined.
+    /// Records an expectation, with the files that it has read or looked for. Returns `None` if the state of a file
+    /// cannot be determined.
     pub(crate) fn new(
         placed: &RecipeExpectation,
         uses: &[FileUse],

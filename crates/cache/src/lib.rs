@@ -13,8 +13,8 @@
 //! runs. The key depends on the program, the operation with its version and parameters, and the objects in `on`. The
 //! key also depends on the label that seeds random choices, the expected refusal, the memory budget, and the state
 //! before the step. The state after a step is the digest of its key and of the files that it read or looked for. The
-//! files that a step reads are known only after the step has run. Before a cached result is used, the contents of these
-//! files are compared again. Modification times are not used to compare files.
+//! files that a step reads are known only after the step has run. Before a cached result is used, the digests of the
+//! current contents of these files are compared with the recorded digests. Modification times are not compared.
 //!
 //! **Integrity.** Only regular files are read, not links, and only up to a maximum length. Every blob must match the
 //! digest in its name. Every record must match its digest, which depends on the secret key of the cache. Only the user

@@ -43,8 +43,8 @@ pub(crate) struct Session<'a> {
     ingredients: Option<Ingredients>,
     /// The computing time since the last stored scene.
     unstored_time: Duration,
-    /// The last step that ran because something changed. If a step runs again, later steps may also have to run again.
-    /// The tuple consists of the number of the step, counted from 1, and its label.
+    /// The last step that ran because something changed. If a step runs again, it is possible that later steps must run
+    /// again, too. The tuple consists of the number of the step, counted from 1, and its label.
     last_changed: Option<(usize, String)>,
     notes: Vec<String>,
 }

@@ -6,9 +6,9 @@
 //! with all threads of the machine. Prints medians:
 //!
 //! - the wall time of the whole program,
-//! - busy: user and system time, divided by wall time times threads,
-//! - in jobs: the total time of all runs, divided by wall time times threads. The total does not include the time for
-//!   reading and checking the recipe, for digests, the journal and the report.
+//! - busy: the user and system time, divided by the product of the wall time and the number of threads,
+//! - in jobs: the total time of all runs, divided by the product of the wall time and the number of threads. The total
+//!   does not include the time for reading and checking the recipe, for digests, the journal and the report.
 //!
 //! ```text
 //! cargo bench -p meshwright-cli --bench batch

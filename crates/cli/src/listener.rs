@@ -9,7 +9,7 @@ use op::Progress;
 use recipe::{Listener, StepDone};
 
 /// The flag that Ctrl-C sets. Every loop that can run for a long time checks this flag. If a run shows no progress, as
-/// when several runs are made at the same time, the flag is the listener of the run.
+/// when several runs are made at the same time, this flag itself is the listener of the run.
 pub(crate) static INTERRUPT: Cancel = Cancel::new();
 
 /// Installs the handler of Ctrl-C: the first Ctrl-C cancels the run cleanly, and the second Ctrl-C ends the program

@@ -53,9 +53,9 @@ pub(crate) fn refuse(path: &Path, command: &str) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Returns the path that stands for a mesh file in messages, and whose extension determines its format: the path itself
-/// or, for example, `stdin.obj` for `- --from obj`. `pipe` is the name of the stream. `option` is the command-line
-/// option that sets the format of the stream.
+/// Returns a path that names a mesh file in messages. The extension of this path determines the format of the file. For
+/// a file, the result is `path` itself. For a stream, it is a name such as `stdin.obj`, for `- --from obj`. `pipe` is
+/// the name of the stream. `option` is the command-line option that sets the format of the stream.
 ///
 /// # Errors
 ///

@@ -23,7 +23,7 @@ pub(crate) struct SelectArgs {
     /// The kind of elements to select; required if the selection is valid for several kinds
     #[arg(long, value_enum, value_name = "ELEMENTS")]
     pub(crate) of: Option<Kind>,
-    /// Select only on the object with this name; can be repeated
+    /// Select only elements of the object with this name; can be repeated
     #[arg(long, value_name = "OBJECT")]
     pub(crate) on: Vec<String>,
     /// For a recipe, use the scene after the step or call with this id

@@ -202,7 +202,8 @@ pub(crate) struct SweepArgs {
     /// Also write the table to a file
     #[arg(long, value_name = "FILE.csv|.json")]
     pub(crate) out: Option<PathBuf>,
-    /// Keep the outputs of each cell, in a folder below DIR that is named after the number of the cell
+    /// Keep the outputs of each cell (a run with one combination of values). They are in a folder below DIR that is
+    /// named after the number of the cell
     #[arg(long, value_name = "DIR")]
     pub(crate) keep_outputs: Option<PathBuf>,
     #[command(flatten)]

@@ -46,7 +46,7 @@ pub(crate) struct DrawArgs {
     #[arg(long, value_name = "QUANTITY")]
     pub(crate) color_by: Option<String>,
     /// The folder of texture images that are not next to their model. The path is relative to the working directory.
-    /// Defaults to the folder of the file or recipe
+    /// Defaults to the folder of the model or recipe that is drawn
     #[arg(long, value_name = "DIR")]
     pub(crate) images: Option<String>,
     /// Further parameters of the operation Picture, written as in recipes
@@ -60,8 +60,8 @@ pub(crate) struct DrawArgs {
 /// The option that draws a picture of each failure.
 #[derive(Debug, ClapArgs)]
 pub(crate) struct PictureErrorsArgs {
-    /// Write a picture of each failure, at most 20, with the affected elements enlarged and highlighted. The pictures
-    /// are written to DIR, which defaults to the working directory
+    /// Write a picture of each failure (at most 20 pictures), with the affected elements enlarged and highlighted. The
+    /// pictures are written to DIR, which defaults to the working directory
     #[arg(
         long,
         value_name = "DIR",

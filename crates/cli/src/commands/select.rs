@@ -140,7 +140,7 @@ fn corners(mesh: &Mesh, f: FaceId) -> impl Iterator<Item = usize> {
 }
 
 /// Returns the selected elements as JSON. All selected elements are listed, even if `--first` is given. With `--count`,
-/// only their numbers are returned: how many vertices, edges or faces are selected.
+/// returns only how many vertices, edges or faces are selected.
 fn json(args: &SelectArgs, elements: &Elements, selected: &[(&Object, &Mesh, Selected)]) -> Json {
     let objects = selected.iter().map(|(object, mesh, chosen)| {
         let mut json = json!({

@@ -21,7 +21,7 @@ pub(crate) struct Input {
 }
 
 impl Input {
-    /// The number of the parameter set, or 0.
+    /// Returns the number of the parameter set, or 0 if there is no parameter set.
     pub(super) fn number(&self) -> usize {
         self.set.as_ref().map_or(0, |set| set.number)
     }

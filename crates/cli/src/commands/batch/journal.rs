@@ -66,7 +66,7 @@ pub(super) struct Journal {
     /// The entries of earlier runs. The key of the map is the path of the input file and the number of the parameter
     /// set.
     pub(super) known: HashMap<(String, usize), Entry>,
-    /// The ids of the processes that wrote to the journal before.
+    /// The ids of the processes that wrote to the journal in earlier runs of the batch.
     pub(super) processes: Vec<u32>,
 }
 

@@ -110,7 +110,7 @@ fn merge(reports: &[(&Path, Report)]) -> anyhow::Result<Report> {
     Ok(Report::new(header, rows))
 }
 
-/// If two reports belong to different batches, returns in what the batches differ.
+/// If two reports belong to different batches, returns a phrase that names the difference, such as `different recipes`.
 fn difference(a: &Header, b: &Header) -> Option<&'static str> {
     if a.recipe_digest != b.recipe_digest {
         Some("different recipes")

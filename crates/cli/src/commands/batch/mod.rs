@@ -315,7 +315,7 @@ fn check(batch: &Batch, file: &Input, known: Option<&Entry>) -> Task {
 }
 
 /// Returns the key under which a row is recorded in the journal. The key of a failure includes the memory budget,
-/// because a run with a larger budget may succeed.
+/// because a run with a larger budget can succeed.
 fn journal_key(key: String, row: &Row, batch: &Batch) -> String {
     match row.state {
         State::Failed => format!("{key}-{}", batch.args.many.budget),

@@ -247,7 +247,7 @@ impl<'a> Batch<'a> {
         for entry in lists.flatten().flatten() {
             let name = entry.file_name();
             if stale.iter().any(|p| name.to_string_lossy().starts_with(p)) {
-                // Removal is best effort.
+                // A folder that cannot be removed stays, and the error is ignored.
                 let _ = std::fs::remove_dir_all(entry.path());
             }
         }

@@ -91,7 +91,8 @@ impl Row {
         }
     }
 
-    /// The input file and the number of the parameter set, or 0. No two rows of a batch have the same key.
+    /// Returns the input file and the number of its parameter set, or 0 if there is no parameter set. No two rows of a
+    /// batch have the same key.
     pub(super) fn key(&self) -> (&str, usize) {
         (&self.input, self.set.unwrap_or(0))
     }

@@ -46,7 +46,7 @@ impl Task {
 /// The result of a cell.
 #[derive(Debug, Default)]
 pub(super) struct CellResult {
-    /// The values of `keep`, if the cell succeeded.
+    /// The measured values that `keep` lists, if the cell succeeded.
     pub(super) measures: Option<Vec<Measured>>,
     /// The written files, if outputs are kept.
     pub(super) outputs: Vec<PathBuf>,

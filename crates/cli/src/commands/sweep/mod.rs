@@ -1,9 +1,9 @@
 //! `meshwright sweep`: runs one recipe with many parameter values and tabulates the results.
 //!
-//! The documentation of [`recipe::read_sweep`] describes the format of the sweep file. The table has a row for each
-//! cell, in the order of the grid. A row consists of the number of the cell, the values of the varying parameters, and
-//! the measured values that `keep` lists. If the cell has failed, the row also has its error. `--out FILE.csv` writes
-//! the table. `--out FILE.json` and `--format json` write one JSON object:
+//! The documentation of [`recipe::read_sweep`] describes the format of the sweep file. A cell is a run with one
+//! combination of parameter values. The table has a row for each cell. A row consists of the number of the cell, the
+//! values of the varying parameters, and the measured values that `keep` lists. If the cell has failed, the row also
+//! has its error. `--out FILE.csv` writes the table. `--out FILE.json` and `--format json` write one JSON object:
 //!
 //! ```text
 //! {
@@ -210,7 +210,7 @@ impl Plan {
     }
 }
 
-/// Checks that every file exists with which the scenes of cells are compared.
+/// Checks that the files with which the scenes of cells are compared exist.
 fn check_files(sweep: &Sweep, loaded: &Loaded, diagnostics: &mut Vec<Diagnostic>) {
     for (metric, span) in &sweep.keep {
         if let Some(OtherMesh::File(path)) = Metric::other(metric) {

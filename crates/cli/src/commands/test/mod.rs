@@ -224,7 +224,7 @@ impl<'a> Test<'a> {
 
     /// If the recipe is not run as a test of its own, returns the reason.
     ///
-    /// A recipe that other recipes call may need objects that its callers create. If checking such a recipe alone finds
+    /// A recipe that other recipes call can need objects that its callers create. If checking such a recipe alone finds
     /// errors, these errors are ignored.
     fn reason_not_to_run(&self) -> Option<State> {
         let loaded = self.loaded.as_ref().ok().filter(|loaded| loaded.is_read)?;
@@ -255,7 +255,7 @@ impl<'a> Test<'a> {
             return TestResult::failed(&loaded.diagnostics, None);
         }
         let pictures = if args.update {
-            // Nothing is drawn, because the update may fix the failures.
+            // Nothing is drawn, because the update can fix the failures.
             Pictures::default()
         } else {
             let name = &self.found.own_folder;

@@ -73,7 +73,8 @@ fn accept(listener: &TcpListener, folder: &Arc<Path>) {
             Builder::new().spawn(move || _ = answer(&stream, &folder))
         });
         if accepted.is_err() {
-            // There are too many connections or threads. Some of them may end soon.
+            // There are too many connections or threads. The next attempt waits for a moment, because some of them can
+            // end in the meantime.
             sleep(POLL_INTERVAL);
         }
     }

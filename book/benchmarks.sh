@@ -12,9 +12,9 @@ RAYON_NUM_THREADS=2 cargo bench -p meshwright-benches -- --save-baseline two
 Written by \`book/benchmarks.sh\` on $(date -u +%F), commit $(git describe --always), $(rustc --version | cut -d' ' -f1,2).
 Machine: $(lscpu | sed -n 's/^Model name: *//p') ($(uname -m)), $(nproc) processors, $(free -g | awk '/^Mem/ { print $2 }') GB of memory.
 
-Times are medians. *Scaling* is the time of one thread divided by the time of two. *Time relative to copying
-the bytes* is the time of one thread divided by the time that one thread needs to copy, read or write the same bytes, which is in
-the rows "bytes alone". M/s means million elements per second. Not all of the other crates use two threads.
+Times are medians. *Scaling* is the time with one thread divided by the time with two threads. *Time relative to copying
+the bytes* is the time with one thread divided by the time that one thread needs to copy, read or write the same bytes. The
+rows "bytes alone" show the time for the bytes. M/s means million elements per second. Not all of the other crates use two threads.
 HEAD
     cargo run --release -p meshwright-benches
 } > target/benchmark_tables.md

@@ -19,7 +19,7 @@ use crate::errors::{error, problems, recipe_error};
 use crate::interrupt::{Monitor, run};
 use crate::mesh_views::{Mesh, domain, number};
 
-/// The output folder, if files are kept in memory.
+/// The name of the output folder of runs whose files are kept in memory.
 const OUT: &str = "out";
 
 /// A scene, which never changes.

@@ -194,8 +194,8 @@ impl Mesh {
             h = self.next(h.twin());
         }
         // For each triangle beside the edge, the collapse merges the two edges that lead to the apex of the triangle.
-        // If more edges at an apex would be merged, there are parallel edges, or the apex is the third corner of a hole
-        // with three edges.
+        // The collapse is refused if it would merge more than these two edges at an apex. This happens if there are
+        // parallel edges, or if the apex is the third corner of a hole with three edges.
         for (i, x) in apexes.into_iter().enumerate() {
             let merged = apexes.iter().filter(|&&apex| apex == x).count();
             if let Some(x) = x.filter(|&x| shared[i].min(vertices.count(x)) > merged) {

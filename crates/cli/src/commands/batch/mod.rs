@@ -339,7 +339,7 @@ fn without_result(file: &Input, panicked: Option<String>) -> FileResult {
     }
 }
 
-/// Returns the row of a file on which the recipe was run.
+/// Returns the row of the report for an input file with which the recipe was run.
 fn row(file: &Input, loaded: &Loaded, outcome: &Outcome) -> Row {
     let state = match (outcome.succeeded(), outcome.cancelled) {
         (_, true) => return Row::without_outputs(file, State::Skipped, None),

@@ -76,7 +76,7 @@ pub(crate) fn flip_until(
         format!("passes: {done_passes}; no further legal flip would improve the mesh")
     } else {
         format!(
-            "stopped after {done_passes} passes, the limit set by `passes`; a higher limit can improve the mesh"
+            "passes: {done_passes}, the limit set by `passes`; a higher limit can improve the mesh"
         )
     }))
 }

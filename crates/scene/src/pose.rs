@@ -86,8 +86,7 @@ impl Pose {
     }
 
     /// Returns the attributes in this pose, before joints move the mesh, that differ from those in `attributes`: the
-    /// normals and tangents of the mesh and of its morph targets ([`Pose::morphed_directions`]), and the texture
-    /// coordinates and colors of the mesh ([`Pose::morphed_values`]).
+    /// normals and tangents of the mesh and of its morph targets, and the texture coordinates and colors of the mesh.
     pub fn morphed_attributes(
         &self,
         attributes: &Attributes,

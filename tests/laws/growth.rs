@@ -356,7 +356,7 @@ fn operations_take_at_most_two_point_three_times_as_long_on_twice_the_mesh() {
 
 /// The distance of surfaces of long, thin triangles that are not parallel to an axis.
 #[test]
-#[ignore = "measures times for about a minute"]
+#[ignore = "measures times for a few seconds"]
 fn distances_of_thin_triangles_take_at_most_two_point_three_times_as_long_on_twice_the_mesh() {
     let failures = on_one_thread(|| {
         let scene = |n: usize| {

@@ -24,7 +24,6 @@ use flips::Flips;
 use sort::sort_unless;
 
 use mesh::{DVec3, FaceId, Mesh};
-use progress::Cancelled;
 
 /// The indices of three corners of a face, in ascending order.
 pub type Triangle = [u32; 3];
@@ -38,8 +37,6 @@ const MAX_EARS: usize = 4096;
 /// The smallest number of corners for which the cut can be canceled. Faces with fewer corners than this take little
 /// time.
 const MIN_CANCELLED: usize = 256;
-/// The number of corners that are read between two checks for cancellation.
-const CHECK: usize = 1 << 16;
 /// The largest number of corners for which a face is cut. A face with more corners than this becomes a fan.
 const MAX_CORNERS: usize = 10_000_000;
 
@@ -152,19 +149,15 @@ impl Cutter {
     /// Returns how `f` is cut. For a face with many corners, `is_cancelled` is called many times. When `is_cancelled`
     /// returns `true`, the cut is not completed: the face becomes a fan.
     pub fn cut_unless(&mut self, is_cancelled: &dyn Fn() -> bool, mesh: &Mesh, f: FaceId) -> Cut {
-        // If the cut is cancelled, the corners are read nevertheless, because the number of corners is needed.
-        let ask = || {
-            is_cancelled();
-            Ok(())
-        };
-        let _ = self.read_points(mesh, f, &ask);
+        self.points.clear();
+        let corners = mesh.face_vertices(f).map(|v| mesh.position(v));
+        self.points.extend(corners);
         let n = self.points.len();
         if n <= 3 {
             return Cut::Keep;
         }
         let is_cancelled = &|| n >= MIN_CANCELLED && is_cancelled();
         normalize(&mut self.points);
-        is_cancelled();
         let lowest = mesh.face_vertices(f).zip(0..).min().map_or(0, |(_, i)| i);
         if let [a, b, c, d] = self.points[..] {
             return quad([a, b, c, d], lowest);
@@ -175,64 +168,29 @@ impl Cutter {
         Cut::Polygon { triangles, is_fan }
     }
 
-    /// Replaces the points by the corners of `f`.
-    ///
-    /// # Errors
-    ///
-    /// Returns the error of `ask`, which is called after every [`CHECK`] corners.
-    fn read_points(
-        &mut self,
-        mesh: &Mesh,
-        f: FaceId,
-        ask: &dyn Fn() -> Result<(), Cancelled>,
-    ) -> Result<(), Cancelled> {
-        self.points.clear();
-        for v in mesh.face_vertices(f) {
-            self.points.push(mesh.position(v));
-            if self.points.len().is_multiple_of(CHECK) {
-                ask()?;
-            }
-        }
-        Ok(())
-    }
-
     /// Whether the corners of `f` lie in a plane and form a convex polygon without straight corners.
-    ///
-    /// # Errors
-    ///
-    /// Returns the error of `ask`, which is called several times.
-    pub(crate) fn is_flat_and_convex(
-        &mut self,
-        mesh: &Mesh,
-        f: FaceId,
-        ask: &dyn Fn() -> Result<(), Cancelled>,
-    ) -> Result<bool, Cancelled> {
-        self.read_points(mesh, f, ask)?;
-        ask()?;
+    pub(crate) fn is_flat_and_convex(&mut self, mesh: &Mesh, f: FaceId) -> bool {
+        self.points.clear();
+        let corners = mesh.face_vertices(f).map(|v| mesh.position(v));
+        self.points.extend(corners);
         normalize(&mut self.points);
-        ask()?;
         let Some(normal) = doubled_area(&self.points).try_normalize() else {
-            return Ok(false);
+            return false;
         };
         // The first point is the origin.
         if self.points.iter().any(|p| normal.dot(*p).abs() > TOLERANCE) {
-            return Ok(false);
+            return false;
         }
-        ask()?;
         let n = self.points.len();
         let side = |i: usize| self.points[(i + 1) % n] - self.points[i % n];
-        let turns_left = |i: usize| normal.dot(side(i).cross(side(i + 1))) > 0.0;
-        if !(0..n).all(turns_left) {
-            return Ok(false);
-        }
-        ask()?;
+        let turns_left = (0..n).all(|i| normal.dot(side(i).cross(side(i + 1))) > 0.0);
         // If the sides of a polygon turn by 360° in total, the sign of their component along an axis in the plane
         // changes exactly twice.
         let (axis, _) = normal.any_orthonormal_pair();
         let signs = (0..n).map(|i| axis.dot(side(i))).filter(|s| *s != 0.0);
         let signs: Vec<bool> = signs.map(|s| s > 0.0).collect();
         let changes = (0..signs.len()).filter(|&i| signs[i] != signs[(i + 1) % signs.len()]);
-        Ok(changes.count() == 2)
+        turns_left && changes.count() == 2
     }
 
     /// Triangulates the points, and improves the triangles by flips. Returns `None` if the points cannot be

@@ -1,16 +1,20 @@
 //! Deforming a mesh by the weights of its morph targets and by the joints of its skin.
 
 use std::collections::BTreeMap;
+use std::ops::{Add, Mul};
 use std::sync::Arc;
 
-use glam::{DAffine3, DMat3, DVec2, DVec3, DVec4};
+use glam::{DAffine3, DMat3, DVec3, DVec4};
 use mesh::{
     Attributes, CORNER_TANGENT, Column, Domain, HalfEdgeId, Mesh, Rule, VERTEX_NORMAL, Value as _,
-    Values, morph_normal_of, morph_tangent_of, morph_value_of, parallel,
+    Value, Values, morph_normal_of, morph_tangent_of, morph_value_of, parallel,
 };
 
 use crate::transformed::{LinearMap, holds_tangents, mapped, transformed};
 use crate::{Graph, Node};
+
+/// The weight of a morph target, and the domain and the values of its changes to an attribute.
+type Change<'a> = (f64, Domain, &'a Values);
 
 /// A column of normals and its domain.
 type Normals<'a> = (Domain, &'a [DVec3]);
@@ -112,7 +116,7 @@ impl Pose {
             let own = attributes.of(domain).iter();
             columns.extend(own.map(|column| (column.name.as_str(), (domain, column))));
         }
-        let mut changes: BTreeMap<&str, Vec<(f64, Domain, &Values)>> = BTreeMap::new();
+        let mut changes: BTreeMap<&str, Vec<Change>> = BTreeMap::new();
         for (name, &(domain, column)) in &columns {
             let weight = |target: usize| self.weights.get(target).copied().unwrap_or_default();
             if let Some((changed, target)) = morph_value_of(name)
@@ -131,23 +135,11 @@ impl Pose {
             let place = |from: Domain, i: usize| if from == domain { i } else { vertex_of(i) };
             let values = match &column.values {
                 Values::Vec2(old) => Values::Vec2(parallel::collect(n, |i| {
-                    changes
-                        .iter()
-                        .fold(old[place(own, i)], |sum, (weight, from, change)| {
-                            let change = DVec2::of(change).map(|change| change[place(*from, i)]);
-                            sum + *weight * change.unwrap_or_default()
-                        })
+                    plus_changes(old[place(own, i)], &changes, |from| place(from, i))
                 })),
                 Values::Vec4(old) => Values::Vec4(parallel::collect(n, |i| {
-                    let sum =
-                        changes
-                            .iter()
-                            .fold(old[place(own, i)], |sum, (weight, from, change)| {
-                                let change =
-                                    DVec4::of(change).map(|change| change[place(*from, i)]);
-                                sum + *weight * change.unwrap_or_default()
-                            });
-                    sum.clamp(DVec4::ZERO, DVec4::ONE)
+                    plus_changes(old[place(own, i)], &changes, |from| place(from, i))
+                        .clamp(DVec4::ZERO, DVec4::ONE)
                 })),
                 _ => return None,
             };
@@ -280,6 +272,18 @@ impl Pose {
             }
         }
     }
+}
+
+/// Returns an old value plus the weighted changes. `place` returns the index of the value in a domain.
+fn plus_changes<T>(old: T, changes: &[Change], place: impl Fn(Domain) -> usize) -> T
+where
+    T: Value + Add<Output = T>,
+    f64: Mul<T, Output = T>,
+{
+    changes.iter().fold(old, |sum, &(weight, from, values)| {
+        let change = T::of(values).map(|values| values[place(from)]);
+        sum + weight * change.unwrap_or_default()
+    })
 }
 
 /// Returns a mesh in this pose, with points in scene space. If the mesh has no skin, `to_scene` places it. All ids stay

@@ -61,7 +61,7 @@ pub(crate) fn triangulate(
         let corners: Vec<HalfEdgeId> = corners.collect();
         if corners.len() >= MANY_CORNERS {
             ask()?;
-            if cutter.is_flat_and_convex(mesh, face, ask)? {
+            if cutter.is_flat_and_convex(mesh, face) {
                 return halve(&corners, &mut |corners| {
                     triangles.push(triangle(corners));
                     if triangles.len().is_multiple_of(REPORT) {

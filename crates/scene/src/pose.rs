@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3, DVec4};
 use mesh::{
-    Attributes, CORNER_TANGENT, Column, Domain, HalfEdgeId, Mesh, Rule, VERTEX_NORMAL, Value as _,
-    Value, Values, morph_normal_of, morph_tangent_of, morph_value_of, parallel,
+    Attributes, CORNER_TANGENT, Column, Domain, HalfEdgeId, Mesh, Rule, VERTEX_NORMAL, Value,
+    Values, morph_normal_of, morph_tangent_of, morph_value_of, parallel,
 };
 
 use crate::transformed::{LinearMap, holds_tangents, mapped, transformed};

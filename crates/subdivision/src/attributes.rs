@@ -7,6 +7,7 @@ use mesh::{
 use progress::{Cancelled, Meter};
 
 use crate::face_varying::Field;
+use crate::large_faces::LargeFaces;
 use crate::masks::AnyMasks;
 use crate::parallel::computed;
 use crate::rules::{FaceVarying, Rules};
@@ -124,9 +125,24 @@ impl AttributeSources<'_> {
             let new = self.smooth_corners(sharpness, &old, n, meter)?;
             return Ok(from_vec4s(&column.values, new));
         }
-        Ok(column
-            .values
-            .blend(n, |i, add| add_linear(self.mesh, self.corner(i), add)))
+        let large = LargeFaces::of(self.mesh);
+        if large.is_empty() {
+            return Ok(column
+                .values
+                .blend(n, |i, add| add_linear(self.mesh, self.corner(i), add)));
+        }
+        let sums = column.values.blend(large.n_sums(), |i, add| {
+            large.add_sum(self.mesh, i, |h, w| add(h.index(), w));
+        });
+        meter.add(0)?;
+        let n_old = column.values.len();
+        let mut values = column.values.clone();
+        values.append(&sums);
+        Ok(values.blend(n, |i, add| match self.corner(i) {
+            Place::In(f) if let Some(sum) = large.center(self.mesh, f) => add(n_old + sum, 1.0),
+            Place::DooSabin(h) if large.add_doo_sabin(h, [h.index(), n_old], add) => {}
+            place => add_linear(self.mesh, place, add),
+        }))
     }
 
     fn corner(&self, i: usize) -> Place {

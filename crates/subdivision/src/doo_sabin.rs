@@ -35,6 +35,7 @@
 use mesh::{Connectivity, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 use progress::{Cancelled, Meter};
 
+use crate::large_faces::LargeFaces;
 use crate::links::{self, Link, Links};
 use crate::subset::Subset;
 use crate::topology::{Place, Topology, place_near_origin};
@@ -52,6 +53,7 @@ pub(crate) struct DooSabin<'a> {
     faceless: Subset,
     /// For each inner vertex of valence 2, the outgoing half-edge with the higher id.
     doubled: Subset,
+    pub(crate) large_faces: LargeFaces,
 }
 
 /// The old element to which a new vertex belongs.
@@ -83,6 +85,7 @@ impl<'a> DooSabin<'a> {
                 isolated(i) || is_inner_of_valence_2(mesh, VertexId::new(i))
             }),
             doubled: Subset::of(mesh.n_half_edges(), doubled),
+            large_faces: LargeFaces::of(mesh),
         }
     }
 

@@ -37,6 +37,8 @@ pub(crate) struct Field<'a> {
     values: &'a [DVec4],
     /// For each edge, whether the values on its two sides differ at one of its ends.
     seams: Vec<bool>,
+    /// For each face, the mean of its corner values, if the scheme is Catmull-Clark; otherwise empty.
+    centers: Vec<DVec4>,
 }
 
 /// Indices into pairs of the sharpness on this level and on the next level.
@@ -89,6 +91,16 @@ impl<'a> Field<'a> {
             !mesh.is_boundary_edge(h.edge())
                 && (differ(h, mesh.next(twin)) || differ(twin, mesh.next(h)))
         };
+        let center = |f: usize| {
+            let f = FaceId::new(f);
+            let mut sum = DVec4::ZERO;
+            for h in mesh.face_half_edges(f) {
+                sum += values[h.index()];
+            }
+            sum * (1.0 / mesh.degree(f) as f64)
+        };
+        let has_centers = rules.scheme == Scheme::CatmullClark;
+        let n_centers = if has_centers { mesh.n_faces() } else { 0 };
         Ok(Self {
             mesh,
             sharpness,
@@ -96,6 +108,7 @@ impl<'a> Field<'a> {
             rule: rules.face_varying,
             values,
             seams: computed(mesh.n_edges(), meter, is_seam)?,
+            centers: computed(n_centers, meter, center)?,
         })
     }
 
@@ -104,7 +117,7 @@ impl<'a> Field<'a> {
         match place {
             Place::At(h) => self.at(h),
             Place::On(h) => self.on(h),
-            Place::In(f) => self.center(f),
+            Place::In(f) => self.centers[f.index()],
             _ => linear_value(self.mesh, place, self.values),
         }
     }
@@ -129,14 +142,6 @@ impl<'a> Field<'a> {
         }
     }
 
-    fn center(&self, f: FaceId) -> DVec4 {
-        let mut sum = DVec4::ZERO;
-        for h in self.mesh.face_half_edges(f) {
-            sum += self.of(h);
-        }
-        sum * (1.0 / self.mesh.degree(f) as f64)
-    }
-
     /// Returns the new value in the middle of a half-edge, in the face of the half-edge.
     fn on(&self, h: HalfEdgeId) -> DVec4 {
         let e = h.edge();
@@ -153,7 +158,11 @@ impl<'a> Field<'a> {
         let halves = e.half_edges();
         let ends = self.of(halves[0]) + self.of(self.mesh.next(halves[0]));
         let [smooth_end, sides] = if self.scheme == Scheme::CatmullClark {
-            let center = |h| self.mesh.face(h).map_or(DVec4::ZERO, |f| self.center(f));
+            let center = |h| {
+                self.mesh
+                    .face(h)
+                    .map_or(DVec4::ZERO, |f| self.centers[f.index()])
+            };
             let [f, g] = halves.map(center);
             [ends * 0.25, (f + g) * 0.25]
         } else {
@@ -215,7 +224,7 @@ impl<'a> Field<'a> {
         for h in self.mesh.vertex_half_edges(v) {
             sum += self.far(h);
             if let Some(f) = self.mesh.face(h) {
-                sum += self.center(f);
+                sum += self.centers[f.index()];
             }
         }
         own * ((n - 2.0) / n) + sum * (1.0 / (n * n))

@@ -75,6 +75,7 @@ mod error;
 mod face_varying;
 mod halves;
 mod input;
+mod large_faces;
 mod level;
 mod limit;
 mod links;

@@ -15,8 +15,12 @@
 //! division surfaces near extraordinary points", 1978. The mask on the boundary is from Chaikin, "An algorithm
 //! for high-speed curve generation", 1974.
 
+use mesh::DVec3;
+use progress::{Cancelled, Meter};
+
 use super::Masks;
 use crate::doo_sabin::{DooSabin, Source};
+use crate::parallel::{computed, fill};
 use crate::topology::add_doo_sabin;
 
 impl Masks for DooSabin<'_> {
@@ -31,5 +35,30 @@ impl Masks for DooSabin<'_> {
             }
             Source::Isolated(v) => add(v.index(), 1.0),
         }
+    }
+
+    fn values(&self, n: usize, old: &[DVec3], meter: &Meter) -> Result<Vec<DVec3>, Cancelled> {
+        let origin = |h| self.mesh.origin(h).index();
+        let sums = computed(self.large_faces.n_sums(), meter, |i| {
+            let mut sum = DVec3::ZERO;
+            let add = |h, w| sum += old[origin(h)] * w;
+            self.large_faces.add_sum(self.mesh, i, add);
+            sum
+        })?;
+        let mut new: Vec<DVec3> = mesh::zeroed(n);
+        fill(&mut new, meter, |i| {
+            let mut sum = DVec3::ZERO;
+            if let (false, Source::Corner(h)) = (sums.is_empty(), self.source(i)) {
+                let value = |i: usize| old.get(i).unwrap_or_else(|| &sums[i - old.len()]);
+                let indices = [origin(h), old.len()];
+                let mut add = |source, w| sum += value(source) * w;
+                if self.large_faces.add_doo_sabin(h, indices, &mut add) {
+                    return sum;
+                }
+            }
+            self.mask(i, &mut |source, w| sum += old[source] * w);
+            sum
+        })?;
+        Ok(new)
     }
 }

@@ -5,6 +5,7 @@ mod attributes;
 mod butterfly;
 mod convergence;
 mod doo_sabin;
+mod large_faces;
 mod laws;
 mod limit;
 mod local;

@@ -1,0 +1,106 @@
+//! Faces with many corners. A new corner at the center of such a face, or at a Doo-Sabin point in it, depends on all
+//! corners of the face. So that the time does not grow with the square of the number of corners, three sums over all
+//! corners are computed once, and every new corner is a mean of these sums and of one old corner.
+//!
+//! Write x(0), .., x(n - 1) for the corners of a face, and a for 2π/n:
+//!
+//! ```text
+//!     m = Σ x(j) / n        c = Σ cos(ja) x(j) / n        s = Σ sin(ja) x(j) / n
+//!
+//!     center of the face         = m
+//!     Doo-Sabin point of x(k)    = x(k) - 3/4 x(k) + 3/4 m + 1/2 (cos(ka) c + sin(ka) s)
+//! ```
+//!
+//! The second formula follows from the weights in `topology.rs` and cos((j - k)a) = cos(ja) cos(ka) + sin(ja) sin(ka).
+//! The weight of x(k) is written as 1 - 3/4, because integers and tags take the value with the largest weight.
+
+use std::collections::HashMap;
+use std::f64::consts::TAU;
+
+use mesh::{FaceId, HalfEdgeId, Mesh};
+
+use crate::parallel::any;
+
+/// The largest number of corners of a face whose corners are summed for each new corner.
+const MAX_SMALL: usize = 64;
+
+/// The number of sums for each face: m, c and s.
+const SUMS: usize = 3;
+
+/// The faces of a mesh with more than [`MAX_SMALL`] corners.
+#[derive(Default)]
+pub(crate) struct LargeFaces {
+    faces: Vec<FaceId>,
+    /// For each half-edge of these faces: the index of its face in `faces`, its position in the face, and the number of
+    /// corners of the face.
+    corners: HashMap<HalfEdgeId, (usize, usize, usize)>,
+}
+
+impl LargeFaces {
+    pub(crate) fn of(mesh: &Mesh) -> Self {
+        let is_large = |f: &FaceId| mesh.face_half_edges(*f).nth(MAX_SMALL).is_some();
+        if !any(mesh.n_faces(), |f| is_large(&FaceId::new(f))) {
+            return Self::default();
+        }
+        let faces: Vec<FaceId> = mesh.faces().filter(is_large).collect();
+        let mut corners = HashMap::new();
+        for (i, &f) in faces.iter().enumerate() {
+            let n = mesh.degree(f);
+            let half_edges = mesh.face_half_edges(f).enumerate();
+            corners.extend(half_edges.map(|(j, h)| (h, (i, j, n))));
+        }
+        Self { faces, corners }
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.faces.is_empty()
+    }
+
+    /// Returns the number of sums of all faces.
+    pub(crate) fn n_sums(&self) -> usize {
+        SUMS * self.faces.len()
+    }
+
+    /// Calls `add` with each corner in sum `i`, as the half-edge that starts there, and with its weight.
+    pub(crate) fn add_sum(&self, mesh: &Mesh, i: usize, mut add: impl FnMut(HalfEdgeId, f64)) {
+        let f = self.faces[i / SUMS];
+        let n = mesh.degree(f) as f64;
+        for (j, h) in mesh.face_half_edges(f).enumerate() {
+            let angle = TAU * (j as f64 / n);
+            let w = match i % SUMS {
+                0 => 1.0,
+                1 => libm::cos(angle),
+                _ => libm::sin(angle),
+            };
+            add(h, w / n);
+        }
+    }
+
+    /// Returns the sum that is the value at the center of `f`; `None` if the face is not large.
+    pub(crate) fn center(&self, mesh: &Mesh, f: FaceId) -> Option<usize> {
+        let (i, ..) = self.corners.get(&mesh.face_half_edge(f))?;
+        Some(SUMS * i)
+    }
+
+    /// Calls `add` with the values whose weighted sum is the Doo-Sabin point of the corner at the origin of `h`, and
+    /// with their weights. `own` is the index of the old value at this corner, and `sums` is the index of the first sum.
+    /// Returns false, and does nothing else, if the face of `h` is not large.
+    #[inline]
+    pub(crate) fn add_doo_sabin(
+        &self,
+        h: HalfEdgeId,
+        [own, sums]: [usize; 2],
+        add: &mut (impl FnMut(usize, f64) + ?Sized),
+    ) -> bool {
+        let Some(&(i, k, n)) = self.corners.get(&h) else {
+            return false;
+        };
+        let (angle, sum) = (TAU * (k as f64 / n as f64), sums + SUMS * i);
+        add(own, 1.0);
+        add(own, -0.75);
+        add(sum, 0.75);
+        add(sum + 1, 0.5 * libm::cos(angle));
+        add(sum + 2, 0.5 * libm::sin(angle));
+        true
+    }
+}

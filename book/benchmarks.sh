@@ -13,8 +13,10 @@ Written by \`book/benchmarks.sh\` on $(date -u +%F), commit $(git describe --alw
 Machine: $(lscpu | sed -n 's/^Model name: *//p') ($(uname -m)), $(nproc) processors, $(free -g | awk '/^Mem/ { print $2 }') GB of memory.
 
 Times are medians. *Scaling* is the time with one thread divided by the time with two threads. *Time relative to copying
-the bytes* is the time with one thread divided by the time that one thread needs to copy, read or write the same bytes. The
-rows "bytes alone" show the time for the bytes. M/s means million elements per second. Not all of the other crates use two threads.
+the bytes* is the time with one thread divided by a reference time. The reference time is the time that one thread needs
+to copy, read or write the same bytes without other work. The rows "bytes alone" show these reference times. M/s means
+million elements, such as triangles, edges or pixels, per second. Rows with the name of another crate, such as alum,
+measure this other crate. Some of the other crates use only one thread.
 HEAD
     cargo run --release -p meshwright-benches
 } > target/benchmark_tables.md

@@ -16,15 +16,15 @@ use op::prelude::*;
 use op::{Operation, change_curves, plan_curves};
 use scene::Geometry;
 
-/// Replaces curves with the levels of de Casteljau's algorithm.
+/// Replaces each curve with polylines that show the levels of de Casteljau's algorithm.
 ///
 /// A curve with n control points becomes n polylines in the plane z = 0. The first polyline is the control polygon with
-/// n points. Each of the following polylines has one point fewer than the polyline before it. The last polyline has a
-/// single point, the point of the curve at `t`.
+/// n points. The points of each later polyline divide the segments of the polyline before it in the ratio t : 1 - t, so
+/// the number of points decreases by one. The last polyline has a single point, the point of the curve at `t`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct CurveLevels {
-    /// The parameter of the point, from 0 (the start of the curve) to 1 (its end).
+    /// The curve parameter at which the algorithm computes a point, from 0 (the start of the curve) to 1 (the end).
     pub t: ClosedFraction,
 }
 
@@ -46,7 +46,7 @@ fn too_large(n: u64, budget: u64) -> Option<String> {
 
 impl Operation for CurveLevels {
     const NAME: &'static str = "CurveLevels";
-    const SUMMARY: &'static str = "Replace curves with the levels of de Casteljau's algorithm";
+    const SUMMARY: &'static str = "Replace curves with polylines that show the levels of de Casteljau's algorithm";
     const EXAMPLE: &'static str = "CurveLevels(t: 0)";
     const TAKES_ON: bool = true;
 

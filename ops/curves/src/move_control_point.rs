@@ -13,10 +13,10 @@ use op::prelude::*;
 use op::{Operation, change_curves, plan_curves};
 use scene::Geometry;
 
-/// Moves one control point of curves.
+/// Moves one control point of each curve.
 ///
-/// The other control points do not move. The point of the curve at a parameter t moves by B(t) times the offset of the
-/// control point, where B is the Bernstein polynomial of the control point.
+/// The other control points do not move. The point of the curve at a parameter t moves by B(t) d. Here, d is the
+/// displacement of the control point, and B is the Bernstein polynomial of the control point.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct MoveControlPoint {
@@ -33,7 +33,7 @@ pub struct PlanePoint(pub f64, pub f64);
 
 impl Operation for MoveControlPoint {
     const NAME: &'static str = "MoveControlPoint";
-    const SUMMARY: &'static str = "Move one control point of curves";
+    const SUMMARY: &'static str = "Move one control point of each curve";
     const EXAMPLE: &'static str = "MoveControlPoint(index: 1, to: (2, -3.5))";
     const TAKES_ON: bool = true;
 

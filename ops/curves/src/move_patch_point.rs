@@ -18,15 +18,17 @@ use scene::Geometry;
 
 /// Moves one control point of Bezier patches.
 ///
-/// Acts on all objects that consist of patches, or on the objects in `on`. Control points of the same object that are
-/// at the same position move together, so that patches with a common side stay joined. The point of a patch at the
-/// parameters (u, v) moves by B(u) C(v) times the offset of the control point, where B and C are the Bernstein
-/// polynomials of its column and its row. The report counts the objects.
+/// Acts on the objects that the step lists in `on`. Without `on`, the step acts on all objects that consist of patches.
+/// Control points of the same object that are at the same position move together, so that patches with a common side
+/// stay joined. The point of a patch at the parameters (u, v) moves by B(u) C(v) d. Here, d is the displacement of the
+/// control point, and B and C are the Bernstein polynomials of its column and its row. The report counts the changed
+/// objects.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct MovePatchPoint {
-    /// The index of the control point, from 0: 16 times the index of the patch, plus 4 times the row, plus the column.
-    /// Every object on which the step acts must have a control point with this index.
+    /// The index of the control point in the object: 16 p + 4 r + c. Here, p is the index of the patch, r is the row
+    /// and c is the column, all counted from 0. Every object on which the step acts must have a control point with this
+    /// index.
     pub index: u32,
     /// The new position `(x, y, z)`, in scene units.
     pub to: [f64; 3],

@@ -13,13 +13,13 @@ use scene::Geometry;
 
 /// Replaces curves with polylines whose points lie on the curves.
 ///
-/// Each curve becomes one polyline with `segments` + 1 points in the plane z = 0, at the parameters 0, 1 / segments,
-/// 2 / segments and so on, up to 1. The first and the last point are exactly the first and the last control point of
-/// the curve.
+/// Each curve becomes one polyline in the plane z = 0. The polyline has `segments` + 1 points, at the curve parameters
+/// 0, 1 / segments, 2 / segments and so on, up to 1. The first and the last point are exactly the first and the last
+/// control point of the curve.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct SampleCurve {
-    /// The number of straight segments.
+    /// The number of straight segments of each polyline.
     pub segments: Count<1, 65536>,
 }
 

@@ -21,24 +21,25 @@ use scene::Geometry;
 
 /// Turns Bezier patches into a mesh.
 ///
-/// Acts on all objects that consist of patches, or on the objects in `on`. Each object becomes one mesh of the same
-/// name. Every patch is divided into `segments` x `segments` cells. The ids of elements follow the order of the
-/// patches. Patches share no vertices. If two patches have the same control points on a common side, their vertices on
-/// this side have bitwise equal positions, so that `Weld(distance: 0)` joins the patches. A side whose points coincide,
-/// as at the pole of a teapot's lid, becomes one vertex. Zero-area patches give no faces. The report counts these
-/// patches. The mesh has UVs and normals only if they are requested.
+/// Acts on the objects that the step lists in `on`. Without `on`, the step acts on all objects that consist of Bezier
+/// patches. Each object becomes one mesh of the same name. Every patch is divided into `segments` x `segments` cells.
+/// Elements of earlier patches have lower ids. Different patches share no vertices. If two patches have the same
+/// control points on a common side, their vertices on this side have bitwise equal positions, so that
+/// `Weld(distance: 0)` joins the patches. A side whose points coincide, as at the pole of a teapot's lid, becomes one
+/// vertex. Patches without area give no faces. The report counts these patches. The mesh has UVs only with `uvs: true`,
+/// and normals only with `normals: true`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tessellate {
     /// The number of cells along each side of a patch.
     #[serde(default = "eight")]
     pub segments: Count<1, 4096>,
-    /// The faces that a cell becomes.
+    /// Whether each cell becomes triangles or quads.
     #[serde(default)]
     pub faces: Faces,
-    /// Whether to store the parameters (u, v) of each patch as UVs of corners.
+    /// Whether to store the patch parameters (u, v) of each vertex as UVs of the face corners at this vertex.
     ///
-    /// The UVs of each patch cover the whole square from 0 to 1.
+    /// The UVs of different patches overlap, because each patch covers the whole square from 0 to 1.
     #[serde(default)]
     pub uvs: bool,
     /// Whether to store the exact unit normals of the patches as vertex normals.

@@ -16,32 +16,35 @@ use crate::moved::{Stretch, moved, next};
 
 /// Bends a mesh, so that an axis becomes an arc of a circle.
 ///
-/// Vertices at or below `from` do not move. Between `from` and `to`, the axis becomes an arc of the same length, which
-/// turns by `angle` in total. Vertices above `to` move rigidly. Vertices between the axis and the center of the circle
-/// move closer together, and vertices on the other side of the axis move apart. The distance between the center of the
-/// circle and the axis is (to - from) / angle, with the angle in radians. Parts of the mesh beyond the center of the
-/// circle turn inside out. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
+/// Vertices at or below `from` do not move. Between `from` and `to`, the axis becomes an arc of the same length. The
+/// direction of the arc turns by `angle` from one end to the other. The part above `to` moves rigidly with the end of
+/// the arc. Vertices between the axis and the center of the circle move closer together, and vertices on the other side
+/// of the axis move apart. The distance between the center of the circle and the axis is (to - from) / angle, with the
+/// angle in radians. Parts of the mesh that lie beyond the center of the circle, as seen from the axis, turn inside
+/// out. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
 ///
 /// Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch with
 /// the surface. Only vertices move, so refine the mesh first if its faces are large.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Bend {
-    /// The axis that becomes an arc.
+    /// The direction of the axis that becomes an arc. The axis goes through the point `about`.
     pub axis: Axis,
     /// The angle by which the axis turns from `from` to `to`, in degrees. A negative angle bends to the other side.
     pub angle: Angle,
-    /// The axis towards which the upper end bends. If omitted, the axis after `axis` in the order x, y, z, x.
+    /// The coordinate axis in whose positive direction the upper end bends. If omitted, the axis after `axis` in the
+    /// order x, y, z, x.
     #[serde(default)]
     pub towards: Option<Axis>,
     /// A point on the axis. The coordinate of the point along the axis does not matter.
     #[serde(default)]
     pub about: Vector,
-    /// The coordinate along the axis at which the deformation starts. If omitted, the lowest coordinate of the mesh.
+    /// The coordinate along the axis at which the deformation starts. If omitted, the lowest coordinate of the mesh
+    /// along the axis.
     #[serde(default)]
     pub from: Option<Distance>,
     /// The coordinate along the axis at which the deformation is complete. If omitted, the highest coordinate of the
-    /// mesh. Must not be less than `from`.
+    /// mesh along the axis. Must not be less than `from`.
     #[serde(default)]
     pub to: Option<Distance>,
     /// The vertices to move. If omitted, all vertices.

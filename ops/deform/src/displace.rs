@@ -17,16 +17,17 @@ use crate::moved::moved;
 
 /// Moves vertices along their normals, by amounts that vary over the surface.
 ///
-/// Each vertex moves along its normal by `distance` times the value of `by`. The normal of a vertex is the mean of the
-/// normals of its faces, weighted by their areas. Vertices without a normal do not move. The report counts them.
-/// Normals and tangents are dropped. Faces, element ids and other attributes do not change.
+/// Each vertex moves along its normal by `distance` times the value that `by` gives for this vertex. The normal of a
+/// vertex is the mean of the normals of its faces, weighted by the areas of the faces. Vertices without a normal, such
+/// as isolated vertices, do not move. The report counts these vertices. Normals and tangents are dropped. Faces,
+/// element ids and other attributes do not change.
 ///
-/// The values are computed without functions whose results differ between machines, so the result is identical on all
-/// machines.
+/// The computation uses only functions that give the same results on all machines, so the displaced mesh is identical
+/// on all machines.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Displace {
-    /// The values by which `distance` is multiplied.
+    /// The source of the values by which `distance` is multiplied, for example noise or an image.
     pub by: DisplaceBy,
     /// The distance that a vertex with the value 1 moves, in scene units. A negative distance moves the vertex inwards.
     pub distance: Distance,

@@ -19,12 +19,14 @@ use crate::moved::moved;
 /// Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch with
 /// the surface.
 ///
-/// With `falloff: r`, vertices near the selected vertices also move. At the distance d from the nearest selected
-/// vertex, the movement is multiplied by the weight (1 - (d/r)²)². The weight is 1 at selected vertices and falls
-/// smoothly to 0 at the distance r. Distances are measured along straight lines, not along the surface.
+/// With `falloff: r`, vertices that are nearer than r to a selected vertex also move, but less far. At the distance d
+/// from the nearest selected vertex, the movement is multiplied by the weight (1 - (d/r)²)². The weight is 1 at
+/// selected vertices and falls smoothly to 0 at the distance r. Distances are measured along straight lines, not along
+/// the surface.
 ///
 /// With `by: Distance(..)`, each vertex moves along its own normal, which is the mean of the normals of its faces,
-/// weighted by their areas. Vertices without a normal do not move. The report counts them.
+/// weighted by the areas of the faces. Vertices without a normal, such as isolated vertices, do not move. The report
+/// counts these vertices.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct MoveVertices {

@@ -16,27 +16,28 @@ use crate::moved::{Stretch, moved, next};
 
 /// Scales vertices towards or away from an axis, by a factor that changes along the axis.
 ///
-/// The factor changes linearly from 1 at `from` to `factor` at `to`. Below `from` and above `to`, the factor of the
-/// nearer end applies. Coordinates along the axis do not change. Source: Barr, "Global and Local Deformations of Solid
-/// Primitives", 1984.
+/// The factor changes linearly from 1 at `from` to `factor` at `to`. Vertices below `from` do not move, and vertices
+/// above `to` are scaled by `factor`. Coordinates along the axis do not change. Source: Barr, "Global and Local
+/// Deformations of Solid Primitives", 1984.
 ///
 /// Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch with
 /// the surface. Only vertices move, so refine the mesh first if its faces are large.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Taper {
-    /// The axis. Points on the axis do not move.
+    /// The direction of the axis. The axis goes through the point `about`, and points on the axis do not move.
     pub axis: Axis,
     /// The factor at `to`. More than 0. A factor below 1 makes the upper end narrower.
     pub factor: PositiveFactor,
     /// A point on the axis. The coordinate of the point along the axis does not matter.
     #[serde(default)]
     pub about: Vector,
-    /// The coordinate along the axis at which the deformation starts. If omitted, the lowest coordinate of the mesh.
+    /// The coordinate along the axis at which the deformation starts. If omitted, the lowest coordinate of the mesh
+    /// along the axis.
     #[serde(default)]
     pub from: Option<Distance>,
     /// The coordinate along the axis at which the deformation is complete. If omitted, the highest coordinate of the
-    /// mesh. Must not be less than `from`.
+    /// mesh along the axis. Must not be less than `from`.
     #[serde(default)]
     pub to: Option<Distance>,
     /// The vertices to move. If omitted, all vertices.

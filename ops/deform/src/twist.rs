@@ -16,28 +16,30 @@ use crate::moved::{Stretch, moved, next};
 
 /// Rotates vertices around an axis, by an angle that grows along the axis.
 ///
-/// The angle grows linearly from 0 at `from` to `angle` at `to`. Below `from` and above `to`, vertices rotate by the
-/// angle of the nearer end. The volume changes only because edges stay straight, so the volume of a fine mesh hardly
-/// changes. A twist by the opposite angle undoes a twist. Source: Barr, "Global and Local Deformations of Solid
-/// Primitives", 1984.
+/// The angle grows linearly from 0 at `from` to `angle` at `to`. Vertices below `from` do not move, and vertices above
+/// `to` rotate by `angle`. A twist of a smooth surface would keep the volume exactly. The volume of a mesh changes
+/// slightly, because its edges stay straight, but the change is small if the mesh is fine. A second twist with the
+/// opposite angle and the same other parameters undoes the first twist. Source: Barr, "Global and Local Deformations of
+/// Solid Primitives", 1984.
 ///
 /// Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch with
 /// the surface. Only vertices move, so refine the mesh first if its faces are large.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Twist {
-    /// The axis of the rotation.
+    /// The direction of the axis of the rotation. The axis goes through the point `about`.
     pub axis: Axis,
     /// The angle at `to`, in degrees, counter-clockwise if the axis points to the viewer.
     pub angle: Angle,
     /// A point on the axis. The coordinate of the point along the axis does not matter.
     #[serde(default)]
     pub about: Vector,
-    /// The coordinate along the axis at which the deformation starts. If omitted, the lowest coordinate of the mesh.
+    /// The coordinate along the axis at which the deformation starts. If omitted, the lowest coordinate of the mesh
+    /// along the axis.
     #[serde(default)]
     pub from: Option<Distance>,
     /// The coordinate along the axis at which the deformation is complete. If omitted, the highest coordinate of the
-    /// mesh. Must not be less than `from`.
+    /// mesh along the axis. Must not be less than `from`.
     #[serde(default)]
     pub to: Option<Distance>,
     /// The vertices to move. If omitted, all vertices.

@@ -15,36 +15,39 @@ use op::{Refusal, readable};
 
 /// Replaces edges with faces of constant width.
 ///
-/// A selected edge and both of its ends are removed, and a new face replaces the edge. The new face extends into both
-/// faces beside the old edge, up to the distance `width` from this edge. An edge that is not selected, but shares an
-/// end with a selected edge, is cut near this end. If the two edges are neighboring sides of a face, the cut is where
-/// the distance from the selected edge is `width`, but at most four times `width` from the shared end. Otherwise, the
-/// cut is at the distance `width` from the shared end. Where two selected edges are neighboring sides of a face, the
-/// new vertex lies inside this face. If three or more new vertices surround an old vertex, another new face joins them.
-/// All edges are beveled together, so a cube that is beveled at all edges keeps all of its symmetries.
+/// A selected edge and both of its ends are removed, and a new face replaces the edge. On both sides, the new face
+/// extends up to the distance `width` from the old edge. An edge that is not selected, but shares an end with a
+/// selected edge, is shortened at this end. If the two edges are not neighboring sides of a face, the new end is at the
+/// distance `width` from the old end. If they are, the new end is where the distance from the selected edge is `width`,
+/// but at most four times `width` from the old end. If two selected edges are neighboring sides of a face, a new vertex
+/// inside this face replaces the corner between them. If three or more new vertices replace an old vertex, another new
+/// face joins the new vertices. All edges are beveled together, so a cube that is beveled at all edges keeps all of its
+/// symmetries.
 ///
 /// The ends of the edges are removed, so the ids of the vertices after them change. New vertices get the highest ids.
-/// Faces keep their ids. New faces get the highest ids: first the faces of edges, in order of the edges, then the faces
-/// of vertices. Edges get new ids.
+/// Faces keep their ids. New faces get the highest ids: first the faces that replace edges, in order of these edges,
+/// then the faces that replace vertices. Edges get new ids.
 ///
-/// A new vertex has the values of the old face at its position, so textures do not change. A new face has the values
-/// (material, tags) of one of the old faces beside it. It is not specified which of these faces is used, but the choice
-/// is the same in every run. New edges have zero values (no crease, no tags). Normals are dropped.
+/// The values of a new vertex are interpolated in an old face at the position of the vertex, so textures stay in place.
+/// A new face has the values (material, tags) of one of the old faces beside it. It is not specified which of these
+/// faces is used, but the choice is the same in every run. New edges have zero values (no crease, no tags). Normals are
+/// dropped.
 ///
 /// An edge cannot be beveled if it is on the boundary (`Boundary`), or if one of its ends has only one other edge and
-/// this other edge is not selected (`FewEdges`). An edge also cannot be beveled if the bevels at both ends of an edge
-/// would overlap (`OutsideEdge`). If the result would not be manifold, no edge is beveled (`NonManifold`).
+/// this other edge is not selected (`FewEdges`). If the bevels at the two ends of any edge would overlap, the selected
+/// edges at these ends cannot be beveled (`OutsideEdge`). If the result would not be manifold, no edge is beveled
+/// (`NonManifold`).
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct BevelEdges {
     /// The edges to bevel.
     pub edges: EdgeSelection,
-    /// The distance from the beveled edge to the new edge in each of the two faces beside it, in scene units. Either
-    /// `width` or `fraction` must be given.
+    /// The distance, in scene units, from the beveled edge to each of the two new edges that replace it, one in each of
+    /// the faces beside the beveled edge. Either `width` or `fraction` must be given.
     #[serde(default)]
     pub width: Option<PositiveLength>,
-    /// The width as a fraction of the length of the shortest edge that is selected or shares a vertex with a selected
-    /// edge. From 0 to 1, exclusive.
+    /// The width, divided by the length of the shortest edge among the selected edges and all edges that share a vertex
+    /// with them. Above 0 and below 1.
     #[serde(default)]
     pub fraction: Option<Fraction>,
     /// What to do when an edge cannot be beveled.

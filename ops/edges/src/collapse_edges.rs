@@ -12,35 +12,38 @@ use op::prelude::*;
 
 /// Collapses edges, so that the two ends of each edge become one vertex.
 ///
-/// In a mesh of triangles, a collapse removes 1 vertex, 3 edges and 2 faces. A collapse of a boundary edge removes 1
-/// vertex, 2 edges and 1 face. If a face beside the edge has more than three corners, the face is not removed and only
-/// loses a corner. Of the two ends, the vertex with the lower id is kept. Edges are collapsed in order of their ids. An
-/// edge that an earlier collapse removed counts as refused.
+/// In a mesh of triangles, the collapse of an inner edge removes 1 vertex, 3 edges and 2 faces. The collapse of a
+/// boundary edge removes 1 vertex, 2 edges and 1 face. If a face beside the edge has more than three corners, the face
+/// is not removed and only loses a corner. Of the two ends, the vertex with the lower id is kept. Edges are collapsed
+/// in order of their ids. An edge that an earlier collapse removed counts as refused.
 ///
-/// A collapse is refused if it would change the topology of the surface or make elements coincide:
+/// A collapse is refused if it would change the topology of the surface or make elements coincide. The report or the
+/// error message gives one of these reasons:
 ///
-/// - `JoinsBoundaries`: an edge inside the surface joins two boundary vertices.
-/// - `Link`: the ends have a common neighbor that is not a corner of a triangle beside the edge, for example on a tube
-///   with three sides or at a hole with three edges.
-/// - `DuplicateEdge`: a second edge joins the ends.
+/// - `JoinsBoundaries`: both ends of the edge are on the boundary, but the edge itself is not.
+/// - `Link`: the ends have a common neighboring vertex that is not a corner of a triangle beside the edge. Examples are
+///   the edges around a tube with three sides, and the edges of a hole with three edges.
+/// - `DuplicateEdge`: a second edge joins the same two vertices.
 /// - `RepeatedVertex`: both ends are also corners of a face that is not beside the edge.
-/// - `Vanishes`: around the edge, the collapse would leave no face, as for a single triangle, or only two faces that
-///   lie back to back, as for a tetrahedron.
-/// - `SameFace`: the same face is on both sides of the edge, or would be on both sides of another edge.
+/// - `Vanishes`: at the remaining vertex, the collapse would leave no face (as for a single triangle), or only two
+///   faces that lie back to back (as for a tetrahedron).
+/// - `SameFace`: the same face is on both sides of the edge, or the collapse would put the same face on both sides of
+///   another edge.
 /// - `SameOpposite`: the two triangles beside the edge share another edge.
 ///
-/// Attribute values at the remaining vertex and at its corners are interpolated between the ends of the edge. At a
-/// seam, the two sides are interpolated separately. When two edges become one, the remaining edge gets the larger of
-/// the two crease values and the tags of both edges. Normals are dropped.
+/// Attribute values at the remaining vertex and at its corners are interpolated between the ends of the edge. At a seam
+/// (an edge whose corner values, such as UVs, differ between its two sides), the corner values of each side are
+/// interpolated separately. When two edges become one, the remaining edge gets the larger of their crease values
+/// (sharpness for subdivision) and the tags of both edges. Normals are dropped.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct CollapseEdges {
     /// The edges to collapse.
     pub edges: EdgeSelection,
-    /// The position of the remaining vertex on the edge, from 0 to 1.
+    /// The position of the remaining vertex on the old edge, as a fraction of the length of the edge, from 0 to 1.
     ///
     /// If `edges` is `Between(v, w)`, position 0 is at v and position 1 is at w. For all other selections, position 0
-    /// is at the end of the edge with the lower id.
+    /// is at the end whose vertex has the lower id.
     #[serde(default = "half")]
     pub at: ClosedFraction,
     /// What to do when a collapse is refused.

@@ -17,9 +17,10 @@ use op::prelude::*;
 ///
 /// Sets the edge attribute `crease` of the selected edges and the vertex attribute `corner` of the selected vertices to
 /// `sharpness`. Elements that are not selected keep their values, or get 0 if the attribute did not exist before the
-/// step. Loop and Catmull-Clark subdivision keep an edge or a vertex sharp for as many levels as its sharpness, and
-/// smooth it in later levels. For example, an edge with sharpness 2.5 is sharp for two levels and half sharp in the
-/// third level. With sharpness 10, an edge is sharp at every level. Boundary edges are always sharp.
+/// step. With sharpness s, Loop and Catmull-Clark subdivision keep an edge or a vertex sharp in the first s levels and
+/// smooth it in later levels. For example, an edge with sharpness 2.5 is sharp in the first two levels. In the third
+/// level, the positions are halfway between the sharp and the smooth result. With sharpness 10, an edge is sharp at
+/// every level. Boundary edges are always sharp.
 ///
 /// At least one of `edges` and `vertices` must be given. The geometry does not change. The report counts the elements
 /// whose value changed.

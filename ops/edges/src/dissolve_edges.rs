@@ -10,15 +10,16 @@ use op::prelude::*;
 
 /// Removes edges and merges the faces beside them.
 ///
-/// Edges are removed in order of their ids. Each removal is checked against the mesh as edited so far. Each removal
-/// reduces the number of edges by 1 and the number of faces by 1. Of the two faces beside the edge, the face with the
-/// lower id is kept, with its values. No vertex is removed or moved. To remove vertices that are left with two edges,
-/// use `DissolveVertices(vertices: Valence(2))` in a later step. The remaining elements keep their order and their
-/// values but get new ids.
+/// Edges are removed in order of their ids. Each removal is checked against the mesh that the earlier removals have
+/// produced. A removal reduces the number of edges by 1 and the number of faces by 1. Of the two faces beside the edge,
+/// the face with the lower id is kept, with its values. No vertex is removed or moved. To remove vertices that are left
+/// with two edges, use `DissolveVertices(vertices: Valence(2))` in a later step. The remaining elements keep their
+/// order and their values but get new ids.
 ///
 /// An edge cannot be removed if it is on the boundary, if the same face is on both of its sides, or if one of its ends
-/// has only two edges. An edge also cannot be removed if its two faces have a common corner that is not an end of the
-/// edge. A seam edge is removed only if `seams` is `Drop`.
+/// has only two edges. An edge also cannot be removed if its two faces have a common vertex that is not an end of the
+/// edge. A seam (an edge whose corner values, such as UVs, differ between its two sides) is removed only if `seams` is
+/// `Drop`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct DissolveEdges {
@@ -27,7 +28,7 @@ pub struct DissolveEdges {
     /// What to do when an edge cannot be removed.
     #[serde(default)]
     pub on_refusal: OnRefusal,
-    /// What to do at seams.
+    /// What to do with a seam (an edge whose corner values, such as UVs, differ between its two sides).
     #[serde(default)]
     pub seams: Seams,
 }

@@ -10,22 +10,23 @@
 
 use op::prelude::*;
 
-/// Inserts a vertex on each edge and joins it to the opposite corners of the triangles beside the edge.
+/// Inserts a vertex on each edge and joins this vertex to the opposite corners of the triangles beside the edge.
 ///
-/// In a mesh of triangles, a split adds 1 vertex, 3 edges and 2 faces. A split of a boundary edge adds 1 vertex, 2
-/// edges and 1 face. If a face beside the edge has more than three corners, the face is not cut and only gains the new
-/// vertex as a corner. Edges are split in order of their ids; new edges are not split again. New vertices get the
-/// highest ids, in the order of the splits. Attribute values at the new vertex and at its corners are interpolated
-/// between the ends of the edge. At a seam, the two sides are interpolated separately.
+/// In a mesh of triangles, the split of an inner edge adds 1 vertex, 3 edges and 2 faces. The split of a boundary edge
+/// adds 1 vertex, 2 edges and 1 face. If a face beside the edge has more than three corners, the face is not cut and
+/// only gains the new vertex as a corner. Edges are split in order of their ids; new edges are not split again. New
+/// vertices get the highest ids, in the order of the splits. Attribute values at the new vertex and at its corners are
+/// interpolated between the ends of the edge. At a seam (an edge whose corner values, such as UVs, differ between its
+/// two sides), the corner values of each side are interpolated separately.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct SplitEdges {
     /// The edges to split.
     pub edges: EdgeSelection,
-    /// The position of the new vertex on the edge. From 0 to 1, exclusive.
+    /// The position of the new vertex on the edge, as a fraction of the length of the edge. Above 0 and below 1.
     ///
     /// If `edges` is `Between(v, w)`, position 0 is at v and position 1 is at w. For all other selections, position 0
-    /// is at the end of the edge with the lower id.
+    /// is at the end whose vertex has the lower id.
     #[serde(default = "half")]
     pub at: Fraction,
     /// What to do when a split is refused.
@@ -40,7 +41,7 @@ const fn half() -> Fraction {
 impl MeshOperation for SplitEdges {
     const NAME: &'static str = "SplitEdges";
     const SUMMARY: &'static str =
-        "Insert a vertex on each edge and join it to the opposite corners";
+        "Insert a vertex on each edge and join the vertex to the opposite corners";
     const EXAMPLE: &'static str = "SplitEdges(edges: All)";
     const WORDS: &'static [&'static str] = &["insert", "refine", "divide"];
     const DONE: &'static str = "split";

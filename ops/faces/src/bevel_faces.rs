@@ -11,14 +11,15 @@ use op::prelude::*;
 /// Shrinks and raises faces, and surrounds each face with a ring of faces.
 ///
 /// Works like `InsetFaces`, and also moves the inner face along its normal. Each face is beveled separately, even if
-/// selected faces share edges. The inner face keeps the id of the face, and existing vertices do not move. A face
-/// with n corners adds n vertices, 2 n edges and n faces with four corners. New vertices and faces get the highest ids:
-/// in order of the selected faces, and counter-clockwise around each face from its first corner. A zero-area face
-/// has no normal, so its inner face is not raised.
+/// selected faces share edges. The shrunk inner face keeps the id of the selected face, and existing vertices do not
+/// move. For a face with n corners, the step adds n vertices, 2 n edges and n faces with four corners. New vertices and
+/// faces get the highest ids. They are numbered in order of the selected faces, and counter-clockwise around each face
+/// from its first corner. A zero-area face has no normal, so its inner face is not raised.
 ///
-/// Values at a new corner or vertex are interpolated between the value at the outer corner and the mean of the values
-/// at all corners of the face. The faces of the ring have the values of the old face (material, tags). The edges of the
-/// inner face have the values of the outer edges. Normals are dropped.
+/// Attribute values at a new corner or vertex are interpolated with the parameter `fraction`: from the value at the
+/// outer corner (0) to the mean of the values at all corners of the face (1). The faces of the ring have the values of
+/// the old face (material, tags). The edges of the inner face have the values of the old edges beside them. Normals are
+/// dropped.
 ///
 /// A face cannot be beveled if it is on both sides of one of its edges.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
@@ -26,13 +27,13 @@ use op::prelude::*;
 pub struct BevelFaces {
     /// The faces to bevel.
     pub faces: FaceSelection,
-    /// The position of each corner of the inner face on the line from the old corner to the center of the face. From 0
-    /// (the old corner) to 1 (the center), exclusive.
+    /// The position of each corner of the inner face on the line from the old corner to the center of the face. More
+    /// than 0 (the old corner) and less than 1 (the center).
     #[serde(alias = "inset")]
     #[schemars(extend("aliases" = ["inset"]))]
     pub fraction: Fraction,
     /// The distance by which the inner face moves along its normal, in scene units. A negative distance moves the inner
-    /// face inwards.
+    /// face in the direction opposite to its normal.
     #[serde(alias = "height")]
     #[schemars(extend("aliases" = ["height"]))]
     pub distance: Distance,

@@ -14,13 +14,14 @@ use op::prelude::*;
 /// Removes faces and leaves holes.
 ///
 /// All faces are removed at once, so their order does not matter. Edges left without a face are removed. Vertices that
-/// lose their last edge are also removed, unless `keep_vertices` is true. Vertices that were isolated before the step
-/// are kept. The remaining elements keep their order and their values but get new ids. To delete edges or vertices
-/// together with their faces, select the faces with `FacesBeside(edges)` or `FacesAround(vertices)`.
+/// lose their last edge are also removed, unless `keep_vertices` is true. Vertices that had no edge before the step are
+/// kept. The remaining elements keep their order and their values but get new ids. To delete edges or vertices together
+/// with their faces, select the faces with `FacesBeside(edges)` or `FacesAround(vertices)`.
 ///
 /// The removal is refused if the remaining faces around a vertex would form several fans that meet only at that vertex.
-/// With `on_refusal: Skip`, faces are instead removed one by one, in order of their ids, in repeated passes until no
-/// more selected faces can be removed. The selected faces that remain are counted as refused.
+/// In this case, the step with `on_refusal: Skip` tries to remove the faces one by one, in order of their ids. The step
+/// repeats these attempts until no more selected faces can be removed. The report counts the selected faces that remain
+/// as refused.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct DeleteFaces {

@@ -23,25 +23,26 @@ use region::Region;
 
 /// Moves faces out of the surface and connects them to their old rim with side faces.
 ///
-/// Selected faces that share an edge form a region and move together, with one normal and one center. A region is first
-/// scaled, then rotated, and then moved. The fixed point of scaling and rotation is the mean of the vertices of the
-/// region. Side faces with four corners are added along the rim of the region. The rim of a region consists of the
-/// edges with a face of the region on exactly one side. If all faces of an open sheet are extruded, the result is a box
-/// that is open where the sheet was. A closed region has no rim, so its faces only move. If the area vectors of the
-/// faces cancel each other out, as in a closed region, the region has no normal, and `by` must be an `Offset`.
+/// Selected faces that are connected across edges form a region. A region moves as a whole, and has one normal and one
+/// center. A region is first scaled, then rotated, and then moved. Scaling and rotation are about the center of the
+/// region, which is the mean position of its vertices. Side faces with four corners are added along the rim of the
+/// region. The rim of a region consists of the edges with a face of the region on exactly one side. If all faces of an
+/// open sheet are extruded, the result is a box that is open where the sheet was. A closed region (for example, all
+/// faces of a cube) has no rim, so it moves without new side faces. A region has no normal if the area vectors of its
+/// faces cancel each other out, as in a closed region. For a region without a normal, `by` must be an `Offset`.
 ///
-/// The faces keep their ids, so the same selection can be extruded again in later steps, for example to grow an arm out
-/// of a body. Vertices and edges inside a region also keep their ids. The vertices and edges of the old rim do not
+/// The moved faces keep their ids. A later step can therefore extrude the same faces again, for example to grow an arm
+/// out of a body. Vertices and edges inside a region also keep their ids. The vertices and edges of the old rim do not
 /// move, and the moved faces get a new rim. New side faces get the highest ids. They are ordered by region (by the
-/// lowest face id of each region), then by face, and then counter-clockwise around each face from its first corner. The
-/// new vertices are in the same order as the side faces. Each new vertex is a copy of the first vertex of the
-/// corresponding side face.
+/// lowest face id of each region), then by the id of the adjacent moved face. Around each moved face, the order is
+/// counter-clockwise from its first corner. Each side face adds one new vertex, so the new vertices are in the order of
+/// the side faces. A new vertex is a copy of the first vertex of its side face. The first vertex is on the old rim.
 ///
-/// A side face has the values of the adjacent moved face (material, tags). The corners of a side face have the values
-/// of the corners of the moved face, so textures have no seam between the two faces. However, a side face shows only
-/// one line of the texture: the line along the edge of the moved face, stretched over the whole side face. The edges of
-/// the new rim have the values of the edges of the old rim (creases, tags). The edges between the old and the new rim
-/// have zero values (no crease, no tags). Normals are dropped.
+/// A side face has the attribute values (material, tags) of the adjacent moved face. The corners of a side face have
+/// the values of the corners of the moved face, so textures have no seam between the two faces. However, a side face
+/// shows only one line of the texture: the line along the edge of the moved face, stretched over the whole side face.
+/// The edges of the new rim have the values of the edges of the old rim (creases, tags). The edges between the old and
+/// the new rim have zero values (no crease, no tags). Normals are dropped.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExtrudeFaces {

@@ -14,14 +14,15 @@ use op::prelude::*;
 
 /// Shrinks faces and surrounds each face with a ring of faces.
 ///
-/// Each face is inset separately, even if selected faces share edges. The inner face keeps the id of the face, and
-/// existing vertices do not move. A face with n corners adds n vertices, 2 n edges and n faces with four corners. New
-/// vertices and faces get the highest ids: in order of the selected faces, and counter-clockwise around each face from
-/// its first corner.
+/// Each face is inset separately, even if selected faces share edges. The shrunk inner face keeps the id of the
+/// selected face, and existing vertices do not move. For a face with n corners, the step adds n vertices, 2 n edges and
+/// n faces with four corners. New vertices and faces get the highest ids. They are numbered in order of the selected
+/// faces, and counter-clockwise around each face from its first corner.
 ///
-/// Values at a new corner or vertex are interpolated between the value at the outer corner and the mean of the values
-/// at all corners of the face. Textures therefore do not change. The faces of the ring have the values of the old face
-/// (material, tags). The edges of the inner face have the values of the outer edges. Normals are dropped.
+/// Attribute values at a new corner or vertex are interpolated in the same way as its position, so textures do not move
+/// on the surface. The interpolation is between the value at the outer corner and the mean of the values at all corners
+/// of the face. The faces of the ring have the values of the old face (material, tags). The edges of the inner face
+/// have the values of the old edges beside them. Normals are dropped.
 ///
 /// A face cannot be inset if it is on both sides of one of its edges.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
@@ -29,8 +30,8 @@ use op::prelude::*;
 pub struct InsetFaces {
     /// The faces to inset.
     pub faces: FaceSelection,
-    /// The position of each corner of the inner face on the line from the old corner to the center of the face. From 0
-    /// (the old corner) to 1 (the center), exclusive.
+    /// The position of each corner of the inner face on the line from the old corner to the center of the face. More
+    /// than 0 (the old corner) and less than 1 (the center).
     pub fraction: Fraction,
     /// What to do when a face cannot be inset.
     #[serde(default)]

@@ -13,11 +13,12 @@ use op::prelude::*;
 
 /// Cuts each face in two with an edge between two of its corners.
 ///
-/// Each pair (v, w) of vertices cuts the face that has both vertices as corners. The new edge joins the two vertices.
-/// Each cut adds 1 edge and 1 face. Cuts are made in the order of the list, so a face can be cut several times. A cut
-/// from v to w divides the face into two parts. The part to the right of the line from v to w is the new face, and the
-/// other part keeps the id of the old face. New edges and faces get the highest ids. Corners keep their values. The new
-/// face has the values of the old face, and the new edge has zero values (no crease, no tags).
+/// Each pair (v, w) of vertices in `between` cuts the face that has both vertices as corners. The new edge joins the
+/// two vertices. Each cut adds 1 edge and 1 face. Cuts are made in the order of the list, so a face can be cut several
+/// times. A cut from v to w divides the face into two parts. Seen from outside, the part to the right of the line from
+/// v to w becomes the new face. The other part keeps the id of the old face. New edges and faces get the highest ids.
+/// Corners keep their values. The new face has the values of the old face, and the new edge has zero values (no crease,
+/// no tags).
 ///
 /// A cut is refused if the two vertices are the same or are already joined by an edge. A cut is also refused if no face
 /// has both vertices as corners, or if several faces do, because the cut would then be ambiguous.

@@ -14,32 +14,35 @@ use op::{Loss, Operation, ReadingChange, ReadingElements};
 /// Reads the objects of a file into the scene.
 ///
 /// Formats: `.obj`, `.gltf`, `.glb`, `.ply`, `.stl`, `.off`, `.dae`, `.bez` (Bezier patches), `.bzc` (a Bezier curve)
-/// and `.mws` (a complete scene). A file compressed with gzip has `.gz` after its extension, as in `.obj.gz`; `.glb`
-/// and `.mws` files cannot be compressed this way. An OBJ file becomes one object of the scene. The objects (`o a`) and
-/// groups (`g a`) in the file become the face tags `o:a` and `a`. A glTF file gives an object for each mesh that a node
-/// references. The object is named after the node if only one node references the mesh. Unless `placements` is `Bake`,
-/// the nodes, cameras, lights, skins, morph targets and animations of the file are kept. A COLLADA file gives an object
-/// for each node with a mesh. The report counts and lists the content that the scene cannot hold. Images of materials
-/// are read from files next to the model. A corner that repeats the previous corner is removed, and a face that still
-/// contains a vertex twice is left out.
+/// and `.mws` (a complete scene). Files in all of these formats except `.glb` and `.mws` can be compressed with gzip.
+/// The name of a compressed file ends with `.gz`, as in `a.obj.gz`. An OBJ file becomes one object of the scene.
+/// Objects and groups inside an OBJ file become tags (named sets) of faces: a line `o hat` gives the tag `o:hat`, and a
+/// line `g hat` gives the tag `hat`. Each mesh of a glTF file that a node references becomes an object. If exactly one
+/// node references the mesh, the object gets the name of the node, otherwise the name of the mesh. Unless `placements`
+/// is `Bake`, the scene keeps the nodes, cameras, lights, skins, morph targets and animations of the glTF file. In a
+/// COLLADA file (`.dae`), each node with a mesh becomes an object. The report lists and counts the content of the file
+/// that the scene cannot store. Image files of materials are read from the folder of the model or of its material
+/// library. If two successive corners of a face are at the same vertex, the second one is removed. A face is left out
+/// if it then has fewer than three corners or still contains a vertex twice.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Load {
     /// The file. A relative path is relative to the folder of the recipe.
     pub path: String,
-    /// The name for objects that have no name in the file, and for the object of an `.mws` file with only one object.
-    /// If omitted, objects without a name get the name of the file without its extension, and the object of an `.mws`
-    /// file keeps its name.
+    /// The name for objects that have no name in the file. If an `.mws` file contains only one object, this object also
+    /// gets the name, even if it has a name in the file. If omitted, objects without a name get the name of the file
+    /// without its extension.
     #[serde(default)]
     pub name: Option<String>,
-    /// What to do if more than two faces share an edge, or if the faces at a vertex form several groups that have no
-    /// common edge.
+    /// What to do if the faces do not form a manifold: if more than two faces share an edge, or if several groups of
+    /// faces meet only at a vertex, like the tips of two cones.
     #[serde(default)]
     pub non_manifold: NonManifold,
     /// What to do if neighboring faces have opposite orientations.
     #[serde(default)]
     pub orientation: Orientation,
-    /// What to do with faces that have the same vertices as an earlier face, in either direction.
+    /// What to do with a face that has the same vertices as an earlier face, in the same or in the opposite order
+    /// around the face.
     #[serde(default)]
     pub duplicates: CleanupPolicy,
     /// What to do with zero-area faces.
@@ -48,11 +51,13 @@ pub struct Load {
     /// What to do with vertices without a face.
     #[serde(default)]
     pub isolated: CleanupPolicy,
-    /// What to do with the nodes of a glTF or `.mws` file. If the nodes are kept, steps change a mesh in its own space,
-    /// and each change applies to all nodes that reference the mesh.
+    /// What to do with the nodes of a glTF or `.mws` file. If the nodes are kept, later steps such as `Smooth` change a
+    /// mesh in its own coordinate system, without the transforms of the nodes. The change is visible at every node that
+    /// references the mesh.
     #[serde(default)]
     pub placements: Placements,
-    /// If true, the step fails if anything in the file would be left out.
+    /// Whether the step fails if it would leave out some content of the file. If false, the report lists the content
+    /// that was left out.
     #[serde(default)]
     pub strict: bool,
 }

@@ -11,20 +11,23 @@ use crate::save_plan;
 /// Writes objects to a file.
 ///
 /// The extension determines the format: `.obj`, `.gltf`, `.glb`, `.ply`, `.stl` or `.off` for meshes, `.bez` for Bezier
-/// patches, `.bzc` for a curve, and `.mws` for a complete scene without any loss. `.csv` is a table of the positions
-/// and attributes of vertices, faces or corners, and `.npz` has the arrays of a mesh for `NumPy`. `Load` cannot read
-/// `.csv` and `.npz` files. If the name ends with `.gz`, as in `a.obj.gz`, the file is compressed with gzip. Files in
-/// the formats `.glb`, `.mws` and `.npz` cannot be compressed with gzip. The report lists the content that the format
-/// cannot store. A recipe creates the file only if all of its steps and expectations succeed.
+/// patches, `.bzc` for a curve, and `.mws` for a complete scene without any loss. A `.csv` file is a table of the
+/// positions and attributes of vertices, faces or corners. An `.npz` file stores the arrays of a mesh for the Python
+/// library `NumPy`. `Load` cannot read `.csv` and `.npz` files. If `path` ends with `.gz`, as in `a.obj.gz`, the file
+/// is compressed with gzip. Files in the formats `.glb`, `.mws` and `.npz` cannot be compressed with gzip. The report
+/// lists the content of the objects that the format cannot store. The file is created only if all steps of the recipe
+/// succeed and all expectations of the recipe (checks of the result) are met.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Save {
-    /// The file. The path is relative to the output folder. If `name` is a recipe parameter whose value is a file,
-    /// `{name.stem}` is replaced by the name of this file without its extension.
+    /// The file. The path is relative to the output folder. In the path, `{name.stem}` stands for a file name without
+    /// its extension. The file name is taken from the recipe parameter `name`, whose value must be a file path. For
+    /// example, `{input.stem}.glb` becomes `bunny.glb` if the parameter `input` is `models/bunny.obj`.
     pub path: String,
     /// What to do with the images of materials. If omitted, images are embedded in `.glb` files. For `.gltf` and
-    /// `.obj`, images in the folder of the source model are copied to the folder of the output file. OBJ cannot embed
-    /// images, so images that are embedded in the source model are also written to files.
+    /// `.obj`, the image files of the model that was loaded are copied to the folder of the output file. If images are
+    /// embedded in the loaded model, a `.gltf` file also embeds them. For `.obj`, they are written to separate files,
+    /// because OBJ cannot embed images.
     #[serde(default)]
     pub images: Option<Images>,
     /// How to compress the geometry of `.glb` and `.gltf` files without loss. If omitted, the geometry is not
@@ -33,14 +36,15 @@ pub struct Save {
     pub compress: Option<Compression>,
     /// The number of bits for each attribute of the geometry in `.glb` and `.gltf` files. If omitted, numbers are
     /// stored as 32-bit floats. `quantize: ()` uses the default number of bits for each attribute. The report states
-    /// the largest errors of positions, of normals and tangents, and of texture coordinates.
+    /// the largest rounding errors of this step: in positions, in normals and tangents, and in texture coordinates.
     #[serde(default)]
     pub quantize: Option<Quantization>,
-    /// For `.gltf` and `.glb`, the number of sets of four joints that are written for each vertex of a skinned mesh. If
-    /// omitted, the number of sets in the file from which the mesh was read, or 1 if this number is not known.
+    /// For a skinned mesh in a `.gltf` or `.glb` file, the largest number of sets of joints for each vertex. A set has
+    /// four joints and their weights, so with 2, for example, up to eight joints move a vertex. If omitted, the number
+    /// of sets in the file from which the mesh was read, or 1 if this number is not known.
     #[serde(default)]
     pub weight_sets: Option<Count<1, 8>>,
-    /// For `.csv`, the kind of elements that the rows list. If omitted, vertices.
+    /// For `.csv`, the elements that have a row in the table: vertices, faces or corners. If omitted, vertices.
     #[serde(default)]
     pub rows: Option<Rows>,
 }

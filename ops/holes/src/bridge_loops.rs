@@ -16,18 +16,20 @@ use op::prelude::*;
 
 /// Joins two holes with a band of faces.
 ///
-/// Each hole is identified by one of its vertices. The band starts at a new edge that joins the two given vertices, and
-/// goes around both holes. Holes with n and m edges, where n is at least m, are joined by m quadrilaterals and n - m
-/// evenly spread triangles. The step adds n edges and no vertices. Both holes can be in one connected part of the mesh,
-/// which then gets a tunnel or a handle. They can also be in two separate parts of the same mesh. (`Join` joins two
-/// objects into one.)
+/// A hole is a boundary loop. Each hole is given by one of its vertices. The band starts at a new edge that joins the
+/// two given vertices, and runs once around both holes. Let n and m be the numbers of edges of the two holes, where n
+/// is at least m. The band then consists of m quadrilaterals and n - m evenly spread triangles. The step adds n edges
+/// and no vertices. Both holes can be in one connected part of the mesh, which then gets a tunnel or a handle. They can
+/// also be in two separate parts of the mesh, which then become connected. To bridge holes of two objects, first use
+/// `Join` to make one mesh of the objects.
 ///
-/// Each new face copies the attribute values of the adjacent face at the hole with more edges. New corners have the
-/// values of the corners at the same vertices in the adjacent faces. Normals are dropped.
+/// Each new face copies the attribute values of the adjacent face at the hole with more edges. If both holes have the
+/// same number of edges, the adjacent face at the hole of `first` is used. A new corner has the values of an existing
+/// corner at the same vertex. Normals are dropped.
 ///
-/// The step is refused if a vertex is not on the boundary (`NotBoundary`), or if both vertices are on the same hole
-/// (`WrongPlace`). The step is also refused if the band would join two vertices that are already joined by an edge
-/// (`DuplicateEdge`). In this case, the step can succeed with other vertices of the same holes.
+/// The step is refused if one of the given vertices is not on the boundary (reason: `NotBoundary`), or if both are on
+/// the same hole (reason: `WrongPlace`). The step is also refused if a new edge would join two vertices that an edge
+/// already joins (reason: `DuplicateEdge`). In this last case, try other vertices of the same holes.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct BridgeLoops {

@@ -13,15 +13,17 @@ use op::prelude::*;
 
 /// Opens the mesh along edges.
 ///
-/// The edges can form paths, loops and trees. A loop can cut out a piece. Each edge becomes two edges, one for each
-/// side of the cut. If the cuts separate the faces around a vertex into several parts, each part gets a separate copy
-/// of the vertex. The part that contains the face with the lowest id keeps the id of the vertex, and new vertices get
-/// the highest ids. Faces keep their ids, and no vertex moves. Copies of vertices and edges have the values of the
-/// originals. Corners keep their values. `Stitch` is the inverse.
+/// The edges can form paths, loops and trees. A closed loop can separate a region of faces from the rest of the mesh.
+/// Each cut edge becomes two boundary edges, one for each side of the cut. If the cuts divide the faces around a vertex
+/// into several groups, each group gets a separate copy of the vertex. The group that contains the face with the lowest
+/// id keeps the old vertex, and the other copies get the highest ids. Faces keep their ids, and no vertex moves. Copies
+/// of vertices and edges have the values of the originals. Corners keep their values. `Stitch` is the inverse
+/// operation: it joins the two sides of a cut again.
 ///
-/// All edges are cut at once. An edge on the boundary cannot be cut (`Boundary`). An edge also cannot be cut if both of
-/// its ends are inside the mesh and no other cut continues at either end, because such a cut would not open the mesh
-/// (`DuplicateEdge`).
+/// An edge on the boundary cannot be cut (reason: `Boundary`). An edge also cannot be cut if neither of its ends is on
+/// the boundary or on another edge to cut (reason: `DuplicateEdge`). The two sides of such a cut would still join the
+/// same two vertices, so the mesh would not open. All edges are cut at once, so a longer path inside the mesh can be
+/// cut.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cut {

@@ -13,26 +13,28 @@ use op::prelude::*;
 
 /// Covers holes with faces.
 ///
-/// A hole is a boundary loop: a loop of edges with a face on one side only. The outer rim of an open sheet is also a
-/// boundary loop; use `around` or `max_edges` to exclude it. No vertices are added, and existing elements keep their
-/// ids. A hole with n edges gets 1 face with n corners, or n - 2 triangles and n - 3 edges.
+/// A hole is a boundary loop: a closed loop of edges, each of which has a face on one side only. The outer rim of an
+/// open sheet is also a boundary loop; use `around` or `max_edges` to exclude it. No vertices are added, and existing
+/// elements keep their ids. With `with: Face`, a hole with n edges gets one face with n corners. With
+/// `with: Triangles`, it gets n - 2 triangles and n - 3 new edges.
 ///
 /// For holes with up to 500 edges, the triangles have the smallest possible total area. A hole with more than 500 edges
-/// is filled one triangle at a time. Each triangle is added at the corner whose two neighbors are closest to each
-/// other. Triangles at straight and reflex corners are added last. If the hole is far from convex, the triangles can
-/// overlap. Two vertices that are already joined by an edge are not joined by a second edge. If no triangulation
-/// without duplicate edges is found, the hole cannot be filled (`DuplicateEdge`). A hole with two edges cannot be
-/// filled (`WrongPlace`). Use `Stitch` to close it.
+/// is filled one triangle at a time. Each triangle cuts off the corner of the remaining hole whose two neighboring
+/// vertices are closest to each other. Straight and reflex corners are cut off last. If such a large hole is far from
+/// convex, the triangles can overlap. In holes of any size, a new edge never joins two vertices that an existing edge
+/// already joins. If no triangulation without such a duplicate edge is found, filling the hole is refused (reason:
+/// `DuplicateEdge`). A hole with only two edges cannot be filled (reason: `WrongPlace`). To close a hole with two
+/// edges, use `Stitch`.
 ///
-/// New faces have the values of a face beside the hole. New corners have the values of the corner at the same vertex in
-/// the adjacent face. Normals are dropped if a hole was filled.
+/// New faces have the values of a face beside the hole. A new corner has the values of an existing corner at the same
+/// vertex. Normals are dropped if a hole was filled.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct FillHoles {
     /// Fill only holes with at least one of these vertices.
     #[serde(default)]
     pub around: VertexSelection,
-    /// Fill only holes with at most this number of edges. If omitted, holes of any size.
+    /// Fill only holes with at most this number of edges. If omitted, holes with any number of edges are filled.
     #[serde(default)]
     pub max_edges: Option<Count<3>>,
     /// The faces that cover a hole.

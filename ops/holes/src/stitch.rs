@@ -18,26 +18,29 @@ use pairs::Pairs;
 
 /// Joins boundary edges that coincide.
 ///
-/// Two boundary edges coincide if both pairs of corresponding ends are at most `distance` apart. Two edges that
-/// coincide only with each other form a pair. Choose a `distance` that is less than the lengths of the edges. If an
-/// edge coincides with several edges, none of these edges is joined (`NonManifold`). Unlike `Weld`, this operation
-/// never merges vertices inside the surface or vertices whose edges do not coincide.
+/// Two boundary edges coincide if each end of one edge is at most `distance` from the corresponding end of the other
+/// edge. Two edges that coincide only with each other form a pair and are joined. If an edge coincides with several
+/// edges, joining these edges is refused (reason: `NonManifold`). To avoid this refusal, choose a `distance` that is
+/// less than the lengths of the edges. `Weld` merges all vertices that are close together, but `Stitch` merges only the
+/// ends of edges that it joins.
 ///
-/// When two vertices or two edges become one, the one with the lower id is kept, with its position and values. The
-/// vertex or edge with the higher id is removed, so the ids of the vertices or edges after it change. Faces and corners
-/// do not change, so an edge whose sides have different UVs becomes a seam. Remaining holes with two edges are also
-/// closed.
+/// When two vertices become one, the vertex with the lower id is kept, with its position and values. When two edges
+/// become one, the edge with the lower id is kept, with its values. The other vertex or edge is removed, so the ids of
+/// all later vertices or edges change. Faces and corners do not change, so an edge whose sides have different UVs
+/// becomes a seam. If a hole with only two edges remains beside a joined edge, the two edges of this hole are also
+/// joined.
 ///
-/// A pair of edges cannot be joined if both edges belong to the same face (`SameFace`), or if two edges would then join
-/// the same vertices (`DuplicateEdge`). A pair also cannot be joined if the ends of an edge would become one vertex, or
-/// if a face would contain a vertex twice (`WrongPlace`).
+/// A pair of edges cannot be joined if both edges belong to the same face (reason: `SameFace`), or if two other edges
+/// would then join the same two vertices (reason: `DuplicateEdge`). A pair also cannot be joined if both ends of
+/// another edge would become one vertex (reason: `WrongPlace`), or if a face would contain a vertex twice (reason:
+/// `RepeatedVertex`).
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Stitch {
     /// The largest distance between corresponding ends of two edges, in scene units. With 0, only ends at equal
     /// positions are joined.
     pub distance: Length,
-    /// What to do when a pair cannot be joined, or when more than two edges coincide.
+    /// What to do when a pair cannot be joined, or when an edge coincides with several edges.
     #[serde(default)]
     pub on_refusal: OnRefusal,
 }

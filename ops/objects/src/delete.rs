@@ -9,8 +9,9 @@ use op::{Operation, named_object};
 
 /// Deletes objects.
 ///
-/// The remaining objects keep their order. A node that places a deleted object is also removed, unless it has children,
-/// a camera or a light, or is a joint of a skin.
+/// The remaining objects keep their order. If a node of the scene (as in glTF) places a deleted object, the step also
+/// removes the node. However, a node that has children, a camera or a light, or that is a joint of a skin, is kept
+/// without the object.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Delete {

@@ -22,28 +22,28 @@ use crate::join::skin::{KeptSkin, LostSkin};
 
 /// Joins meshes into one object.
 ///
-/// Each mesh becomes a part of the result. Vertices, edges and faces are numbered part by part, in the order of the
-/// list. The parts are not connected, even where they touch. In the scene, the result replaces the first mesh of the
-/// list. The other meshes of the list are removed. If nodes place a part, the result contains a copy of the part for
-/// each node, with the transform of the node applied to its points. If there are skinned parts, and they all have the
-/// same skin and one node each, the result keeps this skin and one of these nodes. If the result keeps a skin, the
-/// parts without a skin follow the first joint of this skin. If the result does not keep a skin, no node places the
-/// result. The names and default weights of morph targets are kept if they are the same for all parts with morph
-/// targets.
+/// Each mesh becomes a part of the result. Vertices, edges and faces are numbered part by part, in the order of
+/// `objects`. The parts are not connected, even where they touch. In the scene, the result replaces the first mesh in
+/// `objects`, and the other meshes are removed. If nodes of the scene (as in glTF) place a mesh, the result contains a
+/// copy of the mesh for each of these nodes. The points of each copy are transformed by the transform of the node. The
+/// result keeps a skin only if all skinned parts have the same skin and each of them has exactly one node. In this
+/// case, the result also keeps the node of the first skinned part, and parts without a skin follow the first joint of
+/// the skin. Otherwise, skinned parts are joined in their current pose, and no node places the result. The names and
+/// default weights of morph targets are kept if all parts with morph targets have the same names and default weights.
 ///
 /// If a part lacks an attribute that another part has, the elements of this part get the value zero. Missing material
-/// indices become -1 (no material). Normals are dropped and reported as lost unless all parts have them. If an
-/// attribute of a part has a different type than in earlier parts, the attribute of this part is dropped and reported
-/// as lost. Equal materials become one material.
+/// indices become -1 (no material). If a part has no normals, the normals of all parts are dropped and reported as
+/// lost. If an attribute of a part has a different type than in earlier parts, the attribute of this part is dropped
+/// and reported as lost. Equal materials become one material.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Join {
     /// The names of the meshes. At least one name, without duplicates.
     pub objects: Vec<String>,
-    /// The name of the result. The name of one of the meshes is allowed.
+    /// The name of the result, which can be the name of one of the joined meshes.
     pub name: String,
-    /// Whether to tag the faces of each part with the name of the part, so that `Tagged("head")` selects them in later
-    /// steps.
+    /// Whether to tag the faces of each part with the name of the part. In later steps, `Tagged("head")` then selects
+    /// the faces of the part "head".
     #[serde(default = "yes")]
     pub tag_parts: bool,
 }

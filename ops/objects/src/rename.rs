@@ -9,8 +9,9 @@ use op::{Operation, named_object};
 
 /// Renames an object.
 ///
-/// The order of the objects does not change. If a node or mesh of the object has the same name as the object, this node
-/// or mesh also gets the new name.
+/// The order of the objects does not change. Objects from a glTF file can have separate names for the object, its nodes
+/// and its mesh. If the name of a node or of the mesh is the old name of the object, this name also changes to the new
+/// name.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Rename {

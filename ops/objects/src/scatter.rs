@@ -12,28 +12,29 @@ use op::prelude::*;
 use op::{Axis, Operation, Refusal, check_name, named_object};
 use scene::{Geometry, Node, Object, Placement, transformed};
 
-/// Places copies of an object on a surface, at random and evenly spread.
+/// Places copies of an object on a surface, at random positions that are evenly spread.
 ///
 /// Exactly `count` points are chosen so that no two of them are close together (Yuksel, "Sample Elimination for
 /// Generating Poisson Disk Sample Sets", 2015). Each copy is a node that references the object (an instance), so copies
 /// need almost no memory, and almost no space in `.gltf`, `.glb` and `.mws` files. The node of each copy moves the
-/// origin of the object to one of the points. To make one mesh of all copies, use `Join` afterwards. If no node placed
-/// the object before the step, the object then appears only at the points.
+/// origin of the object to one of the points. To make one mesh of all copies, use `Join` in a later step. If no node
+/// placed the object before the step, the object is no longer visible at its original position, only at the points.
 ///
 /// Without `object`, the result is a mesh that consists of the points and has no faces. The vertex normals of this mesh
 /// are the normals of the surface at the points.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scatter {
-    /// The name of the object that is placed. If omitted, only the points are made.
+    /// The name of the object that is copied. If omitted, the step creates a mesh of points instead of copies.
     #[serde(default)]
     pub object: Option<String>,
-    /// The name of the object with the surface, which must be a mesh with a single instance.
+    /// The name of the object on whose surface the points lie. This object must be a mesh that appears only once in the
+    /// scene (a single instance).
     pub surface: String,
     /// The number of points.
     pub count: Count<1, 1_000_000>,
-    /// The seed. A different seed gives different points. The same seed gives the same points on the same surface, in
-    /// every step.
+    /// The seed of the random numbers. Two steps with the same seed, surface and count choose the same points. A
+    /// different seed gives different points.
     #[serde(default)]
     pub seed: u64,
     /// The axis of the object that is aligned with the normal of the surface. If omitted, the copies are not rotated.

@@ -16,15 +16,17 @@ use scene::{Geometry, Graph, Object};
 
 /// Splits a mesh into several objects.
 ///
-/// The parts of "figure" are named "figure 1", "figure 2" and so on. The first part replaces the object, and the other
-/// parts are added after all other objects. Elements keep their order and their values, and every part has all
-/// materials. Vertices without a face are dropped. The report counts them. The step fails if the mesh has no faces.
+/// The parts of an object "figure" get the names "figure 1", "figure 2" and so on. In the list of objects, the first
+/// part replaces the original object, and the other parts come last. Elements keep their order and their values. Every
+/// part keeps the whole list of materials. Vertices without a face are dropped. The report counts them. The step fails
+/// if the mesh has no faces.
 ///
-/// Nodes that placed the object place the first part instead. Each of these nodes gets child nodes that place the other
-/// parts.
+/// Nodes of the scene (as in glTF) that placed the original object now place the first part. Each of these nodes gets
+/// child nodes that place the other parts at the same location.
 ///
-/// If a connected component is divided, each of its parts gets its own copies of the edges and vertices that the parts
-/// shared. If the faces of a part around a vertex form several fans, each fan gets a separate copy of the vertex.
+/// If several parts come from one connected component, each of these parts gets its own copies of the edges and
+/// vertices between the parts. Within a part, the faces around a vertex can form several fans that share no edge at
+/// this vertex. Each fan then gets a separate copy of the vertex.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Separate {
@@ -33,8 +35,9 @@ pub struct Separate {
     /// How the faces are grouped into parts.
     #[serde(default)]
     pub by: SeparateBy,
-    /// The expected number of parts. The step fails if the number of parts is not `count`. If omitted, the names of the
-    /// parts are not known before the recipe runs, so the object names in later steps cannot be checked before the run.
+    /// The expected number of parts. The step fails if the number of parts is not `count`. If omitted, the number and
+    /// names of the parts are known only during the run. Later steps that refer to objects by name can then not be
+    /// checked before the run.
     #[serde(default)]
     pub count: Option<Count<1>>,
 }

@@ -28,25 +28,26 @@ use crate::transform::map::Map;
 /// Scales, rotates and moves objects.
 ///
 /// Points are first scaled, then rotated, then moved. The step changes the points of meshes, patches, curves and
-/// polylines. If nodes place an object and `space` is `Scene`, the step changes the placements of these nodes instead
-/// of the points. Everything below these nodes also moves. With `space: Scene`, the step moves a skinned mesh by moving
-/// its joints. If the placement of a node is animated, the node gets a new parent, and the step moves this parent
-/// instead. If `space` is `Scene`, `on:` is omitted and `about` is not `Center`, all other root nodes also move, for
-/// example the nodes of cameras and lights. A curve must stay in the plane z = 0.
+/// polylines. If nodes of the scene (as in glTF) place an object and `space` is `Scene`, the step changes the
+/// transforms of these nodes instead of the points. The descendants of these nodes move with them. A skinned mesh
+/// follows its joints, so with `space: Scene`, the step moves the joints. If the transform of a node is animated, the
+/// animation would overwrite the change. The step therefore gives this node a new parent and moves the parent. If
+/// `space` is `Scene`, `on:` is omitted and `about` is not `Center`, root nodes without an object also move, such as
+/// the nodes of cameras and lights. The step fails if a curve would leave the plane z = 0.
 ///
-/// Ids do not change. If the points of a mesh change, its normals, tangents and deltas of morph targets are also
-/// transformed; other attributes do not change. If the points are mirrored (one or three negative factors in `scale`),
-/// the faces are also reversed, so that they stay counter-clockwise seen from outside. In a reversed face, the first
-/// corner stays first, and the other corners follow in reverse order. In mirrored patches, u and v are exchanged, so
-/// that the same side of the surface remains the outside. Like any step that changes the connectivity, mirroring the
-/// points drops attributes whose edit rule is `Drop`, such as tangents of corners.
+/// Ids do not change. If the points of a mesh change, the normals, tangents and deltas of morph targets of this mesh
+/// are also transformed. Other attributes do not change. If the points are mirrored (one or three negative factors in
+/// `scale`), the faces are also reversed, so that they stay counter-clockwise seen from outside. In a reversed face,
+/// the first corner stays first, and the other corners follow in reverse order. In mirrored patches, u and v are
+/// exchanged, so that the same side of the surface remains the outside. Attributes with the edit rule `Drop`, such as
+/// tangents of corners, are removed by every step that changes the connectivity. Mirroring the points removes them too.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Transform {
-    /// The scale factors along x, y and z. Factors must not be 0. A negative factor mirrors.
+    /// The scale factors along x, y and z. Factors must not be 0. A negative factor mirrors along its axis.
     #[serde(default = "ones")]
     pub scale: Factors,
-    /// The rotations, applied in order.
+    /// The rotations, applied in the order of the list.
     #[serde(default)]
     pub rotate: Vec<Turn>,
     /// The distances to move along x, y and z, in scene units.

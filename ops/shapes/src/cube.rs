@@ -21,14 +21,14 @@ use op::prelude::*;
 /// Creates a cube.
 ///
 /// The cube has 8 vertices and 6 squares. In the order of their ids, the squares are on the sides -z, +z, -y, +x, +y
-/// and -x. In the same order, the vertices of the squares are (0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (1, 3, 7, 5),
-/// (3, 2, 6, 7) and (2, 0, 4, 6). The id of a vertex is (x > center) + 2 (y > center) + 4 (z > center), where a true
-/// comparison counts as 1 and a false comparison as 0.
+/// and -x. In the same order, the vertex ids of the squares are (0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (1, 3, 7, 5),
+/// (3, 2, 6, 7) and (2, 0, 4, 6). The id of a vertex is a sum: 1 if the vertex is on the side +x, plus 2 if it is on
+/// the side +y, plus 4 if it is on the side +z.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cube {
-    /// The name of the new object. Defaults to the name of the operation in lower case, followed by a number if this
-    /// name is taken.
+    /// The name of the new object. Defaults to `cube`. If another object already has this name, defaults to `cube.2`,
+    /// `cube.3` and so on.
     #[serde(default)]
     pub name: Option<String>,
     /// The length of the edges, in scene units. More than 0.
@@ -38,8 +38,8 @@ pub struct Cube {
     #[serde(default)]
     pub center: Vector,
     /// Whether to cut each square (a, b, c, d) along its diagonal from a to c into the triangles (a, b, c) and (a, c,
-    /// d). Square f becomes the faces 2 f and 2 f + 1. The diagonals of the squares are 0-3, 4-7, 0-5, 1-7, 3-6 and
-    /// 2-4.
+    /// d). The square with the id f becomes the faces with the ids 2 f and 2 f + 1. The diagonals of the squares join
+    /// the vertices 0-3, 4-7, 0-5, 1-7, 3-6 and 2-4.
     #[serde(default)]
     pub triangles: bool,
 }

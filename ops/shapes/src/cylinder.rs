@@ -14,17 +14,17 @@ use op::prelude::*;
 
 /// Creates a cylinder around the z axis.
 ///
-/// The vertices of the rim at -z come first, and then the vertices of the rim at +z. Each rim is counter-clockwise seen
-/// from +z and starts in the direction +x. The first `around` faces are rectangles. With `caps`, the last two faces are
-/// polygons with `around` corners, first at -z and then at +z.
+/// The vertices of the rim at -z come first, and then the vertices of the rim at +z. The first vertex of each rim is in
+/// the direction +x from the axis, and the others follow counter-clockwise, seen from +z. The first `around` faces are
+/// rectangles. With `caps: true`, two polygons with `around` corners follow: first the cap at -z, then the cap at +z.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cylinder {
-    /// The name of the new object. Defaults to the name of the operation in lower case, followed by a number if this
-    /// name is taken.
+    /// The name of the new object. Defaults to `cylinder`. If another object already has this name, defaults to
+    /// `cylinder.2`, `cylinder.3` and so on.
     #[serde(default)]
     pub name: Option<String>,
-    /// The number of sides. At least 3. Defaults to 32.
+    /// The number of rectangles around the axis. At least 3. Defaults to 32.
     #[serde(default = "crate::thirty_two")]
     pub around: Count<3>,
     /// The distance from the axis to the vertices, in scene units. More than 0.
@@ -33,7 +33,7 @@ pub struct Cylinder {
     /// The height along z, in scene units. More than 0.
     #[serde(default = "crate::two")]
     pub height: PositiveLength,
-    /// Whether the ends are closed.
+    /// Whether each end is closed by a face.
     #[serde(default = "crate::yes")]
     pub caps: bool,
     /// The center of the cylinder, in scene units.

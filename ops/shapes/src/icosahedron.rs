@@ -12,12 +12,13 @@ use op::prelude::*;
 
 /// Creates a regular icosahedron with 12 vertices and 20 triangles.
 ///
-/// The vertices are the corners of three rectangles with the side ratio 1 : (1 + √5) / 2, one in each coordinate plane.
+/// The vertices are the corners of three rectangles with the side ratio 1 : (1 + √5) / 2. The rectangles have the same
+/// center, and each is parallel to a different coordinate plane.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Icosahedron {
-    /// The name of the new object. Defaults to the name of the operation in lower case, followed by a number if this
-    /// name is taken.
+    /// The name of the new object. Defaults to `icosahedron`. If another object already has this name, defaults to
+    /// `icosahedron.2`, `icosahedron.3` and so on.
     #[serde(default)]
     pub name: Option<String>,
     /// The distance from the center to the vertices, in scene units. More than 0.

@@ -14,16 +14,18 @@ use op::prelude::*;
 
 /// Creates a mesh from points and faces.
 ///
-/// Point i becomes vertex i, and polygon i becomes face i. If the orientations of connected faces do not agree, the
-/// faces with the less frequent orientation are reversed. Faces are reversed only if all orientations then agree. If
-/// the faces do not form a manifold, edges and vertices are split: an edge keeps two faces with consistent
-/// orientations, and a vertex keeps one fan of faces. All other faces at the edge or vertex get copies of its vertices.
-/// The copies of vertices get the highest ids. The report and the command `check` list the reversed and split elements.
+/// The id of each vertex is the index of its point in `points`, and the id of each face is its index in `faces`. If
+/// connected faces have opposite orientations, the faces with the less frequent orientation are reversed. No face is
+/// reversed if the orientations of the connected faces cannot be made to agree. If the faces do not form a manifold,
+/// edges and vertices are split. A split edge keeps two faces with consistent orientations. Each other face at this
+/// edge gets a copy of the edge. A split vertex keeps one fan of faces (faces that are connected by edges at the
+/// vertex). Each other fan gets a copy of the vertex. The copies of vertices get the highest ids. The report and the
+/// command `check` list the reversed and split elements.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Polygons {
-    /// The name of the new object. Defaults to the name of the operation in lower case, followed by a number if this
-    /// name is taken.
+    /// The name of the new object. Defaults to `polygons`. If another object already has this name, defaults to
+    /// `polygons.2`, `polygons.3` and so on.
     #[serde(default)]
     pub name: Option<String>,
     /// The points `(x, y, z)`, in scene units. Points that no face uses become isolated vertices.

@@ -15,13 +15,14 @@ use op::prelude::*;
 
 /// Creates a torus of quadrilaterals around the z axis.
 ///
-/// The vertices form `around` rings, one for each cross section of the tube. Each ring has `across` vertices. Vertex j
-/// of ring i has the id `i * across + j`. Ring 0 is in the direction +x, and its vertex 0 is farthest from the axis.
+/// The vertices form `around` rings, one for each cross section of the tube. Each ring has `across` vertices. With i
+/// and j counted from 0, vertex j of ring i has the id `i * across + j`. Ring 0 is in the direction +x from the center
+/// of the torus. Vertex 0 of each ring is the vertex farthest from the axis.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Torus {
-    /// The name of the new object. Defaults to the name of the operation in lower case, followed by a number if this
-    /// name is taken.
+    /// The name of the new object. Defaults to `torus`. If another object already has this name, defaults to `torus.2`,
+    /// `torus.3` and so on.
     #[serde(default)]
     pub name: Option<String>,
     /// The number of faces around the z axis. At least 3. Defaults to 32.

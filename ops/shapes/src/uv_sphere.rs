@@ -13,15 +13,16 @@ use geometry::shapes;
 use op::Operation;
 use op::prelude::*;
 
-/// Creates a sphere of meridians and rings, with poles at -z and +z.
+/// Creates a sphere whose edges follow meridians and circles of latitude, with poles at -z and +z.
 ///
-/// Vertex 0 is the pole at -z. The vertices between the poles follow, circle by circle from -z to +z. Each circle
-/// starts in the direction +x and is counter-clockwise seen from +z. The last vertex is the pole at +z.
+/// Vertex 0 is the pole at -z. The vertices between the poles follow, circle by circle from -z to +z. The first vertex
+/// of each circle is in the direction +x from the axis, and the others follow counter-clockwise, seen from +z. The last
+/// vertex is the pole at +z.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct UvSphere {
-    /// The name of the new object. Defaults to the name of the operation in lower case, followed by a number if this
-    /// name is taken.
+    /// The name of the new object. Defaults to `uvsphere`. If another object already has this name, defaults to
+    /// `uvsphere.2`, `uvsphere.3` and so on.
     #[serde(default)]
     pub name: Option<String>,
     /// The number of meridians. At least 3. Defaults to 32.
@@ -62,7 +63,7 @@ impl UvSphere {
 
 impl Operation for UvSphere {
     const NAME: &'static str = "UvSphere";
-    const SUMMARY: &'static str = "Create a sphere of meridians and rings";
+    const SUMMARY: &'static str = "Create a sphere whose edges follow meridians and circles of latitude";
     const EXAMPLE: &'static str = r#"UvSphere(name: "new", around: 8, rings: 4, radius: 2)"#;
     const WORDS: &'static [&'static str] = &["sphere", "ball"];
 

@@ -13,26 +13,29 @@ use op::prelude::*;
 
 /// Cuts meshes along a plane.
 ///
-/// Every edge that crosses the plane gets a vertex on the plane. Every face that crosses the plane is cut along the
-/// plane. A concave face can be cut several times. A vertex counts as on the plane if its distance from the plane is at
-/// most 1e-9 times the largest extent of the mesh, or at most 1e-14 times the largest absolute coordinate. Such a
-/// vertex is not moved. When an edge is cut, the part at the start of its first half-edge keeps the id of the edge.
-/// When a face is cut, the part with the first corner keeps the id of the face. New elements get the highest ids. Where
-/// an edge crosses the plane, attributes are interpolated. At a seam, the two sides are interpolated separately.
+/// Every edge that crosses the plane gets a new vertex at the crossing point. Every face that crosses the plane is cut
+/// along the plane. A concave face can be cut in several places. A vertex near the plane is treated as if it were on
+/// the plane, and is not moved. Near means a distance from the plane of at most 1e-9 times the longest side of the
+/// bounding box, or at most 1e-14 times the largest absolute coordinate. Every edge has two half-edges. When an edge is
+/// cut, the part at the start of the half-edge with the lower id keeps the id of the edge. When a face is cut, the part
+/// with the first corner keeps the id of the face. New elements get the highest ids. Where an edge crosses the plane,
+/// attributes are interpolated. At a seam, the two sides are interpolated separately.
 ///
-/// With `keep: Front` or `keep: Back`, the other side of the plane is removed. A face in the plane belongs to the back
-/// if its normal points to the front, because the face then closes the solid behind the plane. Vertices left without a
-/// face are removed. If the remaining faces around a vertex form several fans, each fan gets a separate copy of the
-/// vertex. No faces are added to close the cut. To close the cut, use `FillHoles` in a later step.
+/// With `keep: Front`, the part of the mesh behind the plane is removed. With `keep: Back`, the part in front of the
+/// plane is removed. A face that lies in the plane belongs to the back if its normal points to the front, because the
+/// face then closes the solid behind the plane. Vertices that are left without a face are removed. If the remaining
+/// faces around a vertex form several fans (groups of faces connected across edges), each fan gets a separate copy of
+/// the vertex. No faces are added to close the cut. To close the cut, use `FillHoles` in a later step.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Bisect {
     /// A point on the plane.
     #[serde(default)]
     pub point: Vector,
-    /// The normal of the plane, which points to the front. The length of the normal does not matter but must not be 0.
+    /// The normal of the plane. It points to the front side. The length of the normal does not matter but must not
+    /// be 0.
     pub normal: Direction,
-    /// The side to keep.
+    /// The part of the mesh to keep: one side of the plane, or both sides.
     #[serde(default)]
     pub keep: Keep,
     /// The name of a tag for the edges on the plane. Edges that already have the tag keep it. If omitted, no edges are

@@ -14,10 +14,11 @@ use op::prelude::*;
 /// Replaces one half of a mesh with the mirror image of the other half.
 ///
 /// The mesh is cut along a plane, as with `Bisect`. The half on the side `from` is kept and mirrored, and the halves
-/// are joined at the plane. Vertices near the plane (see `Bisect`) are moved exactly onto it, so that the result is
-/// symmetric. Faces in the plane are removed, because they would become walls inside the result. Where the surface only
-/// touches the plane, the halves are not joined. The report counts the faces that are removed completely, not the faces
-/// that are cut.
+/// are joined at the plane. Vertices that `Bisect` would treat as on the plane are moved exactly onto the plane, so
+/// that the result is symmetric. Faces that lie in the plane are removed, because they would become walls inside the
+/// result. The halves are joined at the vertices on the plane that are on the boundary of the kept half. Where the
+/// surface only touches the plane, without a boundary there, the halves are not joined. The report counts the faces
+/// that are removed whole. Faces that the plane cuts are not counted.
 ///
 /// The elements of the kept half come first, in their old order. The elements of the mirror image follow. Attributes
 /// are copied, so both halves have the same texture coordinates, tags and joint weights. Normals and tangents are
@@ -28,7 +29,8 @@ pub struct Symmetrize {
     /// A point on the plane.
     #[serde(default)]
     pub point: Vector,
-    /// The normal of the plane, which points to the front. The length of the normal does not matter but must not be 0.
+    /// The normal of the plane. It points to the front side. The length of the normal does not matter but must not
+    /// be 0.
     pub normal: Direction,
     /// The half that is kept and mirrored.
     #[serde(default)]

@@ -31,18 +31,19 @@ use crate::step::{Step, Until};
 
 /// Splits every triangle into four and smooths the surface without moving the old vertices, for a number of levels.
 ///
-/// A level turns V vertices, E edges and F triangles into V + E vertices, 2 E + 3 F edges and 4 F triangles. V - E + F
-/// does not change. Old vertices keep their ids, and the vertex on edge e has the id V + e. Edge e becomes edges 2e and
-/// 2e + 1, and face f becomes faces 4f to 4f + 3. All faces must be triangles.
+/// A level turns V vertices, E edges and F triangles into V + E vertices, 2 E + 3 F edges and 4 F triangles. The Euler
+/// characteristic V - E + F does not change. Old vertices keep their ids, and the new vertex on edge e has the id V +
+/// e. Edge e becomes edges 2e and 2e + 1, and face f becomes faces 4f to 4f + 3. All faces must be triangles.
 ///
 /// Vertex attributes are interpolated with the same weights as the positions. Corner values are interpolated linearly,
-/// separately in each old triangle. Parts of an edge or a triangle copy the values of the old edge or triangle. Normals
-/// are dropped, because they would be wrong. Sharpness has no effect and is copied unchanged.
+/// separately in each old triangle. When an edge or a triangle is split, its parts copy its attribute values, such as
+/// tags and materials. Normals are dropped, because they would be wrong. Sharpness has no effect and is copied
+/// unchanged.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Butterfly {
-    /// The number of levels. Each level multiplies the number of triangles by four. Defaults to 1. With `until`,
-    /// `levels` is the maximum number of levels and defaults to 16.
+    /// The number of levels. Each level multiplies the number of triangles by four. Without `until`, `levels` defaults
+    /// to 1. With `until`, `levels` is the maximum number of levels and defaults to 16.
     #[serde(default)]
     pub levels: Option<Levels>,
     /// The condition that ends the subdivision. If omitted, exactly `levels` levels are computed.

@@ -38,21 +38,21 @@ use crate::step::{Step, Until};
 
 /// Splits every face into quads and smooths the surface, for a number of levels.
 ///
-/// A level creates a quad at each corner of each face. A level turns V vertices, E edges and F faces with C corners in
-/// total into V + E + F vertices, 2 E + C edges and C quads. V - E + F does not change. Old vertices keep their ids.
-/// The vertex on edge e has the id V + e, and the vertex at the center of face f has the id V + E + f. Edge e becomes
-/// edges 2e and 2e + 1. The quads are numbered in the order of the old faces and, in each face, in the order of its
-/// corners.
+/// Each level creates one quad at each corner of each old face. A level turns V vertices, E edges and F faces with C
+/// corners in total into V + E + F vertices, 2 E + C edges and C quads. The Euler characteristic V - E + F does not
+/// change. Old vertices keep their ids. The vertex on edge e has the id V + e, and the vertex at the center of face f
+/// has the id V + E + f. Edge e becomes edges 2e and 2e + 1. The quads are numbered in the order of the old faces and,
+/// in each face, in the order of its corners.
 ///
 /// Vertex attributes are smoothed with the same weights as the positions. Texture coordinates and other corner values
-/// are smoothed according to `face_varying`, and seams are kept. Parts of an edge or a face copy the values of the old
-/// edge or face. Normals are dropped, because they would be wrong. An edge or a vertex to which `Crease` gave the
-/// sharpness s stays sharp for s levels.
+/// are smoothed according to `face_varying`, and seams are kept. When an edge or a face is split, its parts copy its
+/// attribute values, such as tags and materials. Normals are dropped, because they would be wrong. An edge or a vertex
+/// to which `Crease` gave the sharpness s stays sharp for s levels.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct CatmullClark {
-    /// The number of levels. Each level replaces every corner of a face with a quad. Defaults to 1. With `until`,
-    /// `levels` is the maximum number of levels and defaults to 16.
+    /// The number of levels. Each level replaces every corner of a face with a quad. Without `until`, `levels` defaults
+    /// to 1. With `until`, `levels` is the maximum number of levels and defaults to 16.
     #[serde(default)]
     pub levels: Option<Levels>,
     /// The condition that ends the subdivision. If omitted, exactly `levels` levels are computed.
@@ -72,8 +72,8 @@ pub struct CatmullClark {
     #[serde(default)]
     pub to_limit: bool,
     /// The faces to refine. If omitted, all faces. Faces next to the refined faces get the new vertices on common edges
-    /// as additional corners. The surface outside the refined faces does not move. For the ids of new elements, see
-    /// `subdivision::refine_faces`.
+    /// as additional corners. The surface outside the refined faces does not move. The documentation of the Rust
+    /// function `subdivision::refine_faces` describes the ids of new elements.
     #[serde(default)]
     pub faces: Option<FaceSelection>,
 }

@@ -38,21 +38,22 @@ use crate::step::{Step, Until};
 /// Replaces every edge and every vertex with a face and shrinks the old faces, for a number of levels.
 ///
 /// A level turns a closed mesh with V vertices, E edges and F faces into a mesh with 2 E vertices, 4 E edges and V +
-/// E + F faces. If the mesh has a boundary, a level creates additional elements along the boundary. V - E + F does not
-/// change. The face inside old face f has the id f, and the face of edge e has the id F + e. The faces of vertices have
-/// the highest ids. Isolated vertices are kept. The ids of isolated vertices follow the ids of all other vertices.
-/// Isolated vertices and inner vertices of valence 2 do not become faces.
+/// E + F faces. If the mesh has a boundary, a level creates additional elements along the boundary. The Euler
+/// characteristic V - E + F does not change. The shrunk face inside old face f has the id f, and the new face at old
+/// edge e has the id F + e. The new faces at old vertices have the highest ids. Isolated vertices are kept. The ids of
+/// isolated vertices follow the ids of all other vertices. Isolated vertices do not become faces, and neither do
+/// vertices inside the mesh that have only two edges.
 ///
 /// Vertex attributes are smoothed with the same weights as the positions. Corner values are smoothed within each old
-/// face separately. The new faces at edges and vertices mix corner values of several old faces. At a seam, this
-/// distorts textures. A face inside an old face copies the values of the old face; the face of an edge or a vertex
-/// copies the values of an adjacent face. The two new edges along an old edge copy the values of this edge. All other
-/// edges have zero values (no crease, no tags). Normals are dropped, because they would be wrong.
+/// face separately. The new faces at edges and vertices mix corner values of several old faces. At a seam, the mixed
+/// values distort textures. A face inside an old face copies the attribute values of the old face. The new face at an
+/// edge or a vertex copies the values of an adjacent face. The two new edges along an old edge copy the values of this
+/// edge. All other edges have zero values (no crease, no tags). Normals are dropped, because they would be wrong.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct DooSabin {
-    /// The number of levels. Each level multiplies the number of faces by about four. Defaults to 1. With `until`,
-    /// `levels` is the maximum number of levels and defaults to 16.
+    /// The number of levels. Each level multiplies the number of faces by about four. Without `until`, `levels`
+    /// defaults to 1. With `until`, `levels` is the maximum number of levels and defaults to 16.
     #[serde(default)]
     pub levels: Option<Levels>,
     /// The condition that ends the subdivision. If omitted, exactly `levels` levels are computed.

@@ -37,25 +37,25 @@ use crate::step::{Step, Until};
 
 /// Splits every triangle into four and smooths the surface, for a number of levels.
 ///
-/// A level turns V vertices, E edges and F triangles into V + E vertices, 2 E + 3 F edges and 4 F triangles. V - E + F
-/// does not change. Old vertices keep their ids, and the vertex on edge e has the id V + e. Edge e becomes edges 2e and
-/// 2e + 1, and face f becomes faces 4f to 4f + 3. All faces must be triangles.
+/// A level turns V vertices, E edges and F triangles into V + E vertices, 2 E + 3 F edges and 4 F triangles. The Euler
+/// characteristic V - E + F does not change. Old vertices keep their ids, and the new vertex on edge e has the id V +
+/// e. Edge e becomes edges 2e and 2e + 1, and face f becomes faces 4f to 4f + 3. All faces must be triangles.
 ///
 /// Vertex attributes are smoothed with the same weights as the positions. Texture coordinates and other corner values
-/// are smoothed according to `face_varying`, and seams are kept. Parts of an edge or a triangle copy the values of the
-/// old edge or triangle. Normals are dropped, because they would be wrong. An edge or a vertex to which `Crease` gave
-/// the sharpness s stays sharp for s levels.
+/// are smoothed according to `face_varying`, and seams are kept. When an edge or a triangle is split, its parts copy
+/// its attribute values, such as tags and materials. Normals are dropped, because they would be wrong. An edge or a
+/// vertex to which `Crease` gave the sharpness s stays sharp for s levels.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct LoopSubdivide {
-    /// The number of levels. Each level multiplies the number of triangles by four. Defaults to 1. With `until`,
-    /// `levels` is the maximum number of levels and defaults to 16.
+    /// The number of levels. Each level multiplies the number of triangles by four. Without `until`, `levels` defaults
+    /// to 1. With `until`, `levels` is the maximum number of levels and defaults to 16.
     #[serde(default)]
     pub levels: Option<Levels>,
     /// The condition that ends the subdivision. If omitted, exactly `levels` levels are computed.
     #[serde(default)]
     pub until: Option<Until>,
-    /// The weights at old vertices.
+    /// The weights for the new position of an old vertex: a weighted mean of its old position and its neighbors.
     #[serde(default)]
     pub weights: LoopWeights,
     /// How vertices on the boundary move.
@@ -72,8 +72,8 @@ pub struct LoopSubdivide {
     #[serde(default)]
     pub to_limit: bool,
     /// The faces to refine. If omitted, all faces. Triangles next to the refined faces are cut in two or four, so that
-    /// no vertex lies inside an edge. The surface outside the refined faces does not move. For the ids of new elements,
-    /// see `subdivision::refine_faces`.
+    /// no vertex lies in the middle of an edge of a neighboring triangle. The surface outside the refined faces does
+    /// not move. The documentation of the Rust function `subdivision::refine_faces` describes the ids of new elements.
     #[serde(default)]
     pub faces: Option<FaceSelection>,
 }

@@ -24,20 +24,20 @@ use crate::step::{Step, Until};
 
 /// Splits every face into smaller faces without moving vertices, for a number of levels.
 ///
-/// `into: Triangles` requires a mesh of triangles. A level turns V vertices, E edges and F triangles into V + E
-/// vertices, 2 E + 3 F edges and 4 F triangles. `into: Quads` accepts all polygons and creates a quad at each corner. V
-/// vertices, E edges and F faces with C corners in total become V + E + F vertices, 2 E + C edges and C quads. Old
-/// vertices keep their ids and positions, and the vertex on edge e has the id V + e. Edge e becomes edges 2e and
-/// 2e + 1. Triangle f becomes faces 4f to 4f + 3. The quads are numbered in the order of the old faces. The vertex at
-/// the center of face f has the id V + E + f.
+/// With `into: Triangles`, all faces must be triangles. A level then turns V vertices, E edges and F triangles into V +
+/// E vertices, 2 E + 3 F edges and 4 F triangles. Triangle f becomes faces 4f to 4f + 3. With `into: Quads`, faces can
+/// have any number of corners, and each corner becomes a quad. A level then turns V vertices, E edges and F faces with
+/// C corners in total into V + E + F vertices, 2 E + C edges and C quads. The quads are numbered in the order of the
+/// old faces. The new vertex at the center of face f has the id V + E + f. In both cases, old vertices keep their ids
+/// and positions, and the new vertex on edge e has the id V + e. Edge e becomes edges 2e and 2e + 1.
 ///
-/// Vertex attributes are interpolated. Corner values are interpolated within each old face separately. Parts of an edge
-/// or a face copy the values of the old edge or face, including sharpness. Normals are dropped.
+/// Vertex attributes are interpolated. Corner values are interpolated within each old face separately. When an edge or
+/// a face is split, its parts copy its attribute values, including the sharpness of edges. Normals are dropped.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Midpoint {
-    /// The number of levels. Each level multiplies the number of faces by about four. Defaults to 1. With `until`,
-    /// `levels` is the maximum number of levels and defaults to 16.
+    /// The number of levels. Each level multiplies the number of faces by about four. Without `until`, `levels`
+    /// defaults to 1. With `until`, `levels` is the maximum number of levels and defaults to 16.
     #[serde(default)]
     pub levels: Option<Levels>,
     /// The condition that ends the subdivision. If omitted, exactly `levels` levels are computed.
@@ -48,7 +48,8 @@ pub struct Midpoint {
     pub into: Split,
     /// The faces to refine. If omitted, all faces. With `into: Triangles`, triangles next to the refined faces are cut
     /// in two or four. With `into: Quads`, faces next to the refined faces get the new vertices on common edges as
-    /// additional corners. For the ids of new elements, see `subdivision::refine_faces`.
+    /// additional corners. The documentation of the Rust function `subdivision::refine_faces` describes the ids of new
+    /// elements.
     #[serde(default)]
     pub faces: Option<FaceSelection>,
 }

@@ -39,22 +39,23 @@ use crate::step::{Step, Until};
 
 /// Splits every triangle into three, flips the old edges, and smooths the surface, for a number of levels.
 ///
-/// A level turns V vertices, E edges and F triangles into V + F vertices, E + 3 F edges and 3 F triangles. In addition,
-/// every second level adds one vertex and one edge for each boundary edge. V - E + F does not change. Old vertices keep
-/// their ids. The vertex in face f has the id V + f, and face f becomes faces 3f to 3f + 2. All faces must be
-/// triangles. Levels are counted from the start of the step. One step of two levels therefore cuts the boundary edges,
-/// but two steps of one level leave the boundary unchanged.
+/// A level turns V vertices, E edges and F triangles into V + F vertices, E + 3 F edges and 3 F triangles. Every second
+/// level also cuts the boundary edges, and thus adds one more vertex and one more edge for each boundary edge. The
+/// Euler characteristic V - E + F does not change. Old vertices keep their ids. The new vertex in face f has the id V +
+/// f, and face f becomes faces 3f to 3f + 2. All faces must be triangles. Each step counts its own levels from 1. One
+/// step of two levels therefore cuts the boundary edges. Two steps of one level each leave the boundary edges uncut.
 ///
 /// Vertex attributes are smoothed with the same weights as the positions. Corner values are interpolated linearly
 /// within each old triangle separately. A triangle next to a flipped edge covers parts of two old triangles. If the
 /// flipped edge was a seam, the triangle mixes texture coordinates of both sides of the seam, which distorts textures.
-/// New triangles copy the values of their old triangle. Parts of a boundary edge copy the values of the boundary edge.
-/// All other edges have zero values (no crease, no tags). Normals are dropped, because they would be wrong.
+/// Each new triangle copies the attribute values, such as tags and materials, of the old triangle that was split. Parts
+/// of a boundary edge copy the values of the boundary edge. All other edges have zero values (no crease, no tags).
+/// Normals are dropped, because they would be wrong.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sqrt3 {
-    /// The number of levels. Each level multiplies the number of triangles by three. Defaults to 1. With `until`,
-    /// `levels` is the maximum number of levels and defaults to 16.
+    /// The number of levels. Each level multiplies the number of triangles by three. Without `until`, `levels` defaults
+    /// to 1. With `until`, `levels` is the maximum number of levels and defaults to 16.
     #[serde(default)]
     pub levels: Option<Levels>,
     /// The condition that ends the subdivision. If omitted, exactly `levels` levels are computed.

@@ -17,16 +17,17 @@ use crate::simplify::{
 
 /// Makes levels of detail: simplified copies of an object.
 ///
-/// The copies are named after the object, for example `rock_lod1`, `rock_lod2` and so on. Each copy is made from the
-/// previous copy in the same way as with `Simplify`, and keeps the same attributes, materials and lines. If nodes place
-/// the object, each of these nodes gets one sibling node for each copy. The sibling node places the copy.
+/// The copies are named after the object, for example `rock_lod1`, `rock_lod2` and so on. Each copy is made as with
+/// `Simplify`, which keeps attributes, materials and lines. The first copy is made from the object, and each further
+/// copy from the previous copy. If the scene has nodes that reference the object, each of these nodes gets one sibling
+/// node for each copy. The sibling node references the copy and has the same transform.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Lods {
     /// The name of the object.
     pub from: String,
-    /// The number of faces of each copy, as a fraction of the number of faces of the object. Each fraction must be
-    /// smaller than the previous one.
+    /// The number of faces of each copy, as a fraction of the number of faces of the original object. Each fraction
+    /// must be smaller than the previous fraction in the list.
     pub ratios: Vec<Fraction>,
     /// The text before the number in the names of the copies. If omitted, the name of the object followed by `_lod`.
     #[serde(default)]

@@ -20,40 +20,44 @@ use crate::simplify::triangles_problem;
 ///
 /// Each pass splits long edges, collapses short edges, flips edges so that most vertices have six edges, and moves
 /// vertices along the surface (Botsch, Kobbelt, 2004). Most edges of the result have 4/5 to 4/3 of the target length.
-/// All vertices lie on the original surface, with one exception. A new vertex stays where it is if moving it onto the
-/// surface would turn a triangle too far or would move the surface too far. The target length of edges is either
-/// `length`, or it follows `curvature`. With `curvature`, edges are short where the surface is curved, and long where
-/// it is flat (Dunyach and others, 2013). Exactly one of `length` and `curvature` must be given. All faces must be
-/// triangles.
+/// Nearly all vertices of the result lie on the original surface. The only exceptions are new vertices that cannot move
+/// onto the surface without turning a triangle too far or moving the surface too far. The parameter `length` gives the
+/// same target length to all edges. With the parameter `curvature`, edges are short where the surface is curved, and
+/// long where it is flat (Dunyach and others, 2013). Exactly one of `length` and `curvature` must be given. All faces
+/// must be triangles.
 ///
 /// The following properties are kept:
 ///
-/// - Topology: holes, handles and separate parts stay.
-/// - Lines: the boundary, seams of texture coordinates and normals, borders between face tags or materials, edges with
-///   a tag or a crease, and `features`. Vertices on a line slide along it. The ends of lines, the vertices where lines
-///   meet, and corners where a line turns by more than 40 degrees keep their exact positions. Other sharp edges are
-///   rounded.
+/// - Topology: the numbers of holes, handles and separate parts do not change.
+/// - Lines: lines consist of boundary edges, seams of texture coordinates or normals, edges between faces with
+///   different tags or materials, tagged edges, creases, and the edges of `features`. Vertices on a line can only slide
+///   along this line. The ends of lines, the vertices where lines meet, and corners where a line turns by more than 40
+///   degrees keep their exact positions. Sharp edges that are not on a line are rounded. To keep sharp edges, select
+///   them with `features`.
 /// - Attributes: each vertex and corner gets the values of the original surface at its position. Values are never
 ///   interpolated across a line.
-/// - Vertex tags: a new vertex has a tag if all old vertices around its position had the tag. A tagged vertex can move
-///   only inside a tagged region. A tagged vertex is inside such a region if all corners of one of its triangles, or
-///   both of its neighbors on a line, also have the tag. All other tagged vertices keep their exact positions. Vertices
-///   with sharpness also keep their exact positions.
+/// - Vertex tags: a new vertex gets a tag if all old vertices around its position have the tag. Usually, these old
+///   vertices are the three corners of the old triangle at this position. A tagged vertex can move only inside a tagged
+///   region. A tagged vertex is inside such a region if all corners of one of its triangles, or both of its neighbors
+///   on a line, also have the tag. All other tagged vertices keep their exact positions. Vertices to which `Crease`
+///   gave a sharpness also keep their exact positions.
 ///
-/// The number of faces depends on the area of the mesh, which is not known before the run. Therefore `check` shows the
-/// largest number of faces that fits the memory budget. When the step starts, it estimates the number of faces from the
-/// area. The step fails if the estimate exceeds the memory budget.
+/// The number of faces depends on the area of the mesh, which is not known before the run. Therefore the command
+/// `check`, which examines a recipe but does not run it, shows the largest number of faces that fits the memory budget.
+/// When the step starts, it estimates the number of faces from the area. The step fails if a mesh with this number of
+/// faces would exceed the memory budget.
 ///
-/// Edits that would turn a triangle by more than 60 degrees are refused. All elements get new ids. If the distance
-/// between the result and the original could exceed `error`, the step is refused as `Unreached`. With
-/// `on_refusal: Skip`, a refused step does not change the mesh.
+/// The passes leave out every split, collapse, flip or move that would turn a triangle by more than 60 degrees. All
+/// elements get new ids. If the step cannot prove that the distance between the result and the original is at most
+/// `error`, the step is refused (reason: `Unreached`). With `on_refusal: Skip`, a refused step leaves the mesh
+/// unchanged, and the run continues.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Remesh {
     /// The target length of edges, in scene units.
     #[serde(default)]
     pub length: Option<PositiveLength>,
-    /// Target lengths that follow the curvature. Replaces `length`.
+    /// Target lengths that follow the curvature of the surface, instead of one target length for all edges.
     #[serde(default)]
     pub curvature: Option<RemeshCurvature>,
     /// Edges to keep as lines, in addition to the lines that are always kept. For example, `Sharp(above: 30)`. If

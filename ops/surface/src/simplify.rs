@@ -16,46 +16,48 @@ use op::prelude::*;
 
 /// Removes triangles from meshes, and changes the surface as little as possible.
 ///
-/// Edges are collapsed, starting with the edges whose collapse changes the surface least. The change is measured by the
-/// squared distance of the new vertex to the planes of the original triangles that it replaces (Garland, Heckbert,
-/// 1997). The step ends when `faces` or `ratio` is reached, or when every remaining collapse is refused or could exceed
-/// `error`. At least one of `faces`, `ratio` and `error` must be given, but not both `faces` and `ratio`. All faces
-/// must be triangles.
+/// Edges are collapsed, starting with the edges whose collapse changes the surface least. A collapse merges the two
+/// ends of an edge into one vertex. The change is measured by the squared distance of this vertex to the planes of the
+/// original triangles around the merged vertices (Garland, Heckbert, 1997). The step ends when the number of faces
+/// given by `faces` or `ratio` is reached. It also ends when every remaining collapse would change one of the
+/// properties below or could exceed `error`. At least one of `faces`, `ratio` and `error` must be given, but not both
+/// `faces` and `ratio`. All faces must be triangles.
 ///
 /// The following properties are kept:
 ///
-/// - Topology: holes, handles and separate parts stay.
-/// - Lines: the boundary, seams of texture coordinates and normals, borders between face tags or materials, edges with
-///   a tag or a crease, and `features`. A line can lose vertices, but its ends, and the vertices where lines meet, keep
-///   their exact positions.
+/// - Topology: the numbers of holes, handles and separate parts do not change.
+/// - Lines: lines consist of boundary edges, seams of texture coordinates or normals, edges between faces with
+///   different tags or materials, tagged edges, creases, and the edges of `features`. A line can lose vertices, but its
+///   ends, and the vertices where lines meet, keep their exact positions.
 /// - Attributes: changes of texture coordinates, normals, colors and other numbers count as changes of the surface
 ///   (Hoppe, 1999), and new vertices get the values that fit best. Values are never mixed across a line, and no
-///   triangle is turned over in the texture. Normals are kept, so that a simplified mesh is shaded like the original.
-///   The numbers that `Measure` stores also count, and the report lists them. If they must not influence the result,
-///   use `Measure` after this step.
+///   triangle is turned over in the texture. Stored normals are kept, so that a simplified mesh is shaded like the
+///   original. The vertex attributes that `Measure` stores also influence the result, and the report lists their names.
+///   To avoid this influence, use `Measure` after this step.
 /// - Vertex tags: vertices with different tags, different sharpness, or different values of a whole-number attribute
 ///   are not merged.
 ///
-/// In a texture, the border of a chart is also simplified, and can then cross a chart that is close to it. The report
-/// counts the faces that overlap in the texture. To leave more space between charts, use `PackUvs` with a larger
-/// `padding` before this step.
+/// Seams divide a texture into charts. The borders of charts are also simplified, and a simplified border can cross a
+/// neighboring chart in the texture. The report counts the faces that overlap in the texture. To leave more space
+/// between charts, use `PackUvs` with a larger `padding` before this step.
 ///
-/// No triangle is turned over. Remaining elements get new ids, in the order of their old ids. If the number of faces
-/// cannot be reached and `error` is not given, the step is refused as `Unreached`, and the message states the reasons.
-/// With `on_refusal: Skip`, the step keeps the mesh with the fewest faces that it reached.
+/// No collapse turns a triangle over. Remaining elements get new ids, in the order of their old ids. If `error` is not
+/// given and the number of faces cannot be reached, the step is refused (reason: `Unreached`), and the message states
+/// why. With `on_refusal: Skip`, the result is instead the simplified mesh with the fewest faces that the step reached.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Simplify {
-    /// The number of faces to reach, for each mesh. The result can have one face fewer than this number. A mesh that
-    /// already has at most this number of faces does not change.
+    /// The number of faces to reach, for each mesh. The result can have one face fewer, because a collapse inside the
+    /// mesh removes two faces. A mesh that already has at most this number of faces does not change.
     #[serde(default)]
     pub faces: Option<Count<0>>,
     /// The number of faces to reach, as a fraction of the number of faces of each mesh.
     #[serde(default)]
     pub ratio: Option<Fraction>,
     /// The largest allowed Hausdorff distance between the old and the new surface, in scene units. The limit is
-    /// guaranteed, because the step adds up upper bounds of the distances by which the collapses move the surface. The
-    /// true distance is usually between a third of the limit and the limit. If omitted, there is no limit.
+    /// guaranteed: the step sums upper bounds of the movements of all collapses. The sum overestimates the true
+    /// distance. If the limit ends the step, the true distance is usually between a third of the limit and the limit.
+    /// If omitted, there is no limit.
     #[serde(default)]
     pub error: Option<PositiveLength>,
     /// Edges to keep as lines, in addition to the lines that are always kept. For example, `Sharp(above: 30)`. If
@@ -65,7 +67,7 @@ pub struct Simplify {
     /// Vertices that are never removed and keep their exact positions, for example `Boundary`. If omitted, no vertices.
     #[serde(default)]
     pub pin: Option<VertexSelection>,
-    /// Whether the step is allowed to create intersections of faces. Such intersections can occur where parts of the
+    /// Whether the step is allowed to make faces intersect each other. Intersections can occur where parts of the
     /// surface are close together.
     #[serde(default)]
     pub intersections: Intersections,

@@ -25,14 +25,15 @@ use op::prelude::*;
 /// | `Implicit` | strong smoothing of meshes with many small faces in one pass | shrinks |
 /// | `Denoise` | scans of objects with flat sides and sharp edges | nearly the same |
 ///
-/// If `boundary` is `Fixed`, vertices on the boundary do not move, so that adjacent objects still fit together.
+/// If `boundary` is `Fixed`, vertices on the boundary do not move, so that objects that touch along their boundaries
+/// still fit together.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Smooth {
     /// The method.
     pub by: SmoothBy,
-    /// The number of passes. If omitted, 1 for `Implicit` and 10 for the other methods. For `Denoise`, the number of
-    /// passes over the normals. At most 10000.
+    /// The number of passes. At most 10000. If omitted, 1 for `Implicit` and 10 for the other methods. With `Denoise`,
+    /// `passes` counts only the passes that filter the normals, not the passes that then move the vertices.
     #[serde(default)]
     pub passes: Option<Count<1, 10_000>>,
     /// The vertices to move. If omitted, all vertices.
@@ -44,8 +45,8 @@ pub struct Smooth {
     /// How vertices on the boundary move.
     #[serde(default)]
     pub boundary: SmoothBoundary,
-    /// Whether to restore the original volume of the mesh. To restore the volume, the step finally shifts all moved
-    /// vertices along their normals by the same distance. The mesh must be closed.
+    /// Whether to restore the original volume of the mesh after smoothing. To restore the volume, the step shifts all
+    /// vertices that it is allowed to move by the same distance along their normals. The mesh must be closed.
     #[serde(default)]
     pub keep_volume: bool,
 }

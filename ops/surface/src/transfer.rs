@@ -21,21 +21,23 @@ use origins::{Origin, Source};
 /// Copies attributes from the nearest points of another object.
 ///
 /// The step copies vertex, corner and face attributes from the object `from` to elements of the same kind in the
-/// changed mesh. Numbers and vectors of vertices and corners are interpolated inside the face that contains the nearest
-/// point. Whole numbers, tags, and attributes that edits do not interpolate are copied from the nearest corner of the
-/// face that contains the nearest point. Values of faces are copied from the face that contains the nearest point. If
-/// the attribute already exists with the same type of values, it is overwritten. If the attribute already exists with a
-/// different type of values, the step fails. Without `on`, the step acts on all meshes except `from`.
+/// changed mesh. For each element, the step finds the nearest point on the surface of `from`, and the face that
+/// contains this point. Numbers and vectors of vertices and corners are interpolated inside this face. Whole numbers,
+/// tags, and attributes that edits do not interpolate are copied from the corner of this face that is nearest to the
+/// point. Values of faces are copied from this face. If the changed mesh already has the attribute with the same type
+/// of values, the attribute is overwritten. If the type of values differs, the step fails. If the step does not name
+/// its objects with `on`, it changes all meshes except `from`.
 ///
-/// All corners of a face take their values from one side of each seam, so no triangle is stretched across a seam of
-/// texture coordinates. Usually the corners take their values from the side that is nearest to the center of the face.
-/// Seams divide the source into charts. The chart that is nearest to a corner is used instead if it is much nearer to
-/// the whole face than the chart that is nearest to the center of the face. This happens where parts of the source
-/// intersect.
+/// All corners of a face take their values from the same side of a seam of the source object. No triangle is therefore
+/// stretched across the seam in the texture. Usually the side that is nearest to the center of the face is used. Seams
+/// divide the source object into charts. Where parts of the source object intersect, the chart that is nearest to the
+/// center can be far from the corners of the face. If the chart that is nearest to a corner is much nearer to the whole
+/// face, this chart is used instead.
 ///
-/// Elements whose distance from the source exceeds `within` keep their values, or get zeros if the attribute is new. If
-/// the distance of a corner or of the center of a face exceeds `within`, all corners of the face keep their values or
-/// get zeros. The report counts the elements that are too far away.
+/// Elements that are farther from the source object than `within` keep their values, or get zeros if the attribute is
+/// new. All corners of a face are treated alike. If one of the corners or the center of the face is too far away, all
+/// corners of the face keep their values or get zeros. The report counts the elements that take no values from the
+/// source object.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Transfer {
@@ -43,7 +45,8 @@ pub struct Transfer {
     pub from: String,
     /// The names of the attributes, for example `["uv", "color"]`.
     pub attributes: Vec<String>,
-    /// The largest distance from the source, in scene units. If omitted, there is no limit.
+    /// The largest distance from the object `from` at which an element takes values, in scene units. If omitted, there
+    /// is no limit.
     #[serde(default)]
     pub within: Option<PositiveLength>,
 }

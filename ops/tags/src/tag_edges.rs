@@ -3,18 +3,18 @@
 use mesh::Domain;
 use op::prelude::*;
 
-/// Tags the selected edges and removes the tag from all other edges. In later steps, `Tagged("rim")` selects the edges
-/// with the tag `rim`.
+/// Gives a tag (a named mark) to the selected edges and removes this tag from all other edges. For example, if the name
+/// of the tag is `rim`, `Tagged("rim")` selects the tagged edges in later steps.
 ///
-/// When a tagged edge is split or subdivided, its parts are also tagged. An existing tag of the same name is
-/// replaced. If an attribute of another type has this name, the step fails. The geometry does not change. The report
-/// counts the edges that gained or lost the tag.
+/// When a later step splits or subdivides a tagged edge, the parts of this edge are also tagged. An existing edge tag
+/// of the same name is replaced. If an edge attribute that is not a tag already has this name, the step fails. The
+/// geometry does not change. The report counts the edges that gained or lost the tag.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct TagEdges {
     /// The name of the tag. The name must not be empty and must not start or end with whitespace.
     pub name: TagName,
-    /// The edges to tag. An empty selection gives an empty tag.
+    /// The edges to tag. If the selection is empty, the tag exists but no edge has it.
     pub edges: EdgeSelection,
 }
 

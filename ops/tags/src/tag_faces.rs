@@ -3,18 +3,18 @@
 use mesh::Domain;
 use op::prelude::*;
 
-/// Tags the selected faces and removes the tag from all other faces. In later steps, `Tagged("rim")` selects the faces
-/// with the tag `rim`.
+/// Gives a tag (a named mark) to the selected faces and removes this tag from all other faces. For example, if the name
+/// of the tag is `rim`, `Tagged("rim")` selects the tagged faces in later steps.
 ///
-/// When a tagged face is split or subdivided, its parts are also tagged. An existing tag of the same name is
-/// replaced. If an attribute of another type has this name, the step fails. The geometry does not change. The report
-/// counts the faces that gained or lost the tag.
+/// When a later step splits or subdivides a tagged face, the parts of this face are also tagged. An existing face tag
+/// of the same name is replaced. If a face attribute that is not a tag already has this name, the step fails. The
+/// geometry does not change. The report counts the faces that gained or lost the tag.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct TagFaces {
     /// The name of the tag. The name must not be empty and must not start or end with whitespace.
     pub name: TagName,
-    /// The faces to tag. An empty selection gives an empty tag.
+    /// The faces to tag. If the selection is empty, the tag exists but no face has it.
     pub faces: FaceSelection,
 }
 

@@ -3,19 +3,19 @@
 use mesh::Domain;
 use op::prelude::*;
 
-/// Tags the selected vertices and removes the tag from all other vertices. In later steps, `Tagged("rim")` selects the
-/// vertices with the tag `rim`.
+/// Gives a tag (a named mark) to the selected vertices and removes this tag from all other vertices. For example, if
+/// the name of the tag is `rim`, `Tagged("rim")` selects the tagged vertices in later steps.
 ///
 /// If a later step copies a tagged vertex, as `ExtrudeFaces` does, the copy is also tagged. If a later step adds a
-/// vertex on an edge, as `SplitEdges` does, the new vertex is not tagged. An existing tag of the same name is replaced.
-/// If an attribute of another type has this name, the step fails. The geometry does not change. The report counts the
-/// vertices that gained or lost the tag.
+/// vertex on an edge, as `SplitEdges` does, the new vertex is not tagged. An existing vertex tag of the same name is
+/// replaced. If a vertex attribute that is not a tag already has this name, the step fails. The geometry does not
+/// change. The report counts the vertices that gained or lost the tag.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct TagVertices {
     /// The name of the tag. The name must not be empty and must not start or end with whitespace.
     pub name: TagName,
-    /// The vertices to tag. An empty selection gives an empty tag.
+    /// The vertices to tag. If the selection is empty, the tag exists but no vertex has it.
     pub vertices: VertexSelection,
 }
 

@@ -13,27 +13,29 @@ use op::prelude::*;
 
 /// Replaces vertices with faces.
 ///
-/// Each edge at a selected vertex is cut near this vertex, and a new face joins the cuts. The distance of a cut from
-/// the vertex is a fraction of the length that the edge had before the step. The new face has as many corners as the
-/// vertex had edges. If both ends of an edge are selected, the fraction must be below 0.5. For example, a fraction
-/// of 0.25 turns a cube into a truncated cube.
+/// Each edge at a selected vertex is cut near this vertex. A new face with a corner at each cut replaces the vertex.
+/// For example, if all vertices of a cube are beveled with `fraction: 0.25`, the result is a truncated cube. The
+/// distance of a cut from the vertex is `fraction` times the length that the edge had before the step. If both ends of
+/// an edge are selected, `fraction` must be below 0.5.
 ///
 /// The selected vertices are removed, so the ids of the vertices after them change. New vertices get the highest ids,
-/// in order of the selected vertices and clockwise around each vertex. Faces keep their ids; new faces get the highest
-/// ids, in order of the vertices.
+/// in order of the selected vertices and clockwise around each vertex. Old faces keep their ids. New faces get the
+/// highest ids, in order of the selected vertices.
 ///
-/// Values at the cuts are interpolated between the ends of the edge, so textures do not change. A new face has the
-/// values (material, tags) of one of the faces at the vertex. Which face is used is not specified, but the choice is
-/// the same in every run. New edges have zero values (no crease, no tags). Normals are dropped.
+/// Attribute values at a cut are interpolated between the two ends of the cut edge, so textures do not move on the
+/// surface. A new face has the values (material, tags) of one of the faces at the vertex. Which face is used is not
+/// specified, but the choice is the same in every run. New edges have zero values (no crease, no tags). Normals are
+/// dropped.
 ///
-/// A vertex cannot be beveled if it is on the boundary, if it has fewer than three edges, or if one of its edges is too
-/// short after earlier cuts.
+/// A vertex cannot be beveled if it is on the boundary or has fewer than three edges. It also cannot be beveled if an
+/// earlier cut has left one of its edges too short for a second cut.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct BevelVertices {
     /// The vertices to bevel.
     pub vertices: VertexSelection,
-    /// The distance of the cuts from the vertex, as a fraction of the edge length. From 0 to 1, exclusive.
+    /// The distance of each cut from the vertex, as a fraction of the length of the cut edge. More than 0 and less
+    /// than 1.
     pub fraction: Fraction,
     /// What to do when a vertex cannot be beveled.
     #[serde(default)]

@@ -7,15 +7,16 @@ use op::prelude::*;
 /// Computes tangents for normal maps with the `MikkTSpace` algorithm, which many other tools also use.
 ///
 /// The mesh needs texture coordinates and normals, such as the normals that `VertexNormals` computes. The tangents are
-/// written to the corner attribute `tangent`, which is replaced if it exists. A tangent is a unit vector perpendicular
-/// to the normal, followed by the sign of the bitangent as the fourth number. `.glb` and `.gltf` files store the
-/// attribute as `TANGENT`. Polygons are triangulated in the same way as for `.glb` and `.gltf` files. Steps that change
-/// the shape or the faces remove the tangents, except a `Transform` that does not mirror the points. Corners at which
-/// the texture coordinates define no direction get an arbitrary tangent. The report counts these corners.
+/// written to the corner attribute `tangent`, which is replaced if it exists. Each value has four numbers: a unit
+/// vector perpendicular to the normal, and then the sign of the bitangent (1 or -1). `.glb` and `.gltf` files store the
+/// attribute as `TANGENT`. For the computation, polygons are triangulated in the same way as for `.glb` and `.gltf`
+/// files. Later steps that change the shape or the faces remove the tangents, except a `Transform` that does not mirror
+/// the points. If the texture coordinates define no direction at a corner, the corner gets an arbitrary tangent. An
+/// example is a face whose corners all have the same texture coordinates. The report counts these corners.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tangents {
-    /// The name of the texture coordinates of the normal map. Defaults to `uv`.
+    /// The name of the attribute with the texture coordinates for the normal map. Defaults to `uv`.
     #[serde(default = "uv")]
     pub uv: String,
 }

@@ -28,12 +28,12 @@ pub use gather::normals;
 /// Computes a unit normal for every vertex, from the faces around it.
 ///
 /// The normals are written to the vertex attribute `normal`, which is replaced if it exists. Corner normals are
-/// removed, because they would contradict the vertex normals. A vertex that has no faces or only zero-area faces, or
-/// whose face normals cancel each other out, gets the zero vector. The report counts these vertices.
+/// removed, because they would contradict the vertex normals. A vertex gets the zero vector if it has no faces or only
+/// zero-area faces, or if the normals of its faces cancel each other out. The report counts these vertices.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct VertexNormals {
-    /// The weights of the faces around a vertex.
+    /// How the normals of the faces around a vertex are weighted.
     #[serde(default)]
     pub weight: Weight,
 }

@@ -22,15 +22,17 @@ use crate::{Format, WriteOptions, gzip};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Images {
-    /// Store the images in the file or, for `.gltf`, in its `.bin` file. OBJ files cannot embed images, so writing an
-    /// OBJ file with images fails.
+    /// Store the images in the file or, for `.gltf`, in its `.bin` file. OBJ files cannot embed images, so with
+    /// `Embed`, writing a scene with images to an OBJ file fails.
     Embed,
-    /// Write the images to files in the folder of the written file. An image file keeps the path that it has in the
-    /// original model. An embedded image gets the name of the written file, with the extension of the image. If a
-    /// different file already has the path of an image, a number is appended to the name of the copy.
+    /// Write the images to files in the folder of the written file. An image file keeps its path relative to the model.
+    /// For example, `textures/a.png` in the folder of the original model becomes `textures/a.png` in the folder of the
+    /// written file. An image that was embedded in the original model gets the name of the written file, with the
+    /// extension of the image. If a file with different content already has this path, a number is appended to the name
+    /// of the image.
     Copy,
-    /// Write only the paths of the images, as in the original model. Embedded images stay embedded in glTF files and
-    /// are lost in OBJ files.
+    /// Write only the paths of the images, as in the original model. Images that are embedded in the original model
+    /// stay embedded in glTF files and are lost in OBJ files.
     Keep,
 }
 

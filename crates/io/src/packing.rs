@@ -9,14 +9,14 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Compression {
-    /// The extension `EXT_meshopt_compression`. Readers that do not support this extension cannot read the file.
+    /// The extension `EXT_meshopt_compression`. Programs that do not support this extension cannot read the file.
     /// Vertices and triangles are reordered, and the corners of triangles can be rotated, for example from (a, b, c) to
     /// (b, c, a).
     Meshopt,
 }
 
-/// How many bits quantized glTF files use for the numbers of each kind of attribute. At least 8 and at most 16 bits are
-/// possible.
+/// The numbers of bits with which the attributes are stored in quantized glTF files. Each of these numbers is from 8
+/// to 16.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Quantization {
@@ -30,8 +30,8 @@ pub struct Quantization {
     /// point on an octahedron. Defaults to 8.
     #[serde(default = "Bits::least")]
     pub normal: Bits,
-    /// The number of bits of each texture coordinate. A set of texture coordinates is not quantized if a coordinate is
-    /// outside the range from 0 to 1. Defaults to 16.
+    /// The number of bits of each texture coordinate. If one coordinate in a set of texture coordinates is outside the
+    /// range from 0 to 1, the whole set is not quantized. Defaults to 16.
     #[serde(default = "Bits::most")]
     pub uv: Bits,
     /// The number of bits of each component of a color. Defaults to 8.

@@ -28,7 +28,7 @@ pub struct Policies {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum NonManifold {
-    /// Split edges and vertices until the faces form a manifold, and list the splits.
+    /// Split edges and vertices until the faces form a manifold, and list the splits in the report.
     #[default]
     Split,
     /// Fail.
@@ -39,7 +39,8 @@ pub enum NonManifold {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Orientation {
-    /// If possible, reverse faces so that neighbors have the same orientation, and list the reversed faces.
+    /// If possible, reverse faces so that neighboring faces have the same orientation, and list the reversed faces in
+    /// the report.
     #[default]
     Orient,
     /// Keep the orientation of every face. An edge between faces with opposite orientations counts as non-manifold.
@@ -50,21 +51,22 @@ pub enum Orientation {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Placements {
-    /// Keep the nodes. Each mesh becomes one object in its own space, and any number of nodes can reference it.
+    /// Keep the nodes. Each mesh becomes one object in its own space, and any number of nodes can place this object in
+    /// the scene.
     #[default]
     Keep,
-    /// Apply the transforms of nodes to the points. Each node with a mesh becomes an object. The hierarchy, cameras,
-    /// lights and animations are left out.
+    /// Apply the transforms of the nodes to the points of the meshes. Each node with a mesh becomes an object. The
+    /// hierarchy, cameras, lights and animations are left out.
     Bake,
 }
 
-/// How to handle elements that are probably not needed.
+/// How to handle elements that are probably not needed, such as duplicate faces.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum CleanupPolicy {
     /// Keep them.
     #[default]
     Keep,
-    /// Leave them out, and list them. Of several duplicates, the first one is kept.
+    /// Leave the elements out, and list them in the report. Of several duplicate faces, the first face is kept.
     Drop,
 }

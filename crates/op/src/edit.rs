@@ -6,14 +6,14 @@ use serde::{Deserialize, Serialize};
 
 use crate::{Context, OpError, Problem, Range, Report};
 
-/// What to do when an edit of a selected element is refused.
+/// What to do when an edit of a selected element is refused, that is, when the edit is not possible at this element.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum OnRefusal {
     /// Fail, and leave the mesh unchanged.
     #[default]
     Error,
-    /// Leave the element unchanged, count the refusal, and continue.
+    /// Leave the element unchanged, count the refusal in the report, and continue with the next element.
     Skip,
 }
 

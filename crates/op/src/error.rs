@@ -14,15 +14,15 @@ use crate::ErrorLocation;
 )]
 #[serde(deny_unknown_fields)]
 pub enum Refusal {
-    /// An edge or a vertex is on the boundary, and the edit needs faces on all sides.
+    /// An edge or a vertex is on the boundary, but the edit needs faces on all sides of it.
     Boundary,
-    /// An edge has a face on both sides, and the edit needs a boundary edge.
+    /// An edge has a face on both sides, but the edit needs a boundary edge.
     NotBoundary,
     /// A face is not a triangle, but the edit needs a triangle.
     NotTriangle,
     /// Both triangles of an edge have the same opposite vertex.
     SameOpposite,
-    /// The same face lies on both sides of an edge, or would after the edit.
+    /// The same face lies on both sides of an edge, or would lie on both sides after the edit.
     SameFace,
     /// The edit would create a second edge between two vertices.
     DuplicateEdge,
@@ -32,36 +32,37 @@ pub enum Refusal {
     FewCorners,
     /// A face would have the same vertex at two corners.
     RepeatedVertex,
-    /// The faces around an edge would all vanish, or only two faces would remain that lie back to back.
+    /// After the edit, no faces would be left where the edge was, or only two faces that lie back to back.
     Vanishes,
     /// The two ends of an edge cannot be merged because they have a common neighbor that is not a corner of a triangle
     /// at the edge.
     Link,
     /// The two ends of an edge cannot be merged because both lie on the boundary, but the edge does not.
     JoinsBoundaries,
-    /// Corner attributes differ between the two sides of an edge.
+    /// Corner attributes differ between the two sides of an edge, and the edit would lose this difference.
     Seam,
     /// A position on an edge is not strictly between the ends of the edge, or two bevels of an edge would overlap.
     OutsideEdge,
     /// A coordinate or length is not finite, or is outside its range.
     BadNumber,
-    /// The edit would separate the faces around a vertex into several fans.
+    /// The edit would separate the faces around a vertex into several fans, which are groups of faces that are
+    /// connected by edges at this vertex.
     Pinch,
-    /// The given faces are only a part of their connected component, and the edit needs the whole component.
+    /// The given faces are only a part of their connected component, but the edit needs all faces of the component.
     PartOfComponent,
     /// The elements do not have the relation that the edit needs. For example, two vertices are not corners of a common
     /// face, or the same element is given twice.
     WrongPlace,
-    /// An element, tag, attribute, material or path along edges that the step needs does not exist, or no longer
-    /// exists.
+    /// The step needs an element, a tag, an attribute, a material or a path along edges that does not exist, or no
+    /// longer exists.
     Missing,
-    /// The number of selected elements or parts differs from the expected number.
+    /// A step or a selection expects a given number of parts or selected elements, but finds a different number.
     Expectation,
     /// The result would not be manifold.
     NonManifold,
-    /// The mesh has the largest supported number of elements.
+    /// The mesh already has the largest supported number of elements, so the edit cannot add more.
     Full,
-    /// The step could not reach its goal, for example a number of faces.
+    /// The step could not reach its goal, for example a requested number of faces.
     Unreached,
 }
 

@@ -102,7 +102,7 @@ fn flow_fields(kind: Kind, step: &Json) -> Json {
                 "with": {
                     "type": "object",
                     "additionalProperties": {},
-                    "description": "Values for parameters of the called recipe. The other parameters keep their defaults.",
+                    "description": "Values for parameters of the called recipe. Parameters without a value keep their defaults.",
                 },
             }),
             json!(["recipe"]),
@@ -121,7 +121,7 @@ fn flow_fields(kind: Kind, step: &Json) -> Json {
             json!(["times", "steps"]),
         ),
         Kind::If => (
-            "Run steps if a parameter has a given value",
+            "Run steps if a recipe parameter has a given value",
             json!({
                 "param": { "type": "string", "description": "The name of the parameter." },
                 "is": { "description": "The value to compare the parameter with. Defaults to `true`." },

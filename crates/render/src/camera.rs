@@ -15,7 +15,8 @@ pub(crate) use fit::sphere;
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Camera {
-    /// Looks from a side, at the distance from which the picture shows the whole scene.
+    /// Looks at the scene from a given side. The distance of the camera is chosen so that the whole scene fits into the
+    /// picture.
     Fit {
         /// The side from which the camera looks.
         #[serde(default)]
@@ -26,7 +27,8 @@ pub enum Camera {
         /// The projection.
         #[serde(default)]
         projection: Projection,
-        /// The empty margin at each border, as a fraction of the picture.
+        /// The empty margin at each border of the picture, as a fraction of the width (left and right) or height (top
+        /// and bottom).
         #[serde(default = "margin")]
         #[schemars(range(min = 0.0, max = 0.45))]
         margin: f64,
@@ -43,8 +45,8 @@ pub enum Camera {
         /// The axis that points upwards.
         #[serde(default)]
         up: Up,
-        /// The projection. With `Orthographic`, the picture shows the same height, in scene units, as a perspective
-        /// picture with a field of view of 30 degrees shows at the distance of `to`.
+        /// The projection. With `Orthographic`, the picture has the scale that a perspective picture with a field of
+        /// view of 30 degrees has at the point `to`.
         #[serde(default)]
         projection: Projection,
     },
@@ -149,7 +151,8 @@ fn margin() -> f64 {
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Side {
-    /// From the front: the side where z is large if y points upwards, and where y is small if z points upwards.
+    /// From the front. If y points upwards, the front is the side where z is large. If z points upwards, the front is
+    /// the side where y is small.
     Front,
     /// From the back, which is opposite to the front.
     Back,
@@ -163,10 +166,10 @@ pub enum Side {
     Bottom,
     /// From the front, right and above, so that the three axes are equally long in the picture.
     Isometric,
-    /// From the front, 30 degrees towards the side where x is large, and 22 degrees above.
+    /// From the front, but turned by 30 degrees towards the side where x is large, and raised by 22 degrees.
     #[default]
     ThreeQuarter,
-    /// From any direction.
+    /// From the direction that the two angles give.
     Angles {
         /// The angle from the front towards the right, in degrees.
         azimuth: f64,

@@ -17,8 +17,8 @@ pub enum ColorMap {
     Diverging,
     /// From black to white.
     Gray,
-    /// Eight colors that are easy to distinguish, one for each whole number. After eight numbers, the colors repeat.
-    /// This map is for labels and classes.
+    /// Eight colors that are easy to distinguish. Consecutive whole numbers have different colors, and after eight
+    /// numbers, the colors repeat. Use this map for numbers that identify classes, such as labels of parts.
     Classes,
 }
 

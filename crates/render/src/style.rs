@@ -12,8 +12,8 @@ use crate::{Color, PictureError};
 pub enum Shading {
     /// Each face has one shade.
     Flat,
-    /// Shades change smoothly across edges that are not sharp. If the mesh has normals at corners or vertices, these
-    /// normals are used.
+    /// Shades change smoothly across edges that are not sharp. If the mesh stores normals at its corners or vertices,
+    /// these normals determine the shades.
     #[default]
     Smooth,
     /// Like `Smooth`, with specular highlights.
@@ -46,7 +46,7 @@ pub struct Lines {
     pub width: f64,
     /// The color.
     pub color: Color,
-    /// The opacity of the parts that a surface hides, from 0 (invisible) to 1.
+    /// The opacity of the parts of lines that lie behind a surface, from 0 (invisible) to 1 (opaque).
     #[schemars(range(min = 0.0, max = 1.0))]
     pub hidden: f64,
 }
@@ -67,8 +67,8 @@ impl Default for Lines {
 pub struct Style {
     /// The lighting of surfaces.
     pub shading: Shading,
-    /// The minimum angle between the normals of two faces, in degrees, at which the edge between the faces is shaded as
-    /// sharp. This angle has no effect if the mesh has normals.
+    /// The smallest angle between the normals of two faces at which the edge between the faces is shaded as sharp, in
+    /// degrees. This angle has no effect if the mesh stores normals.
     #[schemars(range(min = 0.0, max = 180.0))]
     pub sharp: f64,
     /// The strength of ambient occlusion, which darkens hollows, from 0 (none) to 1.
@@ -80,15 +80,15 @@ pub struct Style {
     pub color: Option<Color>,
     /// The color of the back of faces. The back is visible where a mesh is open or inside out.
     pub back: Option<Color>,
-    /// Draws the edges of meshes, and grids on Bezier patches. Lines that are only a few pixels apart are thinner, so
-    /// that they do not cover the surface.
+    /// Draws the edges of meshes, and grid lines on Bezier patches. Lines that are only a few pixels apart are drawn
+    /// thinner, so that they do not cover the surface.
     pub wireframe: Option<Lines>,
     /// Draws the boundary edges of meshes.
     pub boundary: Option<Lines>,
     /// Draws crease edges. The width of a crease grows with its sharpness, up to twice `width`.
     pub creases: Option<Lines>,
-    /// Draws vertex normals as short lines. The value is the length of the lines as a fraction of the size of the
-    /// scene.
+    /// Draws vertex normals as short lines. The value is the length of the lines, as a fraction of the radius of the
+    /// bounding sphere of the scene.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub normals: Option<f64>,
     /// Draws dots at all vertices of meshes and all points of polylines. The value is the diameter of the dots in
@@ -97,7 +97,7 @@ pub struct Style {
     pub points: Option<f64>,
     /// Draws the control nets of Bezier patches and the control polygons of curves.
     pub control_nets: Option<Lines>,
-    /// Labels vertices or faces with their ids. Only small meshes can be labeled.
+    /// Labels vertices or faces with their ids. Fails if a mesh has more than 2000 of these elements.
     pub ids: Option<Ids>,
     /// The width of curves and polylines in pixels.
     #[schemars(range(min = 0.0, max = 100.0))]

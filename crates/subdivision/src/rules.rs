@@ -53,10 +53,12 @@ pub enum Scheme {
 /// is 1 - n u.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 pub enum LoopWeights {
-    /// u is 3/16 for n = 3, otherwise 3/(8n). Source: Warren, "Subdivision Methods for Geometric Design", 1995.
+    /// The weight u of a neighbor is 3/16 if the vertex has n = 3 neighbors, and otherwise 3/(8n). Source: Warren,
+    /// "Subdivision Methods for Geometric Design", 1995.
     #[default]
     Warren,
-    /// u is (5/8 - (3/8 + cos(2π/n)/4)²)/n, as in Loop's thesis, 1987.
+    /// If the vertex has n neighbors, the weight u of a neighbor is (5/8 - (3/8 + cos(2π/n)/4)²)/n, as in Loop's
+    /// thesis, 1987.
     Loop,
 }
 
@@ -70,7 +72,8 @@ pub enum Split {
     Quads,
 }
 
-/// How vertices on the boundary move. The names are those of OpenSubdiv's boundary interpolation rules.
+/// How vertices on the boundary move. `EdgesOnly` and `EdgesAndCorners` correspond to the rules `EDGE_ONLY` and
+/// `EDGE_AND_CORNER` of OpenSubdiv.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 pub enum Boundary {
     /// The boundary becomes a smooth curve that depends on boundary vertices only.
@@ -78,12 +81,12 @@ pub enum Boundary {
     EdgesOnly,
     /// Like `EdgesOnly`, but boundary vertices with one face stay in place.
     EdgesAndCorners,
-    /// Boundary vertices stay in place, and new vertices on the boundary lie in the middle of their edges.
+    /// Boundary vertices stay in place, and each new vertex on the boundary lies in the middle of an old boundary edge.
     Fixed,
 }
 
-/// How the sharpness of an edge decreases from one level to the next. The rule applies to edges with a sharpness above
-/// 0 and below 10.
+/// How the sharpness of an edge decreases from one level of the subdivision to the next. Only a sharpness above 0 and
+/// below 10 decreases. A sharpness of 10 or more never decreases.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 pub enum Creasing {
     /// The sharpness decreases by 1. Source: DeRose, Kass and Truong, "Subdivision Surfaces in Character
@@ -91,26 +94,27 @@ pub enum Creasing {
     #[default]
     Uniform,
     /// The sharpness is averaged with the sharpness of the neighboring edges of the crease, then decreases by 1. So
-    /// sharpness varies smoothly along a crease. This is OpenSubdiv's Chaikin rule, with one difference. If one half of
-    /// an edge with sharpness above 1 becomes smooth, the new vertex on the edge lies in the middle of the edge, while
-    /// OpenSubdiv moves this vertex beyond the middle.
+    /// sharpness varies smoothly along a crease. This is OpenSubdiv's Chaikin rule, with one difference. A level
+    /// divides each edge into two halves. Suppose that an edge has a sharpness above 1, and that one of its halves gets
+    /// the sharpness 0. Then the new vertex between the halves lies in the middle of the edge, while OpenSubdiv moves
+    /// this vertex beyond the middle.
     Chaikin,
 }
 
-/// How corner values, such as texture coordinates, are subdivided at seams. A piece is a set of faces around a
-/// vertex that share one value at the vertex. The names are those of OpenSubdiv's face-varying linear
-/// interpolation rules.
+/// How corner values, such as texture coordinates, are subdivided at seams, which are edges whose two sides have
+/// different values. The names are those of OpenSubdiv's face-varying linear interpolation rules.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 pub enum FaceVarying {
-    /// Values are smoothed everywhere. Seams are smoothed as boundaries are.
+    /// Values are smoothed everywhere. Along a seam, values are smoothed as along the boundary of the mesh.
     None,
-    /// Like `None`, but the value of a piece with a single face does not change.
+    /// Like `None`, but if only one face has a value at a vertex, this value does not change.
     CornersOnly,
-    /// Like `CornersOnly`, but values also do not change where three or more pieces meet. They also do not change where
-    /// two pieces meet and one of them has a sharp edge inside or is not contiguous.
+    /// Like `CornersOnly`, but values also do not change at a vertex with three or more different values. At a vertex
+    /// with two different values, each value belongs to a set of faces. Both values do not change if one of these sets
+    /// has a sharp edge inside or is not contiguous.
     CornersPlus1,
-    /// Like `CornersPlus1`, but values also do not change at the ends of seams. If the value of one piece at a
-    /// vertex does not change, the values of all pieces at this vertex do not change.
+    /// Like `CornersPlus1`, but values also do not change at the ends of seams. If one value at a vertex does not
+    /// change, none of the other values at this vertex changes.
     CornersPlus2,
     /// Values are interpolated linearly along seams and boundaries, and smoothed elsewhere.
     Boundaries,

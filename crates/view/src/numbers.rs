@@ -21,12 +21,12 @@ pub struct ColorBy {
     /// quantities.
     #[serde(default)]
     pub map: Option<ColorMap>,
-    /// The values that the first and the last color represent, as in `(0, 60)`. If omitted, the range depends on the
-    /// values of the quantity. For curvatures, the range is symmetric about 0. It leaves out the lowest and the highest
-    /// eighth of the values, or fewer values if all remaining values are 0.
+    /// The values that the first and the last color represent, as in `(0, 60)`. If omitted, the range is computed from
+    /// the values of the quantity. For curvatures, the range is symmetric about 0, and the lowest and the highest
+    /// eighth of the values are ignored. If all other values are 0, fewer values are ignored.
     #[serde(default)]
     pub range: Option<[f64; 2]>,
-    /// Whether a legend in a corner explains the colors.
+    /// Whether a legend in a corner of the picture explains the colors.
     #[serde(default = "yes")]
     pub legend: bool,
 }
@@ -47,25 +47,25 @@ pub enum Quantity {
     MinAngle,
     /// The area of each face, in scene units².
     Area,
-    /// The angle between the normals of the two faces at each edge, in degrees: 0 where the surface is flat. The angles
-    /// are shown as colored lines.
+    /// The angle between the normals of the two faces at each edge, in degrees: 0 where the surface is flat. The edges
+    /// are drawn as lines in the colors of their angles.
     DihedralAngle,
     /// The mean curvature at each vertex, in 1 / scene unit: positive where the surface is convex.
     MeanCurvature,
     /// The Gaussian curvature at each vertex, in 1 / scene unit²: negative at saddles.
     GaussianCurvature,
-    /// An attribute. If several domains have an attribute of this name, the attribute of the first of them is used, in
-    /// the order vertices, faces, corners, edges.
+    /// An attribute. If several kinds of elements have an attribute of this name, the first kind in this order is used:
+    /// vertices, faces, corners, edges.
     Attribute {
         /// The name of the attribute.
         name: String,
-        /// The index of the component of a vector, from 0. If omitted, the length of the vector is used.
+        /// The index of the component of a vector, which starts at 0. If omitted, the length of the vector is used.
         #[serde(default)]
         #[schemars(range(max = 3))]
         component: Option<u32>,
     },
-    /// The distance of each vertex from the nearest point of the meshes of a file, in scene units. The path is relative
-    /// to the folder of the recipe.
+    /// The distance of each vertex from the nearest point of the meshes in another file, in scene units. The path of
+    /// the file is relative to the folder of the recipe.
     DistanceTo(String),
 }
 

@@ -51,7 +51,7 @@ pub struct Tessellate {
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Faces {
-    /// Two triangles, divided by the diagonal from the corner with the lowest u and v.
+    /// Two triangles, divided by the diagonal from the corner with the lowest u and v to the opposite corner.
     #[default]
     Triangles,
     /// One quad. A cell at a collapsed side of the patch (a side whose points coincide) becomes one triangle.

@@ -40,8 +40,8 @@ pub struct Displace {
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum DisplaceBy {
-    /// Smooth noise from -1 to 1 (Perlin, "Improving Noise", 2002). The value depends only on the position, so vertices
-    /// at the same position move by the same amount.
+    /// Smooth noise from -1 to 1 (Perlin, "Improving Noise", 2002). At a vertex, the value depends only on the position
+    /// of the vertex, so vertices at the same position have the same value.
     Noise {
         /// The size of the waves, in scene units.
         scale: PositiveLength,
@@ -50,7 +50,7 @@ pub enum DisplaceBy {
         #[serde(default)]
         seed: u64,
     },
-    /// A random number from -1 to 1 for each vertex. The number depends on the id of the vertex.
+    /// A random number from -1 to 1 for each vertex. The number depends only on the seed and on the id of the vertex.
     Random {
         /// The seed. A different seed gives different numbers. The same seed gives the same numbers in every step.
         /// Defaults to 0.
@@ -63,10 +63,10 @@ pub enum DisplaceBy {
         name: String,
     },
     /// The brightness of an image (a height map), from 0 (black) to 1 (white), at the texture coordinates of the
-    /// vertex. Brightness is the mean of red, green and blue as they are stored in the file. The step interpolates
-    /// between the pixels. Where the texture coordinates are less than 0 or more than 1, the image is repeated. A
-    /// vertex on a seam moves by the mean of the values at its corners. Gray PNG files with 16 bits per pixel give
-    /// smoother surfaces than files with 8 bits.
+    /// vertex. Brightness is the mean of red, green and blue as they are stored in the file. Between the centers of
+    /// pixels, the brightness is interpolated. Where the texture coordinates are less than 0 or more than 1, the image
+    /// is repeated. A vertex on a seam has several texture coordinates; its value is the mean of the values at its
+    /// corners. Gray PNG files with 16 bits per pixel give smoother surfaces than files with 8 bits.
     Image {
         /// The PNG or JPEG file. A relative path is relative to the folder of the recipe.
         path: String,

@@ -16,11 +16,12 @@ use crate::moved::moved;
 
 /// Deforms vertices with a box of control points.
 ///
-/// The box has a grid of `size` control points along x, y and z. `moves` moves some of the control points, and the
-/// space in the box follows smoothly. Each point in the box moves to a sum of the control points with Bernstein
-/// polynomials as weights (Sederberg, Parry, "Free-Form Deformation of Solid Geometric Models", 1986). If all control
-/// points move by the same offset, the whole box moves by this offset. A control point attracts the surface, but the
-/// surface usually does not reach it, except at the corners of the box.
+/// The box contains a regular grid of control points. `size` gives the number of control points along x, y and z.
+/// `moves` moves some of the control points, and the space in the box is deformed smoothly. The new position of a point
+/// in the box is the weighted sum of the new positions of all control points, with Bernstein polynomials as weights
+/// (Sederberg, Parry, "Free-Form Deformation of Solid Geometric Models", 1986). If all control points move by the same
+/// offset, the whole box moves by this offset. If only one control point moves, the points in the box move in the same
+/// direction, but less far. Only a point at a corner of the box moves as far as the control point at this corner.
 ///
 /// Vertices outside the box do not move. Normals and tangents are dropped. Faces, element ids and other attributes do
 /// not change, so textures stretch with the surface. Only vertices move, so refine the mesh first if its faces are
@@ -28,15 +29,18 @@ use crate::moved::moved;
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Lattice {
-    /// The number of control points along x, y and z, from 2 to 16 each.
+    /// The numbers of control points along x, y and z. Each number is from 2 to 16.
     pub size: [Count<2, 16>; 3],
-    /// The control points that move: their indices along x, y and z, counted from 0, and the offset in scene units. A
-    /// control point that is listed several times moves by the sum of its offsets.
+    /// The control points that move. Each entry consists of the indices of a control point along x, y and z, which
+    /// start at 0, and its offset in scene units. A control point that is listed several times moves by the sum of its
+    /// offsets.
     pub moves: Vec<([u32; 3], Vector)>,
-    /// The lowest corner of the box. If omitted, the lowest corner of the bounding box of the mesh.
+    /// The corner of the box with the lowest coordinates. If omitted, the same corner of the bounding box of the mesh
+    /// is used.
     #[serde(default)]
     pub min: Option<Vector>,
-    /// The highest corner of the box. If omitted, the highest corner of the bounding box of the mesh.
+    /// The corner of the box with the highest coordinates. If omitted, the same corner of the bounding box of the mesh
+    /// is used.
     #[serde(default)]
     pub max: Option<Vector>,
     /// The vertices to move. If omitted, all vertices.

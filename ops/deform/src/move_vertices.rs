@@ -46,20 +46,19 @@ pub struct MoveVertices {
 pub enum MoveBy {
     /// Moves by this offset along x, y and z, in scene units.
     Offset(Vector),
-    /// Moves by this distance along the normal of each vertex, in scene units. A negative distance moves vertices
-    /// inwards.
+    /// Moves each vertex by this distance along its normal, in scene units. A negative distance moves vertices inwards.
     Distance(Distance),
-    /// Moves by one common offset, so that the mean of the selected vertices arrives at this point.
+    /// Moves all selected vertices by the same offset, so that the mean of their positions becomes this point.
     To(Vector),
-    /// Rotates around an axis through the mean of the selected vertices.
+    /// Rotates around an axis through the mean of the positions of the selected vertices.
     Rotate {
         /// The direction of the axis.
         axis: Axis,
         /// The angle in degrees, counter-clockwise when the axis points towards the viewer.
         angle: Angle,
     },
-    /// Scales along x, y and z about the mean of the selected vertices. A factor of 0 along an axis gives all selected
-    /// vertices the same coordinate along this axis.
+    /// Scales along x, y and z about the mean of the positions of the selected vertices. A factor of 0 along an axis
+    /// gives all selected vertices the same coordinate along this axis.
     Scale(Vector),
 }
 

@@ -16,19 +16,20 @@ use crate::moved::moved;
 
 /// Moves vertices onto the surface of another object (shrinkwrap).
 ///
-/// Only vertices in `vertices` that are not in `pin` move. All other vertices keep their exact positions. Without `on`,
-/// the step acts on all meshes except the object `onto`, which does not change. Normals and tangents are dropped.
-/// Faces, element ids and other attributes do not change, so textures stretch with the surface.
+/// Only vertices in `vertices` that are not in `pin` move. All other vertices keep their exact positions. If the step
+/// does not name objects with `on`, it acts on all meshes except the object that `onto` names. Normals and tangents are
+/// dropped. Faces, element ids and other attributes do not change, so textures stretch with the surface.
 ///
-/// Vertices that would move farther than `distance` do not move. With `Normal` and `Direction`, a vertex moves along a
-/// line, and vertices whose line misses the surface do not move either. The report counts the vertices that would move
-/// too far, and the vertices whose line misses the surface.
+/// Vertices that would move farther than `distance` do not move. With `along: Normal`, a vertex moves along the line of
+/// its normal, and with `along: Direction(..)`, along a ray in this direction. If this line or ray misses the surface,
+/// the vertex does not move. The report counts the vertices that would move too far, and the vertices whose line or ray
+/// misses the surface.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Project {
-    /// The name of the object with the surface.
+    /// The name of the object onto whose surface the vertices move.
     pub onto: String,
-    /// Where each vertex goes.
+    /// How the step finds the point of the surface to which a vertex moves.
     #[serde(default)]
     pub along: ProjectAlong,
     /// The vertices to move. If omitted, all vertices.
@@ -37,20 +38,21 @@ pub struct Project {
     /// Vertices that do not move. If omitted, no vertices.
     #[serde(default)]
     pub pin: Option<VertexSelection>,
-    /// The largest distance that a vertex moves, in scene units. If omitted, any distance.
+    /// The largest distance that a vertex is allowed to move, in scene units. If omitted, there is no limit.
     #[serde(default)]
     pub distance: Option<PositiveLength>,
 }
 
-/// Where a vertex goes.
+/// How the step finds the point of the surface to which a vertex moves.
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum ProjectAlong {
     /// Moves to the nearest point of the surface.
     #[default]
     Nearest,
-    /// Moves to the nearest point of the surface on the line through the vertex along its normal, on either side. The
-    /// normal is the sum of the area vectors of the faces of the vertex.
+    /// Moves to the nearest point at which the surface meets the line through the vertex along its normal. The point
+    /// can lie on either side of the vertex. The normal of a vertex is the mean of the normals of its faces, weighted
+    /// by their areas.
     Normal,
     /// Moves to the first point of the surface in this direction.
     Direction(Direction),

@@ -74,8 +74,9 @@ pub enum Until {
     /// very small and very large angles than the original mesh. If all edges of a flat mesh are selected and no seam
     /// prevents a flip, the result is the Delaunay triangulation within the boundary.
     Delaunay,
-    /// Flip edges until no flip brings the valences of the vertices closer to 6, or to 4 on the boundary. Each flip
-    /// reduces the sum of the squared differences between the valences and these target values.
+    /// Flip edges until no flip brings the valences (the numbers of edges) of the vertices closer to their targets. The
+    /// target is 6 for inner vertices and 4 for boundary vertices. Each flip reduces the sum of the squared differences
+    /// between valences and targets.
     Valence,
 }
 

@@ -67,8 +67,9 @@ pub struct ExtrudeFaces {
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum ExtrudeBy {
-    /// The distance along the normal of each region, in scene units. A negative distance moves the faces inwards. The
-    /// normal is the mean of the face normals, weighted by area.
+    /// The distance along the normal of each region, in scene units. A region consists of selected faces that are
+    /// connected by edges. Its normal is the mean of the normals of these faces, weighted by area. A negative distance
+    /// moves the faces inwards.
     Distance(Distance),
     /// The offset along x, y and z, in scene units.
     Offset(Vector),

@@ -18,23 +18,26 @@ use crate::MeasureOf;
 /// Stores a quantity, such as a curvature or a distance, as an attribute of vertices or faces.
 ///
 /// Later steps can select elements by the attribute (`Where`), move vertices by it (`Displace`), show it in a picture
-/// (`Picture`), and save it to files (`Save`). The attribute is not updated when the mesh changes. Positions and other
-/// attributes do not change. Quantities are computed in the space of the mesh, without the transforms of nodes. The
-/// report states the lowest, the mean and the highest value of each object.
+/// (`Picture`), and save it to files (`Save`). If a later step changes the mesh, the quantity is not computed again.
+/// Positions and other attributes do not change. Quantities are computed from the coordinates that the mesh stores. The
+/// transforms of the nodes that place the mesh in the scene are not applied. The report states the lowest, the mean and
+/// the highest value of each object.
 ///
-/// An attribute of the same name is replaced if it belongs to the same elements (vertices or faces) and has one
-/// floating-point number for each element. Otherwise the step fails.
+/// If the mesh already has an attribute of this name, the attribute is replaced. The step fails if the existing
+/// attribute belongs to a different kind of element, or does not hold one floating-point number for each element.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Measure {
     /// The quantity.
     pub of: MeasureOf,
-    /// The name of the attribute. If omitted, the attribute has the name of the quantity in lower case, such as
-    /// `mean_curvature`. For principal curvatures, the default names are `largest_curvature` and `smallest_curvature`.
+    /// The name of the attribute. If omitted, the attribute gets the name of the quantity in lower case, for example
+    /// `mean_curvature` for `MeanCurvature`. For principal curvatures, the default names are `largest_curvature` and
+    /// `smallest_curvature`.
     #[serde(default)]
     pub name: Option<AttributeName>,
-    /// The value for elements at which the quantity is not defined, such as the curvature of a vertex without faces.
-    /// The report counts these elements. If omitted, 0 for quantities that can be negative, and -1 for all others.
+    /// The value for elements at which the quantity is not defined. For example, a vertex without faces has no
+    /// curvature. The report counts these elements. If omitted, the value is 0 for quantities that can be negative,
+    /// and -1 for all other quantities.
     #[serde(default)]
     pub missing: Option<Number>,
 }

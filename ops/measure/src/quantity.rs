@@ -18,16 +18,17 @@ pub enum MeasureOf {
     /// The Gaussian curvature at each vertex, in 1 / scene unit²: the angle defect divided by the area of the vertex
     /// (Meyer, Desbrun, Schröder, Barr, 2003). The angle defect is 360° minus the sum of the corner angles at the
     /// vertex. The curvature is 1 / r² on a sphere of radius r, 0 on a cylinder, and negative at saddles. At a boundary
-    /// vertex, the angle defect is 180° minus the sum of the corner angles. It measures how the boundary turns at the
-    /// vertex. The Gaussian curvature of boundary vertices therefore depends on the size of the faces.
+    /// vertex, the angle defect is 180° minus the sum of the corner angles, so it measures how much the boundary turns
+    /// there. This turn is divided by the area of the vertex, so the Gaussian curvature of boundary vertices depends on
+    /// the size of the faces.
     GaussianCurvature,
     /// A principal curvature at each vertex, in 1 / scene unit: an eigenvalue of the curvature tensor of Cohen-Steiner
     /// and Morvan, 2003. On a cylinder of radius r, the two principal curvatures are 0 and 1 / r.
     PrincipalCurvature(Principal),
     /// The area of each face, in scene units².
     Area,
-    /// The area of each vertex, in scene units². Each face at the vertex contributes its own area divided by its number
-    /// of corners.
+    /// The area of the surface that belongs to each vertex, in scene units². Each face at the vertex contributes the
+    /// area of the face divided by its number of corners.
     VertexArea,
     /// The smallest angle of each face, in degrees.
     MinAngle,
@@ -35,8 +36,8 @@ pub enum MeasureOf {
     /// Knupp, Pébay, Thompson, "The Verdict Geometric Quality Library", 2007). The aspect ratio is not defined for
     /// zero-area faces.
     AspectRatio,
-    /// The distance from each vertex to the nearest point of another mesh of the scene, in scene units. Without `on`,
-    /// the step measures all meshes except the mesh to which distances are measured.
+    /// The distance from each vertex to the nearest point of another mesh of the scene, in scene units. If the step
+    /// does not name objects with `on`, it measures from all meshes except the other mesh itself.
     Distance {
         /// The name of the object to which distances are measured.
         to: String,
@@ -47,18 +48,20 @@ pub enum MeasureOf {
     },
     /// The distance along the surface from each vertex to the nearest selected vertex, in scene units, by the heat
     /// method (Crane, Weischedel, Wardetzky, "Geodesics in Heat", 2013; Sharp, Crane, 2020). On fine meshes of smooth
-    /// surfaces, the mean error is below 1 %. A vertex has no distance if no path of edges joins it to a selected
-    /// vertex.
+    /// surfaces, the mean error is below 1 % of the largest distance. If no path of edges joins a vertex to a selected
+    /// vertex, the distance of this vertex is not defined.
     Geodesic {
         /// The vertices from which distances are measured.
         from: VertexSelection,
     },
     /// The thickness of the solid at each vertex, in scene units. For each face of the vertex, a ray starts at the
     /// vertex, runs inward at a right angle to the face, and ends where it leaves the solid. The thickness is the
-    /// length of the shortest ray. If no ray leaves the solid, the vertex has no thickness.
+    /// length of the shortest ray. If no ray leaves the solid, for example on a flat sheet, the thickness is not
+    /// defined.
     Thickness,
-    /// The ambient occlusion of each vertex: the fraction of the rays from the vertex that meet the mesh, from 0 (open)
-    /// to 1 (enclosed). The density of the rays is proportional to the cosine of their angle to the normal.
+    /// The ambient occlusion of each vertex. Rays start at the vertex, and the value is the fraction of rays that hit
+    /// the mesh, from 0 (open) to 1 (enclosed). The density of the rays is proportional to the cosine of their angle to
+    /// the normal.
     Occlusion {
         /// The number of rays from each vertex. At most 4096. Defaults to 64.
         #[serde(default = "sixty_four")]
@@ -69,8 +72,8 @@ pub enum MeasureOf {
     },
     /// The winding number of another mesh of the scene around each vertex: 1 inside, 0 outside, and numbers between 0
     /// and 1 near gaps of the other mesh (Jacobson, Kavan, Sorkine-Hornung, 2013; Barill, Dickson, Schmidt, Levin,
-    /// Jacobson, 2018). The error is usually below 0.001. Without `on`, the step measures all meshes except the mesh
-    /// whose winding number is computed.
+    /// Jacobson, 2018). The error is usually below 0.001. If the step does not name objects with `on`, it measures at
+    /// the vertices of all meshes except the other mesh itself.
     Winding {
         /// The name of the object whose winding number is computed.
         of: String,

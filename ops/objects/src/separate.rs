@@ -42,18 +42,18 @@ pub struct Separate {
     pub count: Option<Count<1>>,
 }
 
-/// How faces are grouped into parts.
+/// How faces are grouped into parts. Each part becomes an object.
 #[derive(Clone, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum SeparateBy {
     /// One part for each connected component, in order of the lowest face id in each component.
     #[default]
     Components,
-    /// One part for each material that a face has, in order of the materials. Faces without a material form the last
-    /// part.
+    /// One part for each material that at least one face has, in order of the materials. Faces without a material form
+    /// the last part.
     Material,
-    /// The first part has the faces with the tag of this name, and the second part all other faces. A part without
-    /// faces is left out.
+    /// Two parts: the first part has the faces with the tag of this name, and the second part has all other faces. A
+    /// part without faces is left out.
     Tag(String),
 }
 

@@ -65,11 +65,11 @@ pub struct Transform {
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Space {
-    /// The space of the scene. If nodes place an object, the placements of the nodes change. If no node places an
-    /// object, the points of the object change.
+    /// The space of the scene. If nodes place an object in the scene, the step changes the transforms of these nodes.
+    /// If no node places the object, the step changes the points of the object.
     #[default]
     Scene,
-    /// The space of each object. The points of the object change, so all instances of the object change.
+    /// The own space of each object. The step changes the points of the object, so all instances of the object change.
     Object,
 }
 

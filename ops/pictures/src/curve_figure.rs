@@ -24,36 +24,38 @@ use crate::figure_file;
 /// Draws Bezier curves, and de Casteljau's construction of their points, into an image file.
 ///
 /// The figure has one panel for each combination of a curve and a value of `t`. With `by_level`, the figure has one
-/// panel for each combination of a curve, a value of `t` and a level. A panel shows the curve, its control polygon,
-/// every level of de Casteljau's algorithm in a different color, and the constructed point. Both axes have the same
-/// scale. With `by_level`, each panel shows one level more than the previous panel for the same value of `t`. Only the
-/// last panel for a value of `t` shows the constructed point. The extension of the file determines the format: `.svg`
-/// or `.png`. The file is written only if the whole recipe succeeds. The scene does not change.
+/// panel for each combination of a curve, a value of `t` and a level of de Casteljau's algorithm. A panel shows the
+/// curve, its control polygon, every level of the algorithm in a different color, and the constructed point. Both axes
+/// have the same scale. With `by_level`, the panels for a curve and a value of `t` form a sequence. The first panel
+/// shows only the first level of the algorithm, and each further panel shows one level more. Only the last of these
+/// panels shows the constructed point. The extension of the file determines the format: `.svg` or `.png`. The file is
+/// written only if the whole recipe succeeds. The scene does not change.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct CurveFigure {
     /// The file. The path is relative to the output folder. If `name` is a recipe parameter whose value is a file,
     /// `{name.stem}` is replaced by the name of this file without its extension.
     pub path: String,
-    /// The parameters of the constructed points, from 0 (start) to 1 (end). If empty, only the curves and their control
-    /// polygons are drawn.
+    /// The curve parameters at which points are constructed, from 0 (start of the curve) to 1 (end). If empty, only the
+    /// curves and their control polygons are drawn.
     #[serde(default = "half")]
     pub t: Vec<ClosedFraction>,
     /// Whether each level of the algorithm has its own panel. If false, one panel shows all levels.
     #[serde(default)]
     pub by_level: bool,
-    /// The name of a curve that shows an earlier state of the other curves. The earlier curve is drawn faintly behind
-    /// the other curves, with arrows to the control points that moved.
+    /// The name of a curve that is the earlier state of the drawn curves. The earlier curve is drawn faintly behind
+    /// each drawn curve. Arrows lead from the old positions of control points to their new positions.
     #[serde(default)]
     pub before: Option<String>,
-    /// The width of the figure in SVG pixels. The font size is 12 to 19 pixels.
+    /// The width of the figure in SVG pixels. The font size is 12 pixels in narrow panels and up to 19 pixels in wide
+    /// panels.
     #[serde(default = "width")]
     pub width: Count<80, 8192>,
-    /// The number of panels in a row. If omitted, the number of values of `t` (with `by_level`, the number of levels),
-    /// but at most 4.
+    /// The number of panels in each row. If omitted, each row has as many panels as `t` has values (with `by_level`, as
+    /// the curve has levels), but at most 4.
     #[serde(default)]
     pub columns: Option<Count<1, 256>>,
-    /// The number of PNG pixels per SVG pixel. Has no effect on `.svg` files.
+    /// The width and height of one SVG pixel, in pixels of a `.png` file. Has no effect on `.svg` files.
     #[serde(default = "scale")]
     pub scale: Count<1, 8>,
     /// Whether points are labeled with their names.

@@ -25,9 +25,10 @@ use view::{ColorBy, Extent, HIGHLIGHT_COLOR, Shot, Subject, highlight};
 
 /// Draws the scene into an image file.
 ///
-/// The extension of the file determines the format. A single image has the extension `.png`. With `turntable`, `.gif`
-/// gives an animated GIF, and `.apng` or `.png` gives an animated PNG. The file is written only if the whole recipe
-/// succeeds. The scene does not change. Drawing needs no GPU and gives the same bytes on every machine.
+/// The extension of the file determines the format. Without `turntable`, the picture is a single image, and the
+/// extension must be `.png`. With `turntable`, the extension `.gif` gives an animated GIF, and `.apng` or `.png` gives
+/// an animated PNG. The file is written only if the whole recipe succeeds. The scene does not change. Drawing needs no
+/// GPU and gives the same bytes on every machine.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Picture {
@@ -40,10 +41,11 @@ pub struct Picture {
     /// The camera.
     #[serde(default)]
     pub camera: Camera,
-    /// Several cameras, which replace `camera`. The views of the cameras are placed side by side.
+    /// Several cameras, which replace `camera`. The picture shows the views of all these cameras, side by side.
     #[serde(default)]
     pub views: Vec<Camera>,
-    /// The number of views in a row. If omitted, the number of views, but at most 4.
+    /// The number of views in each row of the picture. If omitted, up to 4 views share one row, and more views are
+    /// placed in rows of 4.
     #[serde(default)]
     pub columns: Option<Count<1, 64>>,
     /// The style: shading, lines, background.
@@ -52,10 +54,11 @@ pub struct Picture {
     /// Elements to highlight in orange, as in `Edges(Sharp(above: 30))` or `Faces(Tagged("top"))`.
     #[serde(default)]
     pub highlight: Option<Elements>,
-    /// The width of highlighted edges and the diameter of highlighted vertices, in pixels. The default width and the
-    /// default diameter depend on the shorter side of a view: 2.8 and 7.5 for 240 pixels, 3.4 and 10 for 480, 4 and 13
-    /// for 960, 8 and 26 for 1920. If there are many highlighted vertices, they are drawn smaller. Hidden edges are
-    /// drawn faintly, and hidden vertices as rings.
+    /// The width of highlighted edges and the diameter of highlighted vertices, in pixels. The defaults grow with the
+    /// shorter side of a view. For a side of 240 pixels, the width is 2.8 and the diameter 7.5. For 480 pixels, they
+    /// are 3.4 and 10; for 960 pixels, 4 and 13; for 1920 pixels, 8 and 26. If there are many highlighted vertices,
+    /// their default diameter is smaller. Edges behind a surface are drawn faintly, and vertices behind a surface as
+    /// rings.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub highlight_width: Option<f64>,
@@ -83,7 +86,8 @@ pub struct Mark {
     /// The color.
     #[serde(default = "highlight_color")]
     pub color: Color,
-    /// The width of edges and the diameter of vertices, in pixels. If omitted, the defaults of `highlight_width`.
+    /// The width of edges and the diameter of vertices, in pixels. If omitted, the defaults are those of
+    /// `highlight_width`.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub width: Option<f64>,
@@ -96,7 +100,7 @@ pub struct Turntable {
     /// The number of images.
     #[serde(default = "frames")]
     pub frames: Count<2, 720>,
-    /// The duration of the turn.
+    /// The duration of the turn, in seconds.
     #[serde(default = "seconds")]
     pub seconds: Seconds,
 }

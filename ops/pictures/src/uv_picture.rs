@@ -11,10 +11,9 @@ use crate::figure_file;
 /// Draws the charts of the texture coordinates of a mesh into an image file.
 ///
 /// A gray frame shows the page of the texture, where u and v are from 0 to 1; v points upwards. Thick lines are the
-/// borders of charts, and thin lines are the other edges. Coordinates outside the page are also drawn. To make room for
-/// coordinates outside the page, the figure becomes higher or its scale becomes smaller. The extension of the file
-/// determines the format: `.svg` or `.png`. The file is written only if the whole recipe succeeds. The scene does not
-/// change.
+/// borders of charts, and thin lines are the other edges. Charts outside the page are also drawn. To make room for
+/// these charts, the figure becomes higher or its scale becomes smaller. The extension of the file determines the
+/// format: `.svg` or `.png`. The file is written only if the whole recipe succeeds. The scene does not change.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct UvPicture {
@@ -33,7 +32,7 @@ pub struct UvPicture {
     /// The width of the figure in SVG pixels.
     #[serde(default = "width")]
     pub width: Count<80, 8192>,
-    /// The number of PNG pixels per SVG pixel. Has no effect on `.svg` files.
+    /// The width and height of one SVG pixel, in pixels of a `.png` file. Has no effect on `.svg` files.
     #[serde(default = "scale")]
     pub scale: Count<1, 8>,
 }
@@ -44,11 +43,11 @@ pub struct UvPicture {
 pub enum UvFill {
     /// No colors.
     None,
-    /// The charts, in eight colors that repeat.
+    /// The charts: each chart has one of eight colors. If there are more than eight charts, the colors repeat.
     #[default]
     Charts,
-    /// The stretch of angles. A small circle on the surface becomes an ellipse in the texture, and the color shows the
-    /// ratio of the axes of the ellipse, from dark for 1 to bright for 1.5 or more.
+    /// The distortion of angles. A small circle on the surface becomes an ellipse in the texture. The color shows the
+    /// ratio of the longer to the shorter axis of the ellipse, from dark for 1 to bright for 1.5 or more.
     Stretch,
 }
 

@@ -44,16 +44,16 @@ pub struct Bisect {
     pub tag: Option<TagName>,
 }
 
-/// The parts of the mesh to keep.
+/// Which side of the plane to keep, or both.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Keep {
-    /// Both sides. They stay connected.
+    /// Both sides. They stay connected at the cut.
     #[default]
     Both,
-    /// The side that the normal points to.
+    /// The side of the plane that the normal of the plane points to.
     Front,
-    /// The side that the normal points away from.
+    /// The side of the plane that the normal of the plane points away from.
     Back,
 }
 

@@ -42,10 +42,10 @@ pub struct Symmetrize {
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "SymmetrizeSide")]
 pub enum Side {
-    /// The side that the normal points to.
+    /// The side of the plane that the normal of the plane points to.
     #[default]
     Front,
-    /// The side that the normal points away from.
+    /// The side of the plane that the normal of the plane points away from.
     Back,
 }
 

@@ -12,8 +12,8 @@ use subdivision::{
     refine_faces, subdivide_within,
 };
 
-/// A condition that ends the subdivision. If the mesh does not meet the condition after the maximum number of levels,
-/// the step fails.
+/// A condition that ends the subdivision. The step fails if the mesh does not meet the condition even after the maximum
+/// number of levels.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Until {

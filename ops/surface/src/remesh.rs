@@ -81,12 +81,14 @@ pub struct Remesh {
     pub on_refusal: OnRefusal,
 }
 
-/// Target lengths that follow the curvature of the surface.
+/// Target lengths of edges that follow the curvature of the surface: short where the surface is curved, and long where
+/// it is flat.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct RemeshCurvature {
-    /// The intended distance between the surface and the triangles, in scene units. It is not guaranteed. To guarantee
-    /// a distance, use the parameter `error` of the step.
+    /// The intended largest distance between the original surface and the new triangles, in scene units. This distance
+    /// is not guaranteed. To guarantee a distance, use the other parameter `error`, which belongs to the step itself:
+    /// `Remesh(error: ..)`.
     pub error: PositiveLength,
     /// The smallest target length of edges, in scene units.
     pub min: PositiveLength,

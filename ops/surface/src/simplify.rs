@@ -76,15 +76,16 @@ pub struct Simplify {
     pub on_refusal: OnRefusal,
 }
 
-/// Whether new intersections of faces are allowed.
+/// Whether the step is allowed to create intersections of faces.
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Intersections {
-    /// New intersections are allowed, and not detected.
+    /// New intersections are allowed. The step does not search for them.
     #[default]
     Allow,
-    /// No changed face intersects another face, so a mesh without self-intersections stays without self-intersections.
-    /// The step takes longer.
+    /// The step refuses every change that would make a changed face intersect another face. A mesh without
+    /// self-intersections therefore stays without self-intersections. The search for intersections makes the step
+    /// slower.
     Refuse,
 }
 

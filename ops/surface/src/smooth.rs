@@ -65,9 +65,9 @@ pub enum SmoothBy {
         #[serde(default = "half")]
         factor: ClosedFraction,
     },
-    /// Moves each vertex towards the mean of its neighbors, and then back by a slightly larger factor. Removes noise,
-    /// and keeps larger shapes and the volume nearly unchanged. One pass consists of the movement towards the mean and
-    /// the movement back.
+    /// Moves each vertex towards the mean of its neighbors, and then away from this mean with a slightly larger factor.
+    /// This method removes noise, but keeps larger shapes and the volume nearly unchanged. One pass consists of both
+    /// movements.
     Taubin {
         /// The weights of the neighbors.
         #[serde(default)]
@@ -77,19 +77,19 @@ pub enum SmoothBy {
         /// of more than about 0.7 are refused. Defaults to 0.33.
         #[serde(default = "taubin_factor")]
         factor: Fraction,
-        /// The frequency below which shapes are kept. A lower value smooths more. From 0 to 1, exclusive. Defaults to
-        /// 0.05.
+        /// The frequency below which shapes are kept. The frequencies of a mesh are from 0 (large shapes) to 2 (noise
+        /// between neighboring vertices). A lower value smooths more. From 0 to 1, exclusive. Defaults to 0.05.
         #[serde(default = "pass_band")]
         pass_band: Fraction,
     },
-    /// Moves the surface by mean curvature flow for the given time, in one stable step. Details smaller than the square
-    /// root of the time disappear, regardless of the density of the mesh.
+    /// Moves the surface by mean curvature flow. Each pass is one stable time step of the given length. Details smaller
+    /// than the square root of the time disappear, regardless of how dense the vertices are.
     Implicit {
         /// The time, in squares of the scene unit.
         time: PositiveLength,
     },
-    /// Filters the normals of the faces, so that similar normals become equal, then moves the vertices to fit the
-    /// normals.
+    /// Filters the normals of the faces, so that similar normals of nearby faces become nearly equal. Then moves the
+    /// vertices so that the faces fit the filtered normals.
     Denoise {
         /// Normals that differ by more than this angle hardly affect each other, so edges sharper than this angle are
         /// kept. From 0 to 180 degrees. Defaults to 30.
@@ -102,10 +102,12 @@ pub enum SmoothBy {
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum SmoothWeights {
-    /// All vertices that share an edge with the vertex have the same weight. The lengths of edges become more equal.
+    /// All vertices that share an edge with the vertex have the same weight. These weights also make the lengths of
+    /// edges more equal.
     #[default]
     Uniform,
-    /// The weights depend on the angles of the faces (cotangent weights). Vertices hardly slide along the surface.
+    /// The weights depend on the angles of the faces (cotangent weights). With these weights, vertices hardly slide
+    /// along the surface.
     Cotangent,
 }
 
@@ -116,8 +118,9 @@ pub enum SmoothBoundary {
     /// The vertices do not move.
     #[default]
     Fixed,
-    /// The boundary is smoothed as a set of curves, so the movement of a vertex on the boundary depends only on its
-    /// neighbors along the boundary. With `Denoise`, vertices on the boundary move like all other vertices.
+    /// The boundary is smoothed as a set of curves: the movement of a vertex on the boundary depends only on its
+    /// neighbors along the boundary. With `by: Denoise(..)`, the boundary is not treated in this way, and its vertices
+    /// move like all other vertices.
     Free,
 }
 

@@ -18,26 +18,27 @@ use crate::attribute::{
 
 /// Moves, rotates and scales charts of texture coordinates so that they do not overlap and have the same scale.
 ///
-/// A chart is a set of faces that are connected without seams of the texture coordinates. After the step, the area of
-/// each chart in the texture is proportional to its area on the surface. The shape of each chart does not change, even
-/// if it is stretched, mirrored or overlaps itself. Each zero-area chart becomes a point. The report counts zero-area
-/// charts and charts that overlap themselves. Each mesh gets its own page, that is, the whole square of a texture.
-/// Tangents are removed, because charts are rotated.
+/// A chart is a set of faces that are connected across edges at which the texture coordinates have no seam. After the
+/// step, the area of each chart in the texture is proportional to its area on the surface. The shape of each chart in
+/// the texture does not change. The step does not repair charts that are stretched or mirrored, or that overlap
+/// themselves. A chart with zero area on the surface or in the texture becomes a point. The report counts these
+/// zero-area charts, and the charts that overlap themselves. Each mesh gets its own page, that is, the whole square of
+/// a texture. Tangents are removed, because charts are rotated.
 ///
-/// Up to 256 charts can lie in the hollows and holes of each other. More charts are packed in rows, which is much faster
-/// but leaves more of the page empty.
+/// If a mesh has at most 256 charts, charts can be placed in the hollows and holes of other charts. If a mesh has more
+/// charts, all charts are packed in rows. Rows are computed much faster, but leave more of the page empty.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct PackUvs {
     /// The name of the texture coordinates. Defaults to `uv`.
     #[serde(default = "uv")]
     pub uv: String,
-    /// The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for any size. The size only
-    /// determines how large the padding is.
+    /// The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for every size. The size
+    /// matters only for `padding`, which is a number of texels.
     #[serde(default = "page")]
     pub page: Count<16, 16384>,
-    /// The number of empty texels around each chart. The distance between two charts is at least twice this number.
-    /// Defaults to 2.
+    /// The width of the empty border around each chart, in texels. The distance between two charts is at least twice
+    /// this width. Defaults to 2.
     #[serde(default = "padding")]
     pub padding: Count<0, 256>,
 }

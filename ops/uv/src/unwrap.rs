@@ -17,23 +17,28 @@ use crate::attribute::{coverage, error, padding, padding_problem, page, page_of,
 
 /// Computes texture coordinates without overlaps.
 ///
-/// The surface is cut into charts, which are flattened and packed into a square page. Charts grow from flat regions as
-/// far as `max_angle` allows. The charts are flattened by least squares conformal maps (Levy and others, 2002) and the
-/// hybrid method of Liu and others (2008). A chart is cut again if it would overlap itself or exceed `max_stretch`. It
-/// is also cut again if the ratio of the largest to the smallest stretch would exceed 1.15 on more than 5 % of its
-/// area. All charts of a mesh have the same scale, and no chart is mirrored. A polygon stays in one chart. Each mesh
-/// gets its own page, on which the charts are arranged as by `PackUvs`.
+/// The surface is cut into charts, which are connected parts of the surface. The charts are flattened and packed into
+/// the page, the square of the texture with u and v from 0 to 1. Each chart grows from a flat region, as long as the
+/// normals of its faces differ from their mean by at most `max_angle`. Each chart is flattened by a least squares
+/// conformal map (Levy and others, 2002), which the hybrid method of Liu and others (2008) then improves. A chart is
+/// cut again if its flattened shape overlaps itself or exceeds `max_stretch`. A chart is also cut again if its angles
+/// are distorted too much. A small circle on the surface becomes an ellipse in the texture. On 95 % of the area of a
+/// chart, the ratio of the axes of this ellipse is at most 1.15. All charts of a mesh have the same scale, and no chart
+/// is mirrored. No polygon is divided between charts. Each mesh gets its own page, on which the charts are arranged as
+/// by `PackUvs`.
 ///
-/// The coordinates are written to the corner attribute `uv`, which is replaced if it exists. Edges at which charts meet
-/// become seams. Positions, faces and other attributes do not change, but tangents are removed. Zero-area faces have no
-/// area in the texture. The report counts them. If a polygon is bent so far that it overlaps itself in the texture, the
-/// step is refused as `WrongPlace`. Before this step, triangulate polygons that would overlap themselves. With
-/// `on_refusal: Skip`, the triangles of such a polygon overlap in the texture.
+/// The coordinates are written to the corner attribute with the name `uv`, which is replaced if it exists. Edges at
+/// which charts meet become seams of the texture coordinates. Positions, faces and other attributes do not change, but
+/// tangents are removed because they depend on the texture coordinates. Zero-area faces also have zero area in the
+/// texture. The report counts the faces with zero area in the texture. If a polygon is bent so far that it overlaps
+/// itself in the texture, the step fails and gives the reason `WrongPlace`. To avoid this failure, triangulate such
+/// polygons before this step. With `on_refusal: Skip`, the step does not fail, and the triangles of such a polygon
+/// overlap in the texture.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Unwrap {
-    /// Edges that become borders of charts, for example `Tagged("seam")` or `Sharp(above: 60)`. The algorithm also
-    /// chooses borders itself. If omitted, the algorithm chooses all borders.
+    /// Edges that become borders of charts, for example `Tagged("seam")` or `Sharp(above: 60)`. The algorithm adds more
+    /// borders where charts need them. If omitted, the algorithm chooses all borders.
     #[serde(default)]
     pub seams: Option<EdgeSelection>,
     /// The largest angle between the normal of a face and the mean normal of its chart, in degrees. Smaller angles give
@@ -41,17 +46,17 @@ pub struct Unwrap {
     #[serde(default = "max_angle")]
     #[schemars(range(min = 1.0, max = 89.0))]
     pub max_angle: f64,
-    /// The largest ratio between the area scale of a triangle and the area scale of its whole chart. The area scale is
-    /// the area in the texture divided by the area on the surface.
+    /// The largest factor by which the area scale of a triangle is allowed to be larger or smaller than the area scale
+    /// of its whole chart. The area scale is the area in the texture divided by the area on the surface.
     #[serde(default = "max_stretch")]
     #[schemars(range(min = 1.0, max = 1000.0))]
     pub max_stretch: f64,
-    /// The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for any size. The size only
-    /// determines how large the padding is.
+    /// The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for every size. The size
+    /// matters only for `padding`, which is a number of texels.
     #[serde(default = "page")]
     pub page: Count<16, 16384>,
-    /// The number of empty texels around each chart. The distance between two charts is at least twice this number.
-    /// Defaults to 2.
+    /// The width of the empty border around each chart, in texels. The distance between two charts is at least twice
+    /// this width. Defaults to 2.
     #[serde(default = "padding")]
     pub padding: Count<0, 256>,
     /// The name of the texture coordinates. Defaults to `uv`.

@@ -45,7 +45,7 @@ pub enum Weight {
     /// The area of the face.
     #[default]
     Area,
-    /// The angle of the face at the vertex, at most 180 degrees.
+    /// The angle of the face at the vertex. An angle above 180 degrees counts as its difference from 360 degrees.
     Angle,
     /// The same weight for all faces.
     Uniform,

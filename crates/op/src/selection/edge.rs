@@ -20,7 +20,7 @@ selection! {
     ) {
         /// Boundary edges: edges with a face on one side only.
         Boundary,
-        /// The edge between two vertices, given by their ids. Refused if no edge joins them.
+        /// The edge between two vertices, given by their ids. Refused if no edge joins these two vertices.
         Between(u32, u32),
         /// Edges at which the normals of the two faces differ by more than the angle `above`.
         Sharp {
@@ -50,11 +50,12 @@ selection! {
         EdgesAround(VertexSelection),
         /// Edges with both ends among these vertices.
         EdgesWithin(VertexSelection),
-        /// The given edges and all edge loops through them. An edge loop continues straight across each interior vertex
-        /// that has four edges. An edge loop that starts at a boundary edge follows the boundary.
+        /// The given edges and all edge loops through them. At an interior vertex with four edges, an edge loop
+        /// continues with the opposite edge. At every other vertex, it ends. An edge loop that starts at a boundary
+        /// edge follows the boundary instead.
         EdgeLoop(Box<Self>),
-        /// The given edges and all edge rings through them. An edge ring passes through each face with four corners,
-        /// from an edge to the opposite edge.
+        /// The given edges and all edge rings through them. In a face with four corners, an edge ring passes from an
+        /// edge to the opposite edge. The ring ends at the boundary and at faces with a different number of corners.
         EdgeRing(Box<Self>),
         /// The shortest path along edges from one vertex to another. Refused if no path exists.
         Path {
@@ -63,7 +64,8 @@ selection! {
             /// The id of the last vertex.
             to: u32,
         },
-        /// The longest edges. If several edges have the same length, the edges with the lowest ids are chosen.
+        /// The `count` longest edges of the selection `of`. If several edges have the same length, the edges with the
+        /// lowest ids are chosen.
         Longest {
             /// The number of edges. If fewer are available, all are selected.
             #[serde(default = "super::one")]

@@ -22,8 +22,8 @@ selection! {
         Faces(Vec<u32>),
         /// Faces with this number of corners.
         Degree(u32),
-        /// Faces that intersect another face of the object. Adjacent faces intersect only if they share points other
-        /// than their common vertices and edges. Vertices at the same position count as the same vertex.
+        /// Faces that intersect another face of the object. Two adjacent faces count as intersecting only if they share
+        /// points other than their common vertices and edges. Vertices at the same position count as the same vertex.
         SelfIntersecting,
         /// Faces with the material of this name. Refused if the object has no material of this name.
         Material(String),
@@ -38,8 +38,8 @@ selection! {
             /// The largest angle between the normal and the direction, in degrees.
             within: AngleBetween,
         },
-        /// The given faces, and all faces that can be reached from them across edges at which the normals of the two
-        /// faces differ by at most the angle `to_angle`.
+        /// The given faces, and all faces that are connected to them across nearly flat edges. At a nearly flat edge,
+        /// the normals of the two faces differ by at most the angle `to_angle`.
         Expand {
             /// The largest angle between the normals of two neighboring faces, in degrees, from 0 (flat) to 180.
             to_angle: AngleBetween,

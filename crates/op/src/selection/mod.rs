@@ -34,7 +34,7 @@ macro_rules! selection {
             Inside(super::Region),
             #[doc = concat!(
                 $inside_of, " the mesh of another object, given by its name. A point is inside if the winding number \
-                 of the mesh around the point is above 1/2 or below -1/2. The mesh can have small gaps."
+                 of the mesh around the point is above 1/2 or below -1/2. Small gaps in the mesh are allowed."
             )]
             InsideOf(String),
             #[doc = concat!("The ", $elements, " with the tag of this name. Refused if no tag of ", $elements,
@@ -72,10 +72,11 @@ macro_rules! selection {
             )]
             Shrink(Box<Self>),
             #[doc = concat!(
-                "The ", $elements, " of all connected components of the mesh that this selection touches."
+                "The ", $elements, " of all connected components that contain an element of this selection."
             )]
             Component(Box<Self>),
-            /// A random choice. The same seed in the same step gives the same choice.
+            /// A random choice of `count` elements from the selection `of`. The same step with the same seed makes the
+            /// same choice in each run. Two steps with the same seed choose independently of each other.
             Random {
                 #[doc = concat!("The number of ", $elements, ". If fewer are available, all are selected.")]
                 count: u32,
@@ -96,7 +97,8 @@ macro_rules! selection {
                 #[serde(default)]
                 of: Box<Self>,
             },
-            /// All elements of the selection `of`. Refused unless the selection has exactly `count` elements.
+            /// The elements of the selection `of`, which must have exactly `count` elements. Otherwise the step fails
+            /// with the reason `Expectation`.
             Expect {
                 #[doc = concat!("The expected number of ", $elements, ".")]
                 count: u32,

@@ -17,7 +17,7 @@ selection! {
         nearest: "The vertices nearest to a point. If vertices are equally near, those with the lower \
                   ids are selected."
     ) {
-        /// Vertices with a boundary edge.
+        /// Vertices with a boundary edge, which is an edge with a face on one side only.
         Boundary,
         /// Isolated vertices: vertices without edges.
         Isolated,

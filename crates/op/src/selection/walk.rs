@@ -8,8 +8,8 @@ use mesh::{Domain, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 use crate::{OpError, Refusal};
 
 /// Returns one flag for each edge of the mesh: whether the edge is in `edges` or on an edge loop through one of them.
-/// An edge loop continues straight across each interior vertex that has four edges. An edge loop that starts at a
-/// boundary edge follows the boundary.
+/// At an interior vertex with four edges, an edge loop continues with the opposite edge. At every other vertex, it
+/// ends. An edge loop that starts at a boundary edge follows the boundary instead.
 pub(super) fn edge_loops(mesh: &Mesh, edges: &[EdgeId]) -> Vec<bool> {
     follow(mesh, edges, |h| {
         if mesh.is_boundary_edge(h.edge()) {
@@ -26,7 +26,8 @@ pub(super) fn edge_loops(mesh: &Mesh, edges: &[EdgeId]) -> Vec<bool> {
 }
 
 /// Returns one flag for each edge of the mesh: whether the edge is in `edges` or on an edge ring through one of them.
-/// An edge ring passes through each face with four corners, from an edge to the opposite edge.
+/// In a face with four corners, an edge ring passes from an edge to the opposite edge. The ring ends at the boundary
+/// and at faces with a different number of corners.
 pub(super) fn edge_rings(mesh: &Mesh, edges: &[EdgeId]) -> Vec<bool> {
     follow(mesh, edges, |h| {
         let f = mesh.face(h)?;

@@ -77,7 +77,7 @@ def Box(
 
 
 def Component(value: Literal['All', 'Boundary', 'Isolated', 'SelfIntersecting'] | Choice | Arg | Ron, /) -> Choice:
-    """The elements of all connected components of the mesh that this selection touches."""
+    """The elements of all connected components that contain an element of this selection."""
     return Choice('Component', value)
 
 

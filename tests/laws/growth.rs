@@ -85,6 +85,7 @@ const SELECTIONS: &[&str] = &[
 /// Creates scenes with about `n` faces. The meshes have the names of the fixtures of all operations.
 fn scenes(n: usize) -> Vec<(&'static str, Scene)> {
     let side = side(n);
+    let around = u32::try_from(n).expect("ids have 32 bits");
     let of = |object: Object| {
         let mut scene = Scene::new();
         scene.insert(object).expect("the first object");
@@ -110,6 +111,14 @@ fn scenes(n: usize) -> Vec<(&'static str, Scene)> {
             of(with_attributes(shapes::fans(&shapes::grid(side, side)))),
         ),
         ("cubes", of(Object::mesh("mesh", cubes(n / 6)))),
+        (
+            "a cylinder with caps of many corners",
+            of(with_attributes(shapes::cylinder(around, true))),
+        ),
+        (
+            "a sphere with poles of high valence",
+            of(with_attributes(shapes::uv_sphere(around, 2))),
+        ),
         ("two meshes", two),
         ("polylines", of(Object::new("lines", lines(n)))),
     ]

@@ -46,7 +46,8 @@ fn too_large(n: u64, budget: u64) -> Option<String> {
 
 impl Operation for CurveLevels {
     const NAME: &'static str = "CurveLevels";
-    const SUMMARY: &'static str = "Replace curves with polylines that show the levels of de Casteljau's algorithm";
+    const SUMMARY: &'static str =
+        "Replace curves with polylines that show the levels of de Casteljau's algorithm";
     const EXAMPLE: &'static str = "CurveLevels(t: 0)";
     const TAKES_ON: bool = true;
 

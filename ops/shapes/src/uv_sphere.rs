@@ -63,7 +63,8 @@ impl UvSphere {
 
 impl Operation for UvSphere {
     const NAME: &'static str = "UvSphere";
-    const SUMMARY: &'static str = "Create a sphere whose edges follow meridians and circles of latitude";
+    const SUMMARY: &'static str =
+        "Create a sphere whose edges follow meridians and circles of latitude";
     const EXAMPLE: &'static str = r#"UvSphere(name: "new", around: 8, rings: 4, radius: 2)"#;
     const WORDS: &'static [&'static str] = &["sphere", "ball"];
 

@@ -17,7 +17,9 @@ pub enum BezierError {
         count: usize,
     },
     /// A coordinate is infinite or not a number. In a patch, `index` is 4 * row + column.
-    #[error("expected finite coordinates, but control point {index} has an infinity or a NaN")]
+    #[error(
+        "expected finite coordinates, but a coordinate of control point {index} is infinite or NaN"
+    )]
     NotFinite {
         /// The index of the control point, from 0.
         index: usize,
@@ -41,7 +43,7 @@ pub enum BezierError {
         count: usize,
     },
     /// The number of segments of a tessellation is 0.
-    #[error("expected at least 1 segment per side, found 0")]
+    #[error("expected at least 1 segment for each side of a patch, found 0")]
     NoSegments,
     /// The tessellation would have more elements than there are 32-bit ids. A count that exceeds 64 bits is
     /// replaced by the largest 64-bit number.

@@ -134,7 +134,7 @@ impl CachedRun for Session<'_> {
             }
             Err((path, why)) => {
                 self.notes.push(format!(
-                    "the result of step {number} {label} is not stored, because the input files of the step cannot be determined ({}: {why})",
+                    "the result of step {number} {label} is not stored in the cache, because the input files of the step cannot be determined ({}: {why})",
                     path.display()
                 ));
                 // Later steps can still be cached, because the identity of the scene after this step is computed from
@@ -194,7 +194,7 @@ impl CachedRun for Session<'_> {
                     record.scene = None;
                     let why = rerun_reason(why);
                     self.notes.push(format!(
-                        "the scene after step {index} cannot be loaded: {why}"
+                        "the scene after step {index} cannot be loaded from the cache: {why}"
                     ));
                     position.load_failure = Some(why);
                 }
@@ -361,7 +361,7 @@ impl<'a> Session<'a> {
     fn store_scene(&mut self, scene: &Scene, number: usize, label: &str) -> Option<SceneRef> {
         let bytes = estimated_bytes(scene);
         let why = if !is_dense(scene) {
-            "it has removed elements"
+            "a mesh of the scene contains removed elements"
         } else if !is_worth_storing(bytes, self.unstored_time) {
             "storing the scene would take longer than computing it again"
         } else {
@@ -370,7 +370,7 @@ impl<'a> Session<'a> {
         if !why.is_empty() {
             let size = op::readable_bytes(bytes);
             self.notes.push(format!(
-                "the scene after step {number} {label} ({size}) is not stored: {why}"
+                "the scene after step {number} {label} ({size}) is not stored in the cache: {why}"
             ));
             return None;
         }

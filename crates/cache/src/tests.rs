@@ -228,7 +228,7 @@ fn only_the_changed_step_and_later_steps_run_again() {
     assert_eq!(place.ran(&last), [(10, why.clone())]);
     place.run(&ten(|_| 1.5));
     let ninth = ten(|i| if i == 9 { 2.5 } else { 1.5 });
-    let after = "step 9 lift9 ran again".to_owned();
+    let after = "the earlier step 9 lift9 ran again".to_owned();
     assert_eq!(place.ran(&ninth), [(9, why), (10, after)]);
     // Now the cache contains the results of both versions of the recipe.
     place.runs_nothing(&ten(|_| 1.5));
@@ -241,7 +241,7 @@ fn recipes_with_the_same_steps_share_their_results() {
     let and = |more| steps(&format!("Sheet(columns: 4), Lift(by: 1), {more}"));
     place.run(&and(""));
     place.recipe = Some(place.path("other.ron"));
-    let why = "it has not run before".to_owned();
+    let why = "the step has not run before".to_owned();
     assert_eq!(place.ran(&and("Lift(by: 3)")), [(3, why)]);
 }
 
@@ -268,11 +268,11 @@ fn a_change_of_any_key_ingredient_runs_a_step_again() {
         ),
         (
             base.replace("columns: 3", "columns: 4"),
-            "step 2 Sheet ran again",
+            "the earlier step 2 Sheet ran again",
         ),
         (
             base.replacen("Sheet(columns: 2), ", "", 1),
-            "step 1 Sheet ran again",
+            "the earlier step 1 Sheet ran again",
         ),
     ] {
         let place = Place::new();
@@ -296,7 +296,7 @@ fn a_different_budget_or_program_runs_all_steps_again() {
     assert_eq!(ran[0], (1, "the memory budget changed".to_owned()));
     assert_eq!(ran[1].0, 2);
     place.cache = Cache::new(place.path("cache"), u64::MAX, "tests 2");
-    let why = "the program is a different version or build".to_owned();
+    let why = "the last run used a different version or build of the program".to_owned();
     assert_eq!(place.ran(&text), [(1, why.clone()), (2, why)]);
 }
 

@@ -43,7 +43,7 @@ pub(crate) fn caching_for<'a>(cache: &'a Cache, recipe: &'a Path) -> Caching<'a>
 
 /// Returns the text of the warning that the cache cannot be used.
 pub(crate) fn warning(problem: &str) -> String {
-    format!("warning: {problem}; continuing without the cache\n")
+    format!("warning: {problem}; the program continues without the cache\n")
 }
 
 /// Returns the version of the program and the digest of its executable file, so that results of an earlier build are

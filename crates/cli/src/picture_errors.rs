@@ -137,7 +137,7 @@ impl Pictures {
             let n = drawn.further;
             let failures = counted(n, "failure");
             print_error(&format!(
-                "warning: only the first {MAX_PICTURES} failures are drawn, not the {failures} after them\n"
+                "warning: at most {MAX_PICTURES} pictures of failures are written, so no picture shows the last {failures}\n"
             ));
         }
     }

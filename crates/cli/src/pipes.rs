@@ -47,7 +47,9 @@ pub(crate) fn read_recipe() -> anyhow::Result<Source> {
 /// Fails if the path is `-`. `command` is the name of the command, which accepts only files.
 pub(crate) fn refuse(path: &Path, command: &str) -> anyhow::Result<()> {
     if is_pipe(path) {
-        let message = format!("`{command}` cannot use standard input or output: name a file");
+        let message = format!(
+            "`{command}` cannot use standard input or output: write the path of a file instead of `-`"
+        );
         return Err(WrongUsage(message).into());
     }
     Ok(())
@@ -73,7 +75,9 @@ pub(crate) fn mesh_name(
             "{option} applies only to `-`: the extension of {} determines its format",
             path.display()
         ),
-        (true, None) => format!("`-` needs a format: add {option}, such as {option} obj"),
+        (true, None) => format!(
+            "`-` has no extension that determines a format: add the format, such as {option} obj"
+        ),
         (true, Some(format)) => {
             let extension = format.trim_start_matches('.').to_ascii_lowercase();
             let name = PathBuf::from(format!("{pipe}.{extension}"));

@@ -352,7 +352,7 @@ pub enum KeysError {
         message: String,
     },
     /// Two actions have the same key.
-    #[error("the key {0} is used for {1:?} and for {2:?}")]
+    #[error("the key {0} is assigned to two actions: {1:?} and {2:?}")]
     Twice(String, Action, Action),
 }
 

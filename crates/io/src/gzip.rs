@@ -50,7 +50,7 @@ pub(crate) fn unpacked(path: &Path, bytes: Vec<u8>, most: u64) -> Result<Vec<u8>
     read.map_err(|why| error(format!("the compressed content is damaged: {why}")))?;
     if out.len() as u64 > most {
         let message = format!(
-            "the content is larger than {} when decompressed, which exceeds the memory budget",
+            "the decompressed content of the file is larger than the memory budget of {}",
             mesh::readable_bytes(most)
         );
         return Err(error(message));

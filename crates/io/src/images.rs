@@ -346,7 +346,7 @@ impl<'a> Copies<'a> {
             Some(real) if !real.starts_with(&root) => Err(WriteError::Scene {
                 path: self.path.to_path_buf(),
                 message: format!(
-                    "the image folder {} leads out of the folder of the file through a link",
+                    "the image folder {} must be inside the folder of the written file, but a symbolic link leads out of that folder",
                     folder.display()
                 ),
             }),

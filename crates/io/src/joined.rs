@@ -143,7 +143,7 @@ fn appended(
         let part = domain_lengths(mesh);
         for (domain, name) in all.append(len, &attributes, part) {
             let reason = format!(
-                "object `{}` has this attribute with a different type",
+                "object `{}` has an attribute of the same name with a different type",
                 object.name
             );
             losses.add(domain, &name, n_values(mesh, domain), reason);

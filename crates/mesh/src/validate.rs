@@ -12,10 +12,12 @@ pub enum Defect {
     #[error("the array `{0}` has the wrong length")]
     Length(&'static str),
     /// The mesh has more elements than there are ids.
-    #[error("the mesh has more elements than there are ids")]
+    #[error("the mesh has more elements than there are 32-bit ids")]
     TooMany,
     /// An entry of an array refers to an element that does not exist or is dead.
-    #[error("`{array}` of {element} refers to a missing element")]
+    #[error(
+        "the entry of the array `{array}` for {element} refers to an element that does not exist"
+    )]
     Dangling {
         /// The array.
         array: &'static str,
@@ -26,10 +28,10 @@ pub enum Defect {
     #[error("{0} must be the `next` of exactly one half-edge")]
     NextNotPermutation(HalfEdgeId),
     /// `next` lies on a different face.
-    #[error("the `next` of {0} lies on a different face")]
+    #[error("the half-edge {0} and its `next` half-edge lie on different faces")]
     NextOnOtherFace(HalfEdgeId),
     /// The origin of `next` is not the target of the half-edge.
-    #[error("the `next` of {0} does not start where {0} ends")]
+    #[error("the `next` half-edge of the half-edge {0} does not start where {0} ends")]
     NextNotConnected(HalfEdgeId),
     /// Both ends of an edge are the same vertex.
     #[error("{0} starts and ends at the same vertex")]
@@ -41,10 +43,12 @@ pub enum Defect {
     #[error("{0} has fewer than three corners")]
     FewCorners(FaceId),
     /// The half-edge stored at a face lies on a different face, or the half-edges of the face form several loops.
-    #[error("the half-edges of {0} do not form one loop that contains the half-edge stored at {0}")]
+    #[error(
+        "the half-edges of the face {0} must form one loop, and the half-edge stored at {0} must be in this loop"
+    )]
     FaceHalfEdge(FaceId),
     /// The half-edge stored at a vertex leaves a different vertex, or a vertex with edges stores no half-edge.
-    #[error("the half-edge stored at {0} is missing or does not leave {0}")]
+    #[error("the half-edge stored at the vertex {0} is missing or does not start at {0}")]
     VertexHalfEdge(VertexId),
     /// The half-edge stored at a boundary vertex has a face.
     #[error(
@@ -52,14 +56,16 @@ pub enum Defect {
     )]
     NotBoundaryFirst(VertexId),
     /// Walking around a vertex does not reach all of its outgoing half-edges, or meets more than one gap.
-    #[error("the faces around {0} do not form a single fan")]
+    #[error("the faces around the vertex {0} do not form a single fan")]
     SeveralFans(VertexId),
     /// A coordinate of a position is infinite or not a number.
-    #[error("the position of {0} is not finite")]
+    #[error("the position of the vertex {0} is not finite")]
     NotFinite(VertexId),
     /// The length of an attribute column differs from the number of elements in its domain (vertices, edges, faces or
     /// corners).
-    #[error("the {domain} attribute {name} has the wrong length")]
+    #[error(
+        "the {domain} attribute `{name}` must have one value for each {domain}, but has more or fewer"
+    )]
     ColumnLength {
         /// The domain.
         domain: Domain,

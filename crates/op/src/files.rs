@@ -33,7 +33,7 @@ pub enum FileError {
     )]
     Placeholder(String, String, String),
     /// The output path leads out of the output folder through a symbolic link.
-    #[error("\"{0}\" leads out of the output folder through a link")]
+    #[error("the output path \"{0}\" leads out of the output folder through a symbolic link")]
     Link(String),
 }
 

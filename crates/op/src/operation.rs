@@ -132,7 +132,7 @@ impl<T: MeshOperation> Operation for T {
             let is_target = |on: &[String]| on.iter().any(|target| target == name);
             if cx.on.is_some_and(is_target) {
                 let message = format!(
-                    "`{parameter}` must name an object that the step does not act on, but `on` names \"{name}\" too"
+                    "`{parameter}` and `on` both name \"{name}\", but the step must not act on the object that `{parameter}` names"
                 );
                 problems.push(Problem::error(message).at([parameter]));
             }

@@ -130,7 +130,7 @@ impl<'a> Source<'a> {
         let bytes = self.counts.bytes().min;
         if bytes > cx.budget {
             let message = format!(
-                "the mesh takes {}, but the memory budget is {}",
+                "the mesh needs {} of memory, but the memory budget is {}",
                 readable_bytes(bytes),
                 readable_bytes(cx.budget)
             );

@@ -513,7 +513,9 @@ pub fn run_step(
         (Err(OpError::Cancelled), _) => Err(None),
         (Ok(report), None) => Ok((report, None)),
         (Ok(_), Some(expected)) => {
-            let message = format!("expected the refusal {expected:?}, but the step succeeded");
+            let message = format!(
+                "expected the step to be refused with the reason {expected:?}, but the step succeeded"
+            );
             error(message, &[])
         }
         (
@@ -531,8 +533,9 @@ pub fn run_step(
             help: found.help(),
         })),
         (Err(found), Some(expected)) => {
-            let message =
-                format!("expected the refusal {expected:?}, but the step failed: {found}");
+            let message = format!(
+                "expected the step to be refused with the reason {expected:?}, but the step failed for another reason: {found}"
+            );
             error(message, found.places())
         }
     }

@@ -135,14 +135,15 @@ fn find_fix<'t>(
         .get(unmet.expectation)
         .ok_or(NOT_RECORDED)?;
     if recipe.source_of(placed.scope) != 0 {
-        let help = "the expectation is in a called recipe, so it is not updated";
+        let help = "the expectation belongs to a called recipe, and expectations of called recipes are not updated";
         return Err(help.to_owned());
     }
     let value = expectation_at(tree, placed.span).ok_or(NOT_RECORDED)?;
     let fix = fix(value, unmet.found.as_ref())?;
     let is_same = |turn: &UnmetExpectation| turn.found == unmet.found;
     if !turns.iter().all(|turn| turn.is_some_and(is_same)) {
-        let help = "the repetitions give different values, so the expectation is not updated";
+        let help =
+            "the repetitions of the step give different values, so the expectation is not updated";
         return Err(help.to_owned());
     }
     Ok((value, fix))
@@ -282,7 +283,7 @@ fn number_text(value: &Value) -> Result<&str, String> {
 fn not_from_parameter(value: &Value) -> Result<(), String> {
     match &value.kind {
         ValueKind::Call(call) if &*call.name.text == "arg" => Err(format!(
-            "the value comes from {value}, so it is not updated"
+            "the expected value comes from a parameter, {value}, so the expectation is not updated"
         )),
         _ => Ok(()),
     }

@@ -45,7 +45,7 @@ pub fn compare(
     let (mut found, mut expected) = (Frames::new(found, 0)?, Frames::new(expected, 1)?);
     let [[width, height], [w, h]] = [&expected, &found].map(|f| f.reader.info().size().into());
     if [w, h] != [width, height] {
-        let message = format!("expected {width} x {height} pixels, found {w} x {h}");
+        let message = format!("expected a picture of {width} x {height} pixels, found {w} x {h}");
         return Ok(Some(message));
     }
     let [n, n_found] = [&expected, &found].map(Frames::count);
@@ -57,8 +57,9 @@ pub fn compare(
         let (found, expected) = (found.next()?, expected.next()?);
         if found.control != expected.control {
             let number = frame + 1;
-            let message =
-                format!("image {number} has a different position, duration or blend mode");
+            let message = format!(
+                "image {number} of the animation has another position, duration or blend mode than expected"
+            );
             return Ok(Some(message));
         }
         let width = expected.width.max(1);

@@ -33,7 +33,7 @@ pub(crate) fn banners(ui: &mut Ui, parts: &mut Parts, colors: &Colors) {
     }
     if let Some(recovery) = parts.files.recovery() {
         let name = recovery.path.file_name().unwrap_or_default().display();
-        let message = format!("The last session ended before {name} was saved.");
+        let message = format!("The editor closed before {name} was saved.");
         frame(colors.accent).show(ui, |ui| {
             ui.horizontal_wrapped(|ui| {
                 ui.label(message);

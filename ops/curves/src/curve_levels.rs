@@ -37,7 +37,7 @@ fn too_large(n: u64, budget: u64) -> Option<String> {
     let needed = bytes(n);
     (needed > budget).then(|| {
         format!(
-            "the levels of a curve with {n} control points need {}, which exceeds the memory budget of {}",
+            "the levels of a curve with {n} control points need {} of memory, which exceeds the memory budget of {}",
             op::readable_bytes(needed),
             op::readable_bytes(budget)
         )

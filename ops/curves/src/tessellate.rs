@@ -159,7 +159,7 @@ impl Tessellate {
         if counts.corners > u64::from(max) {
             let corners = counts.corners;
             let message = format!(
-                "\"{name}\" would have {corners} face corners, but a mesh has at most {max}"
+                "\"{name}\" would have {corners} face corners, but a mesh can have at most {max}"
             );
             return Err(OpError::Parameter(message));
         }

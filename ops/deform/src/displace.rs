@@ -187,7 +187,7 @@ fn image(path: &str, files: &Files, budget: u64) -> Result<Vec<u8>, OpError> {
     let needed = Heights::DECODING_BYTES * u64::from(width) * u64::from(height);
     if needed > budget {
         return Err(OpError::Budget(format!(
-            "\"{path}\" needs {}, which exceeds the memory budget of {}",
+            "the image \"{path}\" needs {} of memory, which exceeds the memory budget of {}",
             op::readable_bytes(needed),
             op::readable_bytes(budget)
         )));

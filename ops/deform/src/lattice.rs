@@ -55,7 +55,7 @@ impl Lattice {
         let outside = |point: &[u32; 3]| point.iter().zip([x, y, z]).any(|(&i, n)| i >= n);
         let ([i, j, k], _) = self.moves.iter().find(|(point, _)| outside(point))?;
         Some(format!(
-            "`moves` has the control point ({i}, {j}, {k}), but `size` is ({x}, {y}, {z}) and indices start at 0"
+            "`moves` names the control point ({i}, {j}, {k}), which does not exist: `size` is ({x}, {y}, {z}), and indices start at 0"
         ))
     }
 

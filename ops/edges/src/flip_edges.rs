@@ -137,7 +137,7 @@ impl MeshOperation for FlipEdges {
             n => {
                 let edges = counted(n, "seam edge");
                 report.note(format!(
-                    "flipped {edges}; each new corner took the values that the other face had at the same vertex"
+                    "flipped {edges}; the new corner of each face took the attribute values of the other face's corner at the same vertex"
                 ))
             }
         })

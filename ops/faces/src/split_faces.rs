@@ -77,7 +77,8 @@ impl SplitFaces {
                 .clone()
                 .find_map(|(v, w)| plan.missing_vertex_message(*v.max(w)));
             let twice = |(v, w)| {
-                (v == w).then(|| format!("a cut needs two different vertices, found {v} twice"))
+                (v == w)
+                    .then(|| format!("a cut needs two different vertices, found vertex {v} twice"))
             };
             missing.or_else(|| cuts.find_map(|&cut| twice(cut)))
         };

@@ -125,7 +125,7 @@ impl Operation for Load {
             let bytes = object.as_mesh().map_or(0, |mesh| mesh.bytes() as u64);
             if bytes > cx.budget {
                 let message = format!(
-                    "\"{}\" needs {}, which exceeds the memory budget of {}",
+                    "the object \"{}\" needs {} of memory, which exceeds the memory budget of {}",
                     object.name,
                     op::readable_bytes(bytes),
                     op::readable_bytes(cx.budget)

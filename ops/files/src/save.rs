@@ -90,7 +90,9 @@ impl Operation for Save {
         }
         problems.extend(save_plan::plan(self, plan, cx));
         if plan.objects().is_empty() && !plan.incomplete {
-            problems.push(Problem::error("no objects to save at this point"));
+            problems.push(Problem::error(
+                "the scene has no objects to save at this point of the recipe",
+            ));
         }
         problems
     }

@@ -69,7 +69,7 @@ impl MeshOperation for Stitch {
             self.on_refusal.refuse(refused, &mut report)?;
         }
         if pairs.is_empty() {
-            return Ok(report.note("no pairs of coinciding boundary edges"));
+            return Ok(report.note("there are no pairs of coinciding boundary edges to join"));
         }
         let edit = |mesh: &mut Mesh, [h, g]: [HalfEdgeId; 2]| {
             // The pair may already have been joined, as a result of joining neighboring pairs.

@@ -145,7 +145,7 @@ impl Operation for Measure {
             let n = found.map_or(0, |found| found.n);
             let (without, value) = (values.len() - n, readable(missing));
             let what = format!(
-                "\"{object}\": elements that get the value {value}, because {name} is not defined there"
+                "\"{object}\": elements that get the value {value}, because {name} is not defined for them"
             );
             report = report.count(&what, without);
             report.changed += n as u64;

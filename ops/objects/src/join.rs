@@ -218,7 +218,7 @@ impl Join {
         let budget = cx.budget;
         if bytes as u64 > budget {
             let message = format!(
-                "the result takes {}, but the memory budget is {}",
+                "the joined mesh needs {} of memory, but the memory budget is {}",
                 op::readable_bytes(bytes as u64),
                 op::readable_bytes(budget)
             );
@@ -311,7 +311,7 @@ fn placed(
     let bytes = bytes.fold(0_u64, |sum, mesh| sum.saturating_add(mesh.bytes() as u64));
     if bytes > cx.budget {
         let message = format!(
-            "the instances take {}, but the memory budget is {}",
+            "the instances of the objects need {} of memory, but the memory budget is {}",
             op::readable_bytes(bytes),
             op::readable_bytes(cx.budget)
         );

@@ -160,12 +160,13 @@ impl CurveFigure {
         }
         if n_panels > MAX_PANELS as u64 {
             let message = format!(
-                "expected at most {MAX_PANELS} panels, one for each curve and each `t` (and each level), found {n_panels}"
+                "expected at most {MAX_PANELS} panels in the figure, found {n_panels}: a curve has one panel for each `t` or, with `by_level`, one panel for each level of each `t`"
             );
             problems.push(Problem::error(message).at(["t"]));
         } else if n_points > MAX_POINTS as u64 {
-            let message =
-                format!("expected at most {MAX_POINTS} points in all panels, found {n_points}");
+            let message = format!(
+                "expected at most {MAX_POINTS} points in all panels of the figure together, found {n_points}"
+            );
             problems.push(Problem::error(message).at(["t"]));
         }
         problems

@@ -197,8 +197,9 @@ impl Picture {
     /// Draws scenes side by side at the same scale. Each scene has a caption, which can be empty. Returns one image, or
     /// the images of a turntable, and notes about parts of the scene that are not drawn.
     ///
-    /// If `within` is given, [`Camera::Fit`] shows all of this extent, and the colors of quantities use the color range
-    /// of the extent. The images then have no legend, because the scenes have a [common legend](Extent::legend).
+    /// If `within` is given, [`Camera::Fit`] shows the region of this [`Extent`] instead of only the drawn scenes, and
+    /// quantities are colored with the color range of the extent. The images then have no legend, because the caller
+    /// draws one [common legend](Extent::legend) for all scenes.
     ///
     /// # Errors
     ///
@@ -237,8 +238,9 @@ impl Picture {
         Ok((images.map_err(op_error)?, notes))
     }
 
-    /// Returns the [`Extent`] of a scene, so that several scenes can be drawn in the same way without being in memory
-    /// at the same time.
+    /// Returns the [`Extent`] of a scene: its view and its color range. With the joined extents of several scenes, the
+    /// scenes can be drawn one after the other in the same view, scale and colors, and need not be in memory at the
+    /// same time.
     ///
     /// # Errors
     ///
@@ -438,7 +440,7 @@ fn placed<'s>(scene: &'s Scene, cx: &Context) -> Result<Cow<'s, Scene>, OpError>
     let bytes = scene.placed_bytes();
     if !scene.graph().is_empty() && bytes > cx.budget {
         let message = format!(
-            "the instances take {}, but the memory budget is {}",
+            "the instances of the objects need {} of memory, but the memory budget is {}",
             op::readable_bytes(bytes),
             op::readable_bytes(cx.budget)
         );

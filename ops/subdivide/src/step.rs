@@ -204,7 +204,7 @@ impl Step<'_> {
                 return Ok(format!("{levels}; {measure} {}", readable(value)));
             }
             let state = format!(
-                "after level {level}, {measure} {}, expected less than {}",
+                "after subdivision level {level}, {measure} {}, expected less than {}",
                 readable(value),
                 readable(below)
             );
@@ -318,7 +318,7 @@ fn loss_notes(mesh: &Mesh, scheme: Scheme) -> Vec<String> {
         let names: Vec<&str> = columns.iter().map(|c| c.name.as_str()).collect();
         let names = names.join(", ");
         notes.push(format!(
-            "inner edges lose their values ({names}), because every inner edge is flipped"
+            "inner edges lose the values of their attributes ({names}), because the sqrt(3) scheme flips every inner edge"
         ));
     }
     notes

@@ -143,7 +143,7 @@ fn notes(counts: &Counts) -> Report {
         return report;
     }
     report.note(format!(
-        "improvements refused in the last pass: {}",
+        "improvements that were refused in the last pass, by reason: {}",
         refused.join(", ")
     ))
 }
@@ -229,7 +229,7 @@ impl MeshOperation for Remesh {
             Err(RemeshError::TooFar { reached, limit }) => {
                 let mut report = Report::default();
                 let message = format!(
-                    "the distance between the original and the new surface could be {}, which is above the allowed error {}",
+                    "the distance between the original and the new surface could be as large as {}, which exceeds the allowed error of {}",
                     readable(reached),
                     readable(limit)
                 );

@@ -223,7 +223,7 @@ impl MeshOperation for Simplify {
         if before as u64 <= goal {
             let faces = counted(before, "face");
             report = report.note(format!(
-                "a mesh of {faces} does not change, because the requested number is {goal}"
+                "a mesh of {faces} does not change, because it does not have more faces than the requested number, {goal}"
             ));
         }
         if after < before {
@@ -246,7 +246,7 @@ pub(crate) fn note_quantities(mesh: &Mesh, report: &mut Report) {
     let names: Vec<&str> = columns.filter(is_quantity).map(|c| &*c.name).collect();
     if !names.is_empty() {
         report.notes.push(format!(
-            "attributes whose changes count as changes of the surface: {}",
+            "attributes whose changes count toward the error, like changes of the shape: {}",
             names.join(", ")
         ));
     }
@@ -333,7 +333,9 @@ mod tests {
         let (_, report) = try_applied(&step("(faces: 99)"), shapes::icosahedron()).unwrap();
         assert_eq!(
             report.notes,
-            ["a mesh of 20 faces does not change, because the requested number is 99"]
+            [
+                "a mesh of 20 faces does not change, because it does not have more faces than the requested number, 99"
+            ]
         );
         let triangle = vec![mesh::DVec3::ZERO, mesh::DVec3::X, mesh::DVec3::Y];
         let triangle = Mesh::from_polygons(triangle, &[[0, 1, 2]]).unwrap().0;
@@ -358,7 +360,8 @@ mod tests {
             mesh.insert_column(Domain::Vertex, Column { name, rule, values });
         }
         let (_, report) = try_applied(&step("(faces: 12)"), mesh.clone()).unwrap();
-        let note = "attributes whose changes count as changes of the surface: curvature";
+        let note =
+            "attributes whose changes count toward the error, like changes of the shape: curvature";
         assert_eq!(report.notes, [note]);
         let (_, report) = try_applied(&step("(faces: 20)"), mesh).unwrap();
         assert!(!report.notes.contains(&note.to_owned()));

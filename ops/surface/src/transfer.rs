@@ -183,7 +183,7 @@ impl Transfer {
                     && old.values.type_name() != column.values.type_name()
                 {
                     let message = format!(
-                        "the {domain} attribute \"{name}\" of \"{}\" has values of the type \"{}\", but the existing attribute has the type \"{}\"",
+                        "the {domain} attribute \"{name}\" of \"{}\" has values of the type \"{}\", but the existing attribute of the same name has the type \"{}\"",
                         self.from,
                         column.values.type_name(),
                         old.values.type_name()
@@ -212,7 +212,7 @@ fn missing<'a>(from: &str, name: &str, known: impl Iterator<Item = (Domain, &'a 
     } else {
         known.join(", ")
     };
-    format!("\"{from}\" has no attribute \"{name}\"; it has: {known}")
+    format!("\"{from}\" has no attribute \"{name}\"; its attributes: {known}")
 }
 
 const fn plural(domain: Domain) -> &'static str {

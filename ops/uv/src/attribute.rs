@@ -74,7 +74,7 @@ pub(crate) fn set(mesh: &mut Mesh, uv: &str, uvs: Vec<DVec2>, report: &mut Repor
     for (domain, name) in outdated {
         mesh.remove_column(domain, &name);
         report.notes.push(format!(
-            "removed `{name}`, the changes of `{uv}` by a morph target"
+            "removed the attribute `{name}`, which stores how a morph target changes `{uv}`"
         ));
     }
 }

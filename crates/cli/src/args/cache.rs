@@ -23,14 +23,15 @@ pub(crate) struct CacheArgs {
 /// The location of the cache.
 #[derive(Debug, ClapArgs)]
 pub(crate) struct CacheFolder {
-    /// The folder of the step cache; defaults to the folder `meshwright` in the user's cache folder
+    /// The folder of the step cache, which stores the results of steps for later runs; defaults to the folder
+    /// `meshwright` in the user's cache folder
     #[arg(long, env = "MESHWRIGHT_CACHE", value_name = "DIR")]
     pub(crate) cache: Option<PathBuf>,
 }
 
 #[derive(Debug, ClapArgs)]
 pub(crate) struct CacheCommandArgs {
-    /// The action
+    /// What to do with the cache
     #[arg(value_enum, default_value_t)]
     pub(crate) action: CacheAction,
     #[command(flatten)]

@@ -63,7 +63,7 @@ pub(crate) struct DiffArgs {
     /// Largest allowed difference between two positions or two attribute values
     #[arg(long, value_name = "X", default_value_t = 0.0, value_parser = not_negative)]
     pub(crate) tolerance: f64,
-    /// Compare two runs; the files contain the output of `meshwright run --format json`
+    /// Compare two runs. Each file must contain the output of `meshwright run --format json`
     #[arg(long)]
     pub(crate) runs: bool,
     #[command(flatten)]

@@ -42,8 +42,8 @@ impl ManyArgs {
 
 Folders are searched recursively, except hidden folders and folders named `assets`. Two kinds of recipes
 are read and listed, but not run and not counted as passed: recipes without expectations, and recipes that
-other tested recipes call. An error in the text of such a recipe is a failure. A recipe whose own path
-is given is run even if other recipes call it."
+other tested recipes call. If the text of such a recipe has an error, the recipe counts as failed. A
+recipe is run even if other recipes call it, if its own path is given on the command line."
 )]
 pub(crate) struct TestArgs {
     /// Recipes, or folders of recipes
@@ -63,8 +63,8 @@ pub(crate) struct TestArgs {
     /// Output format
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: Format,
-    /// Replace recorded values in the recipes (eq, is, Bounds, Digest) with the actual values, and reference files of
-    /// `Output` with the written files
+    /// Update the expectations in the recipes: replace the expected values (eq, is, Bounds, Digest) with the actual
+    /// values, and replace the reference files of `Output` with the written files
     #[arg(long)]
     pub(crate) update: bool,
     #[command(flatten)]
@@ -91,8 +91,8 @@ pub(crate) struct BatchArgs {
     #[arg(long, value_name = "PATTERN", num_args = 1.., required_unless_present_any = ["merge", "sets"])]
     pub(crate) inputs: Vec<String>,
     /// A file with parameter sets, as a JSON list of objects such as [{"levels": 1}, {"levels": 2}]. The recipe runs
-    /// once for each set or, with --inputs, for each combination of a set and an input file. The outputs are in a
-    /// folder named after the number of the set
+    /// once for each set or, with --inputs, for each combination of a set and an input file. The outputs of each set
+    /// are in a folder named after the number of the set
     #[arg(long, value_name = "FILE.json")]
     pub(crate) sets: Option<PathBuf>,
     /// The parameter that receives the input file; required if the recipe has several parameters of type Path
@@ -112,8 +112,8 @@ pub(crate) struct BatchArgs {
     /// Also write the results as JUnit XML, with a test case for each input file
     #[arg(long, value_name = "FILE")]
     pub(crate) junit: Option<PathBuf>,
-    /// Divide the input files into N parts, and process only part I. The part of a file depends only on its path and,
-    /// with --sets, on the number of its parameter set
+    /// Divide the input files into N parts, and process only part I. To which part a file belongs depends only on the
+    /// path of the file and, with --sets, on the number of the parameter set
     #[arg(long, value_name = "I/N")]
     pub(crate) shard: Option<Shard>,
     /// Estimate the memory that each of N parts of the batch needs, and run nothing

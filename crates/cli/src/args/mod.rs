@@ -77,14 +77,14 @@ pub(crate) enum Command {
     },
     /// Print the JSON schema of recipes
     Schema,
-    /// Rewrite outdated names in recipes; comments and layout are kept
+    /// Replace outdated names (such as renamed parameters) in recipes; comments and layout are kept
     Upgrade(UpgradeArgs),
     /// Check that files are reproducible: run their recipes again and compare the bytes
     ///
     /// An output file records the recipe, the parameters and the inputs that it was made from. The command searches for
     /// this recipe below the working directory.
     Reproduce(ReproduceArgs),
-    /// Reduce a failing step to a minimal mesh
+    /// Reduce the scene before a failing step to a small scene for which the step still fails
     Shrink(ShrinkArgs),
     /// Show or clear the step cache
     Cache(CacheCommandArgs),
@@ -120,7 +120,8 @@ pub(crate) struct WebArgs {
 
 #[derive(Debug, ClapArgs)]
 pub(crate) struct NewArgs {
-    /// The name of the recipe, or of a model that the recipe loads: `part` and `part.obj` both write `part.ron`
+    /// The name of the recipe, or of a model that the recipe loads. With `part` or `part.obj`, the command writes
+    /// `part.ron`
     pub(crate) name: PathBuf,
 }
 
@@ -150,7 +151,7 @@ pub(crate) struct InfoArgs {
     /// The format of standard input, such as `obj` or `obj.gz`
     #[arg(long, value_name = "FORMAT")]
     pub(crate) from: Option<String>,
-    /// Also show a small picture, drawn with pixels if the terminal supports them, and otherwise with characters
+    /// Also show a small picture: an image if the terminal can display images, and otherwise a drawing of characters
     #[arg(long)]
     pub(crate) picture: bool,
     #[command(flatten)]
@@ -210,7 +211,7 @@ pub(crate) struct ConvertArgs {
 pub(crate) struct NewOpArgs {
     /// The name of the operation in camel case, such as `InflateFaces`
     pub(crate) name: String,
-    /// Write a file into this group of operations, such as `faces`, instead of a crate
+    /// Write a file into this group of operations, such as `faces`, instead of writing a new crate
     #[arg(long = "in", value_name = "GROUP")]
     pub(crate) group: Option<String>,
     /// The folder to write the crate to; with `--in`, the root of Meshwright's workspace
@@ -240,7 +241,7 @@ fn bits(text: &str) -> Result<Quantization, String> {
             "color" => &mut bits.color,
             _ => {
                 return Err(format!(
-                    "expected position, normal, uv or color, found `{name}`"
+                    "expected the attribute position, normal, uv or color, found `{name}`"
                 ));
             }
         };

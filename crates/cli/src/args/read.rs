@@ -8,8 +8,8 @@ use serde::de::{DeserializeOwned, IntoDeserializer};
 /// Options of the commands that read a mesh file.
 #[derive(Debug, ClapArgs)]
 pub(crate) struct ReadArgs {
-    /// Fail if data would be lost: if the reader would leave out a part of the file or, with `convert`, if the written
-    /// file would not store everything
+    /// Fail if the reader would leave out a part of the file. With `convert`, also fail if the written file would not
+    /// store everything
     #[arg(long)]
     pub(crate) strict: bool,
     /// How non-manifold edges and vertices are read: Split (copy vertices until the faces form a manifold) or Refuse

@@ -10,7 +10,7 @@ pub(crate) struct ValueArgs {
     /// Set a parameter of the recipe; can be repeated
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,
-    /// Use the values of one of the recipe's presets; --set overrides them
+    /// Use a preset, which is a named set of parameter values in the recipe; values given with --set take precedence
     #[arg(long, value_name = "NAME")]
     pub(crate) preset: Option<String>,
 }

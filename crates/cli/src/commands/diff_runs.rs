@@ -70,7 +70,7 @@ impl Run {
         let mut has_end = false;
         for (i, line) in text.lines().enumerate() {
             let event: Json = serde_json::from_str(line).map_err(|error| {
-                let help = "record a run with `meshwright run RECIPE --format json`";
+                let help = "to record a run, write the output of `meshwright run RECIPE --format json` to a file";
                 WrongUsage(format!(
                     "{shown}:{}: not an event of a run: {error}; {help}",
                     i + 1
@@ -100,7 +100,7 @@ impl Run {
             }
         }
         if !has_end {
-            let help = "record a run with `meshwright run RECIPE --format json`";
+            let help = "to record a run, write the output of `meshwright run RECIPE --format json` to a file";
             let message = format!(
                 "{shown} is not a complete record of a run: the event `end` is missing; {help}"
             );

@@ -151,7 +151,7 @@ fn detail(entry: &Entry) -> String {
     );
     if entry.takes_on {
         text += &format!(
-            "\nActs on all objects of a suitable kind. To choose them by name: (on: [\"name\"], run: {}(..))\n",
+            "\nThe operation acts on all objects of a suitable kind. To choose objects by name, write (on: [\"name\"], run: {}(..))\n",
             entry.name
         );
     }

@@ -183,7 +183,7 @@ impl Rerun {
                 let at = at.unwrap_or(bytes.len().min(output.len()));
                 let (now, then) = (stamp::digest(&Disk, path)?, stamp::digest(&Disk, file)?);
                 print_error(&format!(
-                    "  digest {now}, expected {then}; the first different byte is byte {at}\n"
+                    "  the new file has the digest {now}, expected {then}; the first difference is at byte {at}, counted from 0\n"
                 ));
             }
             None => print_error("  the recipe writes no file with these bytes or this name\n"),
@@ -211,7 +211,7 @@ impl Rerun {
         let [then, here] = [&stamp.recipe, &now.recipe];
         if then != here {
             reasons.push(format!(
-                "the recipe has changed: its digest was {then}, now {here}"
+                "the recipe has changed: its digest was {then} and is now {here}"
             ));
         }
         let inputs = |stamp: &Stamp| stamp.run.clone().unwrap_or_default().inputs;

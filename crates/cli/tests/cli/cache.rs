@@ -53,14 +53,14 @@ fn a_run_explains_why_a_step_ran() {
     folder
         .run("run recipe.ron --explain")
         .with_code(0)
-        .prints(&["1 Torus: ran because it has not run before\n"]);
+        .prints(&["1 Torus: ran because the step has not run before\n"]);
     folder
         .run("run recipe.ron --explain --set levels=2")
         .with_code(0)
         .prints(&[
             "2 Triangulate: cached\n",
             "3 smooth: ran because parameters changed: levels 1 -> 2\n",
-            "4 Save: ran because step 3 smooth ran again\n",
+            "4 Save: ran because the earlier step 3 smooth ran again\n",
         ]);
     folder
         .run("run recipe.ron --explain --no-cache")

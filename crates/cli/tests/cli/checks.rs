@@ -181,7 +181,7 @@ fn attributes_that_files_and_other_objects_do_not_have() {
     refuses(
         &folder,
         "Cube(), Torus(), Transfer(from: \"cube\", attributes: [\"uv\"])",
-        &["\"cube\" has no attribute \"uv\"; it has: none"],
+        &["\"cube\" has no attribute \"uv\"; its attributes: none"],
     );
 }
 

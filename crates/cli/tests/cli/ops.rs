@@ -28,7 +28,7 @@ fn one_operation_is_shown_with_its_parameters() {
         "  at: number above 0 and below 1, defaults to 0.5\n",
         "  on_refusal: ",
         "`meshwright ops --selections` lists the selections.",
-        "To choose them by name: (on: [\"name\"], run: SplitEdges(..))\n",
+        "To choose objects by name, write (on: [\"name\"], run: SplitEdges(..))\n",
         "Example: SplitEdges(",
     ]);
     Folder::new().run("ops Repeat").with_code(0).prints(&[

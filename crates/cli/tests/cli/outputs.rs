@@ -228,7 +228,7 @@ fn a_link_does_not_lead_out_of_the_folder_of_the_recipe() {
     folder
         .run("test recipe.ron --update")
         .with_code(1)
-        .complains(&["leads out of the recipe's folder through a link"]);
+        .complains(&["leads out of the recipe's folder through a symbolic link"]);
     assert_eq!(names(other.path()), [""; 0]);
 }
 

@@ -348,7 +348,7 @@ fn at_most_20_failures_of_a_run_are_drawn() {
         .run("run r.ron --picture-errors=e")
         .with_code(1)
         .complains(&[
-            "warning: only the first 20 failures are drawn, not the 10 failures after them\n",
+            "warning: at most 20 pictures of failures are written, so no picture shows the last 10 failures\n",
         ]);
 
     assert_eq!(folder.entries("e").len(), 20);

@@ -147,7 +147,7 @@ fn the_format_of_a_pipe_must_be_named() {
     };
     refused(
         "info -",
-        "`-` needs a format: add --from, such as --from obj",
+        "`-` has no extension that determines a format: add the format, such as --from obj",
     );
     refused("convert in.obj -", "`-` needs a format: add --to");
     refused("info - --from xyz", "--from xyz: expected one of obj, gltf");

@@ -192,7 +192,7 @@ fn a_missing_recipe_and_one_that_is_not_text_are_one_line_of_error() {
 #[test]
 fn a_recipe_of_a_newer_version_is_refused() {
     fails(&Folder::with_recipe("(recipe: 2, stages: [])")).complains(&[
-        "error: this recipe has version 2, expected 1\n",
+        "error: this recipe has the format version 2, expected 1\n",
         "recipe.ron:1:10\n",
         "help: a newer version of meshwright may be able to read the file\n",
     ]);
@@ -220,7 +220,7 @@ fn a_link_does_not_lead_out_of_the_output_folder() {
     folder
         .run("run recipe.ron")
         .with_code(1)
-        .complains(&["leads out of the output folder through a link"]);
+        .complains(&["leads out of the output folder through a symbolic link"]);
     assert_eq!(folder.entries("elsewhere"), ["b.obj"]);
 }
 
@@ -259,7 +259,7 @@ fn a_step_refused_for_the_expected_reason_passes() {
         ])"#,
     );
     fails(&folder).complains(&[
-        "error: expected the refusal Seam, but the step failed: ",
+        "error: expected the step to be refused with the reason Seam, but the step failed for another reason: ",
         "recipe.ron:4:19\n",
     ]);
 }

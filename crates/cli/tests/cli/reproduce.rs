@@ -93,10 +93,10 @@ fn changes_since_the_run_are_reported() {
         "scenes/r.ron",
         RECIPE.replace("Int(default: 1)", "Int(default: 3)"),
     );
-    folder.run("reproduce out/a.obj").with_code(1).complains(&[
-        "the first different byte is byte ",
-        "the recipe has changed",
-    ]);
+    folder
+        .run("reproduce out/a.obj")
+        .with_code(1)
+        .complains(&["the first difference is at byte ", "the recipe has changed"]);
     let folder = folder.with("scenes/r.ron", RECIPE);
     let text = String::from_utf8(folder.read("out/a.obj")).unwrap();
     let folder = folder.with("out/a.obj", text.replacen("v ", "v 1", 1));

@@ -66,7 +66,7 @@ fn the_table_has_a_row_for_each_cell_and_the_last_parameter_changes_fastest() {
         "cell  levels  around  Vertices",
         "\n1          0       8        48",
         "\n6          1       4        96",
-        "6 cells; 1 expectation of the recipe not checked: write `expect: true` in the sweep to check them\n",
+        "6 cells; the sweep did not check 1 expectation of the recipe: to check expectations, write `expect: true` in the sweep file\n",
     ]);
     // Outputs are only written with --keep-outputs.
     assert_eq!(folder.entries("."), ["a.sweep.ron", "recipe.ron"]);
@@ -235,7 +235,7 @@ fn invalid_sweeps_are_refused_with_a_reason() {
         ),
         (
             format!("(sweep: 2, recipe: \"recipe.ron\", {keep})"),
-            "this sweep has version 2, expected 1",
+            "this sweep has the format version 2, expected 1",
         ),
         (
             format!("(sweep: 1, recipe: \"broken.ron\", {keep})"),

@@ -44,7 +44,7 @@ fn a_newer_recipe_is_refused_and_the_next_one_is_upgraded() {
         .with_code(1)
         .prints(&["2 recipes, nothing to rewrite\n"])
         .complains(&[
-            "this recipe has version 7, expected 1",
+            "this recipe has the format version 7, expected 1",
             "a newer version of meshwright may be able to read the file",
             "error: a.ron cannot be upgraded\n",
         ]);

@@ -63,10 +63,12 @@ pub enum CommandError {
         message: String,
     },
     /// The scene at the step cursor is not known, because the run has not ended or has failed.
-    #[error("the scene at the cursor is not known: wait until the run ends, or correct the recipe")]
+    #[error(
+        "the scene at the step cursor is not known: wait until the run ends or, if the run failed, correct the recipe"
+    )]
     NoScene,
     /// The object is neither a curve nor patches, or does not exist.
-    #[error("\"{0}\" is not a curve or patches of the scene at the cursor")]
+    #[error("the scene at the step cursor has no curve and no patches with the name \"{0}\"")]
     NoControlPoints(String),
     /// The text cannot be edited.
     #[error(transparent)]

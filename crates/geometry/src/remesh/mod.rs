@@ -186,7 +186,7 @@ pub enum RemeshError {
     },
     /// The result would be too far from the original.
     #[error(
-        "the distance between the original and the new surface could be {}, which is above the allowed error {}",
+        "the distance between the original and the new surface could be as large as {}, which exceeds the allowed error of {}",
         readable(*.reached), readable(*.limit)
     )]
     TooFar {

@@ -83,7 +83,7 @@ fn check_size(text: &str) -> Result<(), Fault> {
                 in_tag += usize::from(matches!(value, Some(b'"' | b'\'')));
                 if in_tag > MAX_ATTRIBUTES {
                     let message = format!(
-                        "expected at most {MAX_ATTRIBUTES} attributes in an element, found more"
+                        "expected at most {MAX_ATTRIBUTES} attributes in an XML element, found more"
                     );
                     return Err(place_at(text, at).error(message));
                 }
@@ -93,8 +93,9 @@ fn check_size(text: &str) -> Result<(), Fault> {
                 let is_end = |b: &u8| matches!(b, b'=' | b' ' | b'\t' | b'\r' | b'\n');
                 prefixes.insert(rest.split(is_end).next());
                 if prefixes.len() > MAX_NAMESPACES {
-                    let message =
-                        format!("expected at most {MAX_NAMESPACES} namespaces, found more");
+                    let message = format!(
+                        "expected at most {MAX_NAMESPACES} XML namespaces in the file, found more"
+                    );
                     return Err(place_at(text, at).error(message));
                 }
             }
@@ -246,7 +247,7 @@ impl<'a> Document<'a> {
             let id = quoted(id.as_bytes());
             error_at(
                 node,
-                format!("expected {id} to refer to {kinds}, found {found}"),
+                format!("expected {id} to refer to {kinds}, but {id} refers to {found}"),
             )
         })
     }

@@ -208,7 +208,8 @@ impl<'a, 'd> Geometries<'a, 'd> {
             let offset = natural(input, "offset")?
                 .ok_or_else(|| error_at(input, "expected an attribute `offset`"))?;
             if offset > 1000 {
-                let message = format!("expected an offset of at most 1000, found {offset}");
+                let message =
+                    format!("expected the attribute `offset` to be at most 1000, found {offset}");
                 return Err(error_at(input, message));
             }
             stride = stride.max(offset + 1);

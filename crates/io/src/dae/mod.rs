@@ -222,7 +222,8 @@ fn note_asset(document: &Document, notes: &mut Notes) -> Result<(), Fault> {
     let up = axis.map_or("Y_UP", text);
     if meter != 1.0 || up != "Y_UP" {
         let up = up.chars().take(20).collect::<String>();
-        let what = format!("coordinate system kept as in the file: up_axis {up}, unit {meter} m");
+        let what =
+            format!("coordinate system kept as in the file: up_axis {up}, one unit is {meter} m");
         notes.changed("coordinate-system", 1, unit.or(axis).map(line), what);
     }
     Ok(())

@@ -216,7 +216,9 @@ impl<'a, 'd> Walk<'a, 'd> {
                 geometry => return Ok(geometry),
             }
         }
-        let message = format!("expected a chain of at most {MAX_DEPTH} controllers");
+        let message = format!(
+            "expected a chain of at most {MAX_DEPTH} controllers, found a longer chain or a cycle"
+        );
         Err(error_at(instance, message))
     }
 

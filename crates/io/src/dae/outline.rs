@@ -79,8 +79,9 @@ impl Shape {
             outline.lists.push(indices);
             if !outline.indices.len().is_multiple_of(stride) {
                 let n = outline.indices.len();
-                let message =
-                    format!("expected {stride} indices for each corner, found {n} in total");
+                let message = format!(
+                    "expected {stride} indices for each corner, but the total number of indices, {n}, is not a multiple of {stride}"
+                );
                 return Err(error_at(indices, message));
             }
             starts.push(outline.indices.len() / stride);
@@ -95,8 +96,9 @@ impl Shape {
                 outline.order = (0..n).collect();
                 outline.degrees = vec![3; n / 3];
                 if !n.is_multiple_of(3) {
-                    let message =
-                        format!("expected 3 corners for each triangle, found {n} in total");
+                    let message = format!(
+                        "expected 3 corners for each triangle, but the total number of corners, {n}, is not a multiple of 3"
+                    );
                     return Err(error_at(list, message));
                 }
                 n / 3
@@ -109,7 +111,7 @@ impl Shape {
                 let corners = degrees.iter().map(|&d| u64::from(d)).sum::<u64>();
                 if corners != n as u64 {
                     let message = format!(
-                        "expected indices of {corners} corners according to <vcount>, found {n}"
+                        "expected indices of {corners} corners (the sum of the numbers in <vcount>), found indices of {n} corners"
                     );
                     return Err(error_at(counts, message));
                 }

@@ -53,7 +53,7 @@ pub(super) fn vectors(
     let components = components(accessor, names)?;
     if components.len() < least {
         let message = format!(
-            "expected at least {least} components, found {}",
+            "expected an accessor with at least {least} components, found {}",
             components.len()
         );
         return Err(error_at(accessor, message));
@@ -80,7 +80,8 @@ pub(super) fn vectors(
     }
     let last = components.iter().max().map_or(0, |last| last + 1);
     if last > stride {
-        let message = format!("expected a stride of at least {last}, found {stride}");
+        let message =
+            format!("expected the stride of the accessor to be at least {last}, found {stride}");
         return Err(error_at(accessor, message));
     }
     let end = match count.checked_sub(1) {

@@ -103,7 +103,9 @@ impl Reader<'_> {
         let (kind, component) = kinds(accessor, &here)?;
         if kind != expected {
             let (expected, found) = (type_name(expected), type_name(kind));
-            let message = format!("expected {expected} for {pointer}, found {found}");
+            let message = format!(
+                "expected the accessor of {pointer} to have the type {expected}, found {found}"
+            );
             return Err(Fault::json(format!("{here}/type"), message));
         }
         let size = component.size();
@@ -320,8 +322,9 @@ impl Reader<'_> {
             .collect();
         let count = accessor.count.0;
         if let Some(target) = targets.iter().find(|&&target| u64::from(target) >= count) {
-            let message =
-                format!("refers to element {target}, but the accessor has {count} elements");
+            let message = format!(
+                "a sparse index refers to element {target}, but the accessor has only {count} elements"
+            );
             return Err(Fault::json(at, message));
         }
         let (at, view) = (format!("{here}/values"), values.buffer_view.value());

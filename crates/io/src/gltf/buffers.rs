@@ -67,7 +67,9 @@ pub(super) fn container(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Fault> {
     let length = word(8)?;
     if length > bytes.len() {
         let n = bytes.len();
-        let message = format!("the header declares {length} bytes, but the file has {n} bytes");
+        let message = format!(
+            "the header declares a file of {length} bytes, but the file has only {n} bytes"
+        );
         return Err(Fault::byte(8, message));
     }
     let mut chunks = Vec::new();

@@ -90,7 +90,7 @@ pub(super) fn joints(
                 let joint = index(joint);
                 if let Some(count) = deformers.joints.filter(|&count| joint >= count) {
                     let message = format!(
-                        "element {v} refers to joint {joint}, but the skin has {count} joints"
+                        "element {v} of the accessor refers to joint {joint}, but the skin has only {count} joints"
                     );
                     return Err(Fault::json(joints_at.clone(), message));
                 }
@@ -105,7 +105,7 @@ pub(super) fn joints(
     let bytes = (used.len() as u64).saturating_mul(n as u64 * 8);
     if !reader.budget.has(2 * bytes) {
         let what = format!(
-            "joints left out: their weights need {bytes} bytes, too many for a file of this size"
+            "joints left out: their weights need {bytes} bytes, which exceeds the memory limit for a file of this size"
         );
         *repairs.left_out.entry(what).or_default() += used.len();
         return Ok(Vec::new());
@@ -175,7 +175,7 @@ pub(super) fn morphs(
     let bytes = (deformers.targets as u64).saturating_mul(n as u64 * 24);
     if !reader.budget.has(2 * bytes) {
         let what = format!(
-            "morph targets left out: their deltas need {bytes} bytes, too many for a file of this size"
+            "morph targets left out: their deltas need {bytes} bytes, which exceeds the memory limit for a file of this size"
         );
         *repairs.left_out.entry(what).or_default() += deformers.targets;
         return Ok(Vec::new());
@@ -284,7 +284,7 @@ impl Directions {
         let bytes = (self.targets.len() as u64).saturating_mul((n * size_of::<T>()) as u64);
         if !reader.budget.has(2 * bytes) {
             let what = format!(
-                "attributes {semantic} of morph targets left out: they need {bytes} bytes, too many for a file of this size"
+                "attributes {semantic} of morph targets left out: they need {bytes} bytes, which exceeds the memory limit for a file of this size"
             );
             *repairs.left_out.entry(what).or_default() += self.targets.len();
             return Ok(Vec::new());

@@ -189,7 +189,7 @@ fn attribute_bytes(
     );
     if found != (expected, components) {
         return Err(format!(
-            "the accessor has {components} numbers of type {expected:?}, but the Draco stream has {} of type {:?}",
+            "an element of the accessor has {components} numbers of type {expected:?}, but in the Draco stream it has {} of type {:?}",
             found.1, found.0
         ));
     }

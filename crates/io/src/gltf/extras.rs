@@ -8,7 +8,7 @@ use crate::error::Unwritable;
 pub(super) fn parsed(text: &str) -> Result<Value, Unwritable> {
     serde_json::from_str(text).map_err(|why| {
         Unwritable::scene(format!(
-            "expected JSON as extras or as a part of a node: {why}"
+            "expected the glTF data in the scene (such as extras or cameras) to be valid JSON: {why}"
         ))
     })
 }

@@ -124,8 +124,8 @@ impl<'a> ValueChanges<'a> {
         let bytes = (self.columns.len() as u64).saturating_mul((n * size_of::<DVec4>()) as u64);
         if !reader.budget.has(2 * bytes) {
             let what = format!(
-                "texture coordinates and colors of morph targets left out: they need {bytes} bytes, too many for a \
-                 file of this size"
+                "texture coordinates and colors of morph targets left out: they need {bytes} bytes, which exceeds the memory \
+                 limit for a file of this size"
             );
             *repairs.left_out.entry(what).or_default() += self.columns.len();
             return Ok(Vec::new());

@@ -46,7 +46,9 @@ impl<'a> PreparedObject<'a> {
         let mut split = split(mesh, &streams);
         if split.n >= u32::MAX as usize {
             let (max, n) = (u32::MAX, split.n);
-            let message = format!("expected fewer than {max} vertices, found {n}");
+            let message = format!(
+                "a mesh in a glTF file must have fewer than {max} vertices, but this mesh needs {n}"
+            );
             return Err(Unwritable::object(&object.name, message));
         }
         for stream in &streams {

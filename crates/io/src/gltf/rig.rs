@@ -104,13 +104,15 @@ impl<'a, 'r> RigReader<'a, 'r> {
         let here = format!("/accessors/{accessor}");
         if matrices.len() < skin.joints.len() {
             let (expected, found) = (skin.joints.len(), matrices.len());
-            let message =
-                format!("expected at least {expected} elements, one for each joint, found {found}");
+            let message = format!(
+                "expected at least {expected} inverse bind matrices, one for each joint, found {found}"
+            );
             return Err(Fault::json(here, message));
         }
         let is_affine = |m: &[f32; 16]| [3, 7, 11, 15].map(|k| m[k]) == [0.0, 0.0, 0.0, 1.0];
         if let Some(k) = matrices.iter().position(|m| !is_affine(m)) {
-            let message = format!("expected 0, 0, 0, 1 as the last row of matrix {k}");
+            let message =
+                format!("expected the last row of inverse bind matrix {k} to be 0, 0, 0, 1");
             return Err(Fault::json(here, message));
         }
         Ok(Some(array))
@@ -198,7 +200,9 @@ impl<'a, 'r> RigReader<'a, 'r> {
             Some("STEP") => Interpolation::Step,
             Some("CUBICSPLINE") => Interpolation::CubicSpline,
             Some(other) => {
-                let message = format!("expected LINEAR, STEP or CUBICSPLINE, found {other:?}");
+                let message = format!(
+                    "expected the interpolation LINEAR, STEP or CUBICSPLINE, found {other:?}"
+                );
                 return Err(Fault::json(format!("{here}/interpolation"), message));
             }
         };
@@ -242,7 +246,7 @@ struct LostChannels {
 
 impl LostChannels {
     fn note(self, notes: &mut Notes) {
-        let what = "animation channels left out: the node is not in the scene";
+        let what = "animation channels left out: the animated node is not in the scene";
         notes.left_out("animations", self.nodes, None, what);
         let what = "animation channels left out: the property is not part of glTF 2.0";
         notes.left_out("animations", self.properties, None, what);

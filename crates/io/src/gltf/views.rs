@@ -76,7 +76,7 @@ impl Reader<'_> {
         range().ok_or_else(|| {
             let n = bytes.len();
             let message =
-                format!("the view declares {length} bytes from byte {start}, but buffer {buffer} has {n} bytes");
+                format!("the buffer view declares {length} bytes from byte {start}, but buffer {buffer} has only {n} bytes");
             Fault::json(format!("{at}/byteLength"), message)
         })
     }
@@ -96,8 +96,9 @@ impl Reader<'_> {
         let stride = view.byte_stride.map_or(0, |stride| stride.0);
         let stride = if stride == 0 { size } else { stride };
         if stride < size {
-            let message =
-                format!("expected at least the size {size} of an element, found {stride}");
+            let message = format!(
+                "expected a byte stride of at least {size}, the size of an element, found {stride}"
+            );
             return Err(Fault::json(format!("{at}/byteStride"), message));
         }
         // The view is allowed to end directly after the last row, even if the stride exceeds the size of a row.

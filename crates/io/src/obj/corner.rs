@@ -86,7 +86,7 @@ fn index(
         if relative < 0 && limit.is_some() {
             let defined = counted(count, noun);
             let message = format!(
-                "the corner refers to {noun} {written}, but the file defines {defined} before this line"
+                "the corner refers to {noun} {written}, but the file defines only {defined} before this line"
             );
             return Err(place.error(message));
         }

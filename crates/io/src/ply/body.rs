@@ -152,7 +152,9 @@ fn transcoded(
         let rows = element.rows;
         if !cursor.has_room(rows, element.properties.len()) {
             let (lines, rest) = (counted(rows, "line"), counted(cursor.remaining(), "byte"));
-            let message = format!("expected {lines} of {element}, but only {rest} follow");
+            let message = format!(
+                "expected {lines} of {element}, but the rest of the file is too short for them ({rest})"
+            );
             return Err(cursor.place().error(message));
         }
         let wanted = wanted(element);

@@ -188,7 +188,8 @@ impl Header {
             return Err(place.error(format!("element {} is declared twice", quoted(word))));
         }
         if self.elements.len() == MAX_ELEMENTS {
-            let message = format!("expected at most {MAX_ELEMENTS} elements, found more");
+            let message =
+                format!("expected a header with at most {MAX_ELEMENTS} elements, found more");
             return Err(place.error(message));
         }
         self.elements.push(Element {
@@ -226,7 +227,8 @@ impl Header {
             return Err(place.error(message));
         }
         if n_properties == MAX_PROPERTIES {
-            let message = format!("expected at most {MAX_PROPERTIES} properties, found more");
+            let message =
+                format!("expected a header with at most {MAX_PROPERTIES} properties, found more");
             return Err(place.error(message));
         }
         element.properties.push(Property {

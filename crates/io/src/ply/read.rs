@@ -105,7 +105,8 @@ impl Reader<'_, '_> {
         let (i, found) = non_finite.unwrap_or_default();
         let (row, axis) = (i / 3, i % 3);
         let name = ["x", "y", "z"][axis];
-        let message = format!("expected a finite number `{name}`, found {found}");
+        let message =
+            format!("expected the coordinate `{name}` to be a finite number, found {found}");
         let place = (roles.vertex, roles.position[axis], row, 0);
         Err(self.body.error(self.tables, place, message))
     }

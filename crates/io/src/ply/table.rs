@@ -64,7 +64,7 @@ impl<'a> Table<'a> {
         let least = shortest.checked_mul(*rows);
         if least.is_none_or(|least| least > bytes.len()) {
             let message = format!(
-                "expected {} of {element} with at least {} each, found {}",
+                "expected {} of {element} with at least {} each, but the rest of the file has only {}",
                 counted(*rows, "row"),
                 counted(shortest, "byte"),
                 counted(bytes.len(), "byte")
@@ -236,7 +236,8 @@ fn scanned(
             };
             let rest = all.len() - end;
             if n as usize > rest / size {
-                let message = format!("expected {n} values of {size} bytes, found {rest} bytes");
+                let message =
+                    format!("expected {n} values of {size} bytes each, found only {rest} bytes");
                 return Err(error(message));
             }
             at = end + n as usize * size;

@@ -66,7 +66,7 @@ fn kind(bytes: &[u8]) -> Result<Kind, Fault> {
     let (Some(length), Some(count)) = (length, binary::count(bytes)) else {
         let least = binary::START;
         let message = format!(
-            "expected `solid` or a binary file with at least {least} bytes, found {n_bytes} bytes"
+            "expected text that begins with `solid`, or a binary file of at least {least} bytes, found a file of {n_bytes} bytes"
         );
         return Err(Fault::byte(0, message));
     };

@@ -85,7 +85,7 @@ const BROKEN: &[(&str, &str, &str)] = &[
     (
         "stride=\"3\"",
         "stride=\"2\"",
-        "expected a stride of at least 3, found 2",
+        "expected the stride of the accessor to be at least 3, found 2",
     ),
     (
         "stride=\"3\"",
@@ -100,17 +100,17 @@ const BROKEN: &[(&str, &str, &str)] = &[
     (
         "<param name=\"Z\"/>",
         "",
-        "expected at least 3 components, found 2",
+        "expected an accessor with at least 3 components, found 2",
     ),
     (
         "source=\"#a\"",
         "source=\"#b\"",
-        "expected `b` to refer to <float_array> or <int_array>, found nothing",
+        "expected `b` to refer to <float_array> or <int_array>, but `b` refers to nothing",
     ),
     (
         "source=\"#a\"",
         "source=\"#s\"",
-        "expected `s` to refer to <float_array> or <int_array>, found source",
+        "expected `s` to refer to <float_array> or <int_array>, but `s` refers to source",
     ),
     (
         "source=\"#v\" offset=\"0\"",
@@ -150,12 +150,12 @@ const BROKEN: &[(&str, &str, &str)] = &[
     (
         "2 2 3 3<",
         "2 2 3<",
-        "expected 2 indices for each corner, found 7 in total",
+        "expected 2 indices for each corner, but the total number of indices, 7, is not a multiple of 2",
     ),
     (
         "2 2 3 3<",
         "2 2<",
-        "11:50: <vcount>: expected indices of 4 corners according to <vcount>, found 3",
+        "11:50: <vcount>: expected indices of 4 corners (the sum of the numbers in <vcount>), found indices of 3 corners",
     ),
     (
         "<vcount>4<",
@@ -197,7 +197,7 @@ const BROKEN: &[(&str, &str, &str)] = &[
     (
         "url=\"#vs\"",
         "url=\"#g\"",
-        "expected `g` to refer to <visual_scene>, found geometry",
+        "expected `g` to refer to <visual_scene>, but `g` refers to geometry",
     ),
     (
         "<instance_geometry url=\"#g\"/>",

@@ -163,7 +163,7 @@ fn coordinates_are_unchanged_and_the_unit_is_noted() {
         .replace("Y_UP", "Z_UP");
     assert_eq!(
         notes(&text),
-        ["Some(3): 1 coordinate system kept as in the file: up_axis Z_UP, unit 0.0254 m"]
+        ["Some(3): 1 coordinate system kept as in the file: up_axis Z_UP, one unit is 0.0254 m"]
     );
     assert_same(loaded(&text).objects[0].as_mesh().unwrap(), &shapes::cube());
 }

@@ -225,7 +225,7 @@ fn errors_in_buffers_and_uris_name_the_pointer() {
             "/bufferViews/0/byteStride",
             json!(4),
             "/bufferViews/0/byteStride",
-            "at least the size 12",
+            "at least 12, the size of an element",
         ),
         (
             "/buffers/0/byteLength",

@@ -65,7 +65,7 @@ fn invalid_parts_are_errors_that_name_their_place() {
         }),
         (
             "/accessors/6",
-            "expected at least 3 elements, one for each joint, found 2",
+            "expected at least 3 inverse bind matrices, one for each joint, found 2",
             |j| {
                 j["accessors"][6]["count"] = json!(2);
             },
@@ -119,7 +119,10 @@ fn repairs_and_left_out_parts_are_counted() {
     assert_eq!(found.len(), 3, "{found:?}");
     assert!(found[0].starts_with("4 nodes left out: not in the scene"));
     assert!(found[1].starts_with("1 skin left out: a joint is not in the scene"));
-    assert!(found[2].starts_with("3 animation channels left out: the node is not in the scene"));
+    assert!(
+        found[2]
+            .starts_with("3 animation channels left out: the animated node is not in the scene")
+    );
     let found = notes(|j| j["animations"][0]["channels"][0]["target"]["path"] = json!("pointer"));
     assert!(
         found[0].starts_with("1 animation channel left out: the property"),

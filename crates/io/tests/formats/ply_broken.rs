@@ -199,7 +199,7 @@ fn counts_of_lists_must_be_valid() {
     );
     assert_error(
         binary(&ints(&[i32::MAX, 0, 1, 2])),
-        &format!("byte {at}: expected 2147483647 values of 4 bytes, found 12 bytes"),
+        &format!("byte {at}: expected 2147483647 values of 4 bytes each, found only 12 bytes"),
     );
     assert_error(
         text(CORNERS, "-3 0 1 2\n"),
@@ -221,7 +221,7 @@ fn files_that_end_too_early_are_refused() {
     );
     assert_error(
         &whole[..whole.len() - 1],
-        "expected 3 values of 4 bytes, found 11 bytes",
+        "expected 3 values of 4 bytes each, found only 11 bytes",
     );
     assert_error(
         text("0 0 0\n1 0 0\n", ""),
@@ -268,7 +268,7 @@ fn positions_must_be_finite() {
     bytes[at..at + 4].copy_from_slice(&f32::NAN.to_le_bytes());
     assert_error(
         bytes,
-        &format!("byte {at}: expected a finite number `y`, found NaN"),
+        &format!("byte {at}: expected the coordinate `y` to be a finite number, found NaN"),
     );
 }
 

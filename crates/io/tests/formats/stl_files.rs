@@ -359,7 +359,7 @@ fn counts_that_the_file_cannot_hold_are_refused_at_once() {
     );
     assert_error(
         b"",
-        " byte 0: expected `solid` or a binary file with at least 84 bytes, found 0 bytes",
+        " byte 0: expected text that begins with `solid`, or a binary file of at least 84 bytes, found a file of 0 bytes",
     );
     assert_error(
         &binary(&[FLAT, NEXT])[..180],

@@ -69,7 +69,9 @@ pub enum BuildError {
     #[error("the position of vertex {0} is not finite")]
     NotFinite(usize),
     /// The mesh could have more elements than there are ids.
-    #[error("a mesh with up to {0} {1} would be too large: the highest id is 2^32 - 2")]
+    #[error(
+        "the mesh could have up to {0} {1}, which is too many: the highest possible id is 2^32 - 2"
+    )]
     TooLarge(usize, &'static str),
     /// The offsets do not divide the corners into polygons.
     #[error(
@@ -91,7 +93,7 @@ pub enum BuildError {
     )]
     NonManifoldEdge([VertexId; 2]),
     /// The polygons around this vertex form several fans. Returned only if non-manifold input is refused.
-    #[error("the faces are not a manifold: {0} joins faces that are not connected by edges")]
+    #[error("the faces are not a manifold: edges do not connect all faces around the vertex {0}")]
     NonManifoldVertex(VertexId),
 }
 

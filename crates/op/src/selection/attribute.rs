@@ -39,8 +39,9 @@ pub fn check_component(
 ) -> Result<usize, OpError> {
     let (name, values) = (&column.name, &column.values);
     if let Values::Tag(_) = values {
-        let message =
-            format!("the {domain} attribute \"{name}\" is a tag: write `Tagged(\"{name}\")`");
+        let message = format!(
+            "the {domain} attribute \"{name}\" is a tag, which has no numbers: to select its elements, write `Tagged(\"{name}\")`"
+        );
         return Err(OpError::Parameter(message));
     }
     let n = values.n_components();
@@ -77,7 +78,7 @@ fn missing<S: Select>(mesh: &Mesh, name: &str) -> OpError {
             .collect();
         let other = kind.word();
         return refused(format!(
-            "\"{name}\" is an attribute of {other}, but {word} are selected: write {}",
+            "\"{name}\" is an attribute of {other}, but a selection of {word} is needed: write {}",
             ways.join(" or ")
         ));
     }
@@ -89,6 +90,6 @@ fn missing<S: Select>(mesh: &Mesh, name: &str) -> OpError {
         known => known.join(", "),
     };
     refused(format!(
-        "no attribute of {word} is named \"{name}\"; attributes: {known}"
+        "no attribute of {word} is named \"{name}\"; attributes of {word} with numbers: {known}"
     ))
 }

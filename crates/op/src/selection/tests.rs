@@ -123,11 +123,11 @@ fn wrong_attributes_are_refused_with_help() {
     for (text, expected) in [
         (
             "Where(attribute: \"walls\", below: 2)",
-            "no attribute of vertices is named \"walls\"; attributes: flow, wall",
+            "no attribute of vertices is named \"walls\"; attributes of vertices with numbers: flow, wall",
         ),
         (
             "Where(attribute: \"kind\", below: 2)",
-            "\"kind\" is an attribute of faces, but vertices are selected: write `CornersOf(Where(attribute: \"kind\", ..))`",
+            "\"kind\" is an attribute of faces, but a selection of vertices is needed: write `CornersOf(Where(attribute: \"kind\", ..))`",
         ),
         (
             "Where(attribute: \"wall\")",
@@ -147,7 +147,7 @@ fn wrong_attributes_are_refused_with_help() {
         ),
         (
             "CornersOf(Where(attribute: \"mark\", below: 2))",
-            "the face attribute \"mark\" is a tag: write `Tagged(\"mark\")`",
+            "the face attribute \"mark\" is a tag, which has no numbers: to select its elements, write `Tagged(\"mark\")`",
         ),
     ] {
         assert_eq!(message(text), expected);

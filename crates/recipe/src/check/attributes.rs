@@ -126,7 +126,9 @@ impl Attributes {
         let lacking = self.lacking(plan, placed.on.as_deref(), domain, name);
         if let Some((object, help)) = lacking {
             let kind = domain.map_or(String::new(), |domain| format!("{domain} "));
-            let message = format!("\"{object}\" has no {kind}attribute \"{name}\" at this point");
+            let message = format!(
+                "\"{object}\" has no {kind}attribute \"{name}\" at this point of the recipe"
+            );
             found.push(Diagnostic::error(placed.span, message).with_help(help));
         }
     }

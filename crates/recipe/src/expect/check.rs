@@ -79,7 +79,7 @@ impl Expectation {
                 if *expected == found {
                     return Ok(());
                 }
-                let message = format!("expected the digest {expected}, found {found}");
+                let message = format!("expected the scene to have the digest {expected}, found {found}");
                 Err(Violation::with_actual(message, ActualValue::Digest(found)))
             }
             Self::Output {

@@ -38,7 +38,7 @@ pub(crate) fn golden(files: &Files, path: &str) -> Result<PathBuf, Violation> {
         .all(|c| matches!(c, Component::Normal(_)));
     if !is_plain || path.contains(['\\', ':', '\0']) {
         let message = format!(
-            "the path \"{path}\" must stay inside the recipe's folder: no \"..\", no absolute path"
+            "the path \"{path}\" must stay inside the recipe's folder: use a relative path without \".\", \"..\", \"\\\" and \":\""
         );
         return Err(message.into());
     }
@@ -54,9 +54,9 @@ pub(crate) fn golden(files: &Files, path: &str) -> Result<PathBuf, Violation> {
         output: input,
         ..files.clone()
     };
-    beside
-        .check_links(relative)
-        .map_err(|_| format!("\"{path}\" leads out of the recipe's folder through a link"))?;
+    beside.check_links(relative).map_err(|_| {
+        format!("the path \"{path}\" leads out of the recipe's folder through a symbolic link")
+    })?;
     let full = files.to_read(path);
     match files.store.entry(&full) {
         _ if files.store.is_link(&full) => Err(format!("\"{path}\" is a link, not a file").into()),
@@ -176,7 +176,7 @@ fn compare(written: &Path, golden: &Path, subject: Subject) -> Result<(), Violat
         let then = reader.scene(golden, files)?;
         let [now, then] = digests((written, &now), (golden, then))?;
         return fails_unless(now == then, || {
-            format!("expected objects with the digest {then}, found {now}")
+            format!("expected the objects in the file to have the digest {then}, found {now}")
         });
     }
     let bytes = |path: &Path| {
@@ -191,7 +191,7 @@ fn compare(written: &Path, golden: &Path, subject: Subject) -> Result<(), Violat
     Err(Violation::unmet(match at {
         Some(at) => {
             let line = then[..at].split(|b| *b == b'\n').count();
-            format!("the first difference is at byte {at}, in line {line}")
+            format!("the first difference is at byte {at} (counted from 0), in line {line}")
         }
         None => format!("expected {} bytes, found {}", then.len(), now.len()),
     }))

@@ -29,7 +29,7 @@ impl<'a> PlacedSubject<'a> {
         let bytes = scene.placed_bytes();
         if bytes > MAX_BYTES {
             return Err(format!(
-                "the instances of all objects need {}, expected at most {}",
+                "the instances of all objects need {} of memory, expected at most {}",
                 op::readable_bytes(bytes),
                 op::readable_bytes(MAX_BYTES)
             )

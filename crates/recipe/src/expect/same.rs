@@ -256,7 +256,7 @@ pub(super) fn check(
     let Some(map) = PositionIndex::new(mesh).matching(other, |v| other.position(v), tolerance)
     else {
         return Err(Violation::unmet(format!(
-            "the vertices do not match those of the other mesh (tolerance: {tolerance})"
+            "the vertices of the two meshes are not at the same positions (tolerance: {tolerance})"
         )));
     };
     if connectivity && !same_faces(mesh, other, &map, false) {

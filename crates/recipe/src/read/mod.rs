@@ -123,7 +123,7 @@ pub(crate) fn wrong_version(root: &Value, kind: &str, expected: i128) -> Option<
         return None;
     };
     let found = number.to_int().filter(|&found| found != expected)?;
-    let message = format!("this {kind} has version {found}, expected {expected}");
+    let message = format!("this {kind} has the format version {found}, expected {expected}");
     let help = if found > expected {
         "a newer version of meshwright may be able to read the file"
     } else {
@@ -288,7 +288,9 @@ impl<'s, 'a> Reader<'s, 'a> {
         let problem = match numbers(text) {
             None => format!("expected a version such as \"{here}\", found \"{text}\""),
             Some(needed) if Some(&needed) > numbers(here).as_ref() => {
-                format!("this recipe needs meshwright {text}, but this is version {here}")
+                format!(
+                    "this recipe needs meshwright {text}, but this program has the version {here}"
+                )
             }
             Some(_) => return,
         };

@@ -37,7 +37,9 @@ impl Reader<'_, '_> {
                     self.parameters.insert(name.to_owned(), parameter);
                 }
                 Err(problem) => {
-                    let message = format!("the default of `{name}` is not allowed: {problem}");
+                    let message = format!(
+                        "the default value of the parameter `{name}` is not allowed: {problem}"
+                    );
                     self.error(value.span, message, "");
                     self.broken.insert(name.to_owned());
                 }
@@ -75,7 +77,9 @@ impl Reader<'_, '_> {
                 Some(parameter) => match parameter.param.value_from(value, folders) {
                     Ok(value) => found.push((name.to_owned(), value)),
                     Err(problem) => {
-                        let message = format!("this value of `{name}` is not allowed: {problem}");
+                        let message = format!(
+                            "this value of the parameter `{name}` is not allowed: {problem}"
+                        );
                         wrong.push(Diagnostic::error(value.span, message));
                     }
                 },
@@ -135,7 +139,9 @@ impl Reader<'_, '_> {
                     (parameter.value, parameter.origin) = (value, Origin::Set);
                 }
                 Err(problem) => {
-                    let message = format!("the value set for `{name}` is not allowed: {problem}");
+                    let message = format!(
+                        "the value set for the parameter `{name}` is not allowed: {problem}"
+                    );
                     self.diagnostics.push(Diagnostic::without_place(message));
                 }
             }

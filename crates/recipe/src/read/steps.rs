@@ -111,7 +111,7 @@ impl Reader<'_, '_> {
         if let (Some(entry), Some(on)) = (&entry, envelope("on"))
             && !entry.takes_on
         {
-            let help = "the operation names its objects in its parameters, or creates new objects";
+            let help = "remove `on`: the operation creates new objects, or its parameters name the objects that it acts on";
             self.error(on.span, format!("{} does not take `on`", entry.name), help);
         }
         // `check_schema` has reported invalid values.

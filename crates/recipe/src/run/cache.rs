@@ -114,10 +114,10 @@ pub enum RerunReason {
     #[error("no cache is used")]
     NoCache,
     /// The cache has no record of an earlier run of this step.
-    #[error("it has not run before")]
+    #[error("the step has not run before")]
     New,
     /// The program has another version than in the last run, or is another build of the same version.
-    #[error("the program is a different version or build")]
+    #[error("the last run used a different version or build of the program")]
     Program,
     /// The version of the operation changed.
     #[error("the version of the operation changed: {from} -> {to}")]
@@ -143,19 +143,21 @@ pub enum RerunReason {
     #[error("the memory budget changed")]
     Budget,
     /// The paths of the input files are now relative to another folder.
-    #[error("it reads from a different folder")]
+    #[error("file paths in the step are now relative to a different folder")]
     Folder,
     /// An input file changed.
     #[error("the file {} {}", .0.display(), .1)]
     File(PathBuf, FileChange),
     /// The recipe or its parameters changed. The output files of the step record both.
-    #[error("the recipe changed, so the record of the recipe in the output files must be updated")]
+    #[error(
+        "the step's output files record the recipe and its parameters, and one of these changed"
+    )]
     Provenance,
     /// The names of the step's output files changed.
     #[error("the names of the step's output files changed")]
     Outputs,
     /// An earlier step ran again. The values are its number, counted from 1, and its label.
-    #[error("step {0} {1} ran again")]
+    #[error("the earlier step {0} {1} ran again")]
     Earlier(usize, String),
     /// The earlier steps are not the same steps as in the last run.
     #[error("earlier steps changed")]

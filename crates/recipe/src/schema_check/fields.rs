@@ -26,7 +26,7 @@ impl Checker {
             _ => {
                 let help = match &value.kind {
                     ValueKind::Map(_) => {
-                        let help = "write fields in parentheses, and their names without quotes";
+                        let help = "write fields in parentheses, with names without quotes: `(name: value)`";
                         Some(help.to_owned())
                     }
                     _ => with_field_name(value, schema),

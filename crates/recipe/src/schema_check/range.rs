@@ -47,7 +47,7 @@ impl Checker {
         place: Place,
     ) {
         if number.has_base() {
-            let help = "`0x`, `0o` and `0b` are allowed only where a whole number is required";
+            let help = "numbers that begin with `0x`, `0o` or `0b` are allowed only where a whole number is required";
             return self.mismatch(value, "a decimal number", place, Some(help.to_owned()));
         }
         let float = number.to_float();

@@ -277,7 +277,7 @@ impl Sweep {
         if count.is_none_or(|n| n > MAX_CELLS) {
             let lengths: Vec<String> = axes.iter().map(|axis| axis.len().to_string()).collect();
             let message = format!(
-                "the sweep has {} cells, expected at most {MAX_CELLS}",
+                "the sweep has {} cells (combinations of values), expected at most {MAX_CELLS}",
                 lengths.join(" x ")
             );
             let span = self.over.first().or(self.zip.first()).map(|e| e.value.span);

@@ -214,7 +214,7 @@ fn too_many_cells_are_refused_before_they_are_created() {
     ));
     assert_eq!(
         found[0].1,
-        "the sweep has 9999 x 2 cells, expected at most 10000"
+        "the sweep has 9999 x 2 cells (combinations of values), expected at most 10000"
     );
 }
 
@@ -234,7 +234,10 @@ fn errors_in_the_fields_are_reported_as_in_a_recipe() {
     assert!(messages[3].contains("`set`"));
 
     let of = |source: &str| read_sweep(source).diagnostics.remove(0).message;
-    assert_eq!(of("(sweep: 2)"), "this sweep has version 2, expected 1");
+    assert_eq!(
+        of("(sweep: 2)"),
+        "this sweep has the format version 2, expected 1"
+    );
     assert!(of("(sweep: 1, keep: [Faces])").contains("recipe"));
     assert!(of("(sweep: 1, recipe: \"a.ron\", keep: [])").contains("at least 1"));
     assert!(read_sweep("").has_errors() && read_sweep("[").has_errors());

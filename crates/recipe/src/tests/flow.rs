@@ -257,7 +257,7 @@ fn errors_of_a_call_are_reported_where_they_are() {
         [
             (
                 0,
-                "this value of `by` is not allowed: 10 is above the maximum 9"
+                "this value of the parameter `by` is not allowed: 10 is above the maximum 9"
             ),
             (0, "the recipe has no parameter `bye`"),
             (0, missing.as_str()),
@@ -354,7 +354,7 @@ fn every_preset_is_checked_against_the_parameters() {
         [
             (
                 "10",
-                "this value of `n` is not allowed: 10 is above the maximum 9",
+                "this value of the parameter `n` is not allowed: 10 is above the maximum 9",
                 ""
             ),
             (
@@ -364,7 +364,7 @@ fn every_preset_is_checked_against_the_parameters() {
             ),
             (
                 "Area",
-                "this value of `by` is not allowed: expected a number, found `Area`",
+                "this value of the parameter `by` is not allowed: expected a number, found `Area`",
                 ""
             ),
         ]
@@ -408,6 +408,6 @@ fn an_expected_attribute_that_cannot_exist_is_an_error_before_the_run() {
     assert_eq!(found.len(), 1);
     assert_eq!(
         found[0].message,
-        "\"sheet\" has no corner attribute \"uv\" at this point"
+        "\"sheet\" has no corner attribute \"uv\" at this point of the recipe"
     );
 }

@@ -98,13 +98,13 @@ fn a_recipe_with_a_different_version_gives_one_error() {
     has_one_error(
         "(recipe: 2, stages: {\"new\": Things})",
         "2",
-        "this recipe has version 2, expected 1",
+        "this recipe has the format version 2, expected 1",
         "a newer version of meshwright may be able to read the file",
     );
     has_one_error(
         "(recipe: 0, steps: [])",
         "0",
-        "this recipe has version 0, expected 1",
+        "this recipe has the format version 0, expected 1",
         "write 1",
     );
 }
@@ -119,7 +119,7 @@ fn a_recipe_can_need_a_version_of_the_program() {
     has_one_error(
         &needs("99.1"),
         "\"99.1\"",
-        &format!("this recipe needs meshwright 99.1, but this is version {here}"),
+        &format!("this recipe needs meshwright 99.1, but this program has the version {here}"),
         "",
     );
     has_one_error(
@@ -224,12 +224,12 @@ fn values_that_cannot_be_set_are_errors_without_a_span() {
         [
             (
                 "no span",
-                "the value set for `n` is not allowed: expected a whole number, found `many`",
+                "the value set for the parameter `n` is not allowed: expected a whole number, found `many`",
                 ""
             ),
             (
                 "no span",
-                "the value set for `n` is not allowed: 10 is above the maximum 9",
+                "the value set for the parameter `n` is not allowed: 10 is above the maximum 9",
                 ""
             ),
             (
@@ -274,7 +274,7 @@ fn a_default_that_is_not_allowed_is_the_only_error() {
     has_one_error(
         text,
         "Int(default: 10, max: 9)",
-        "the default of `n` is not allowed: 10 is above the maximum 9",
+        "the default value of the parameter `n` is not allowed: 10 is above the maximum 9",
         "",
     );
 }
@@ -380,7 +380,7 @@ fn on_is_only_for_operations_that_take_it() {
         &steps("(run: Sheet(columns: 1), on: [\"a\"])"),
         "[\"a\"]",
         "Sheet does not take `on`",
-        "the operation names its objects in its parameters, or creates new objects",
+        "remove `on`: the operation creates new objects, or its parameters name the objects that it acts on",
     );
 }
 

@@ -120,11 +120,11 @@ fn a_missing_refusal_fails_and_leaves_the_scene_unchanged() {
     for (lift, message) in [
         (
             "Lift(by: 1)",
-            "expected the refusal Boundary, but the step succeeded",
+            "expected the step to be refused with the reason Boundary, but the step succeeded",
         ),
         (
             "Lift(by: 1, fails: Seam)",
-            "expected the refusal Boundary, but the step failed: v3 refuses",
+            "expected the step to be refused with the reason Boundary, but the step failed for another reason: v3 refuses",
         ),
     ] {
         let text = steps(&format!(
@@ -351,7 +351,11 @@ fn outputs_do_not_follow_links_out_of_the_folder() {
     std::os::unix::fs::symlink(elsewhere.path(), folder.path().join("link")).unwrap();
     let outcome = run(&reading.recipe, settings, &Silent);
     assert_eq!(outcome.failures.len(), 1, "{:?}", outcome.failures);
-    assert!(outcome.failures[0].message.contains("through a link"));
+    assert!(
+        outcome.failures[0]
+            .message
+            .contains("through a symbolic link")
+    );
     assert!(entries(elsewhere.path()).is_empty());
 }
 

@@ -79,7 +79,7 @@ fn a_newer_recipe_or_a_text_without_version_is_refused() {
     };
     assert_eq!(
         refused("(recipe: 2, steps: [Raise(by: 1)])"),
-        "this recipe has version 2, expected 1"
+        "this recipe has the format version 2, expected 1"
     );
     assert_eq!(
         refused("(steps: [Raise(by: 1)])"),

@@ -166,7 +166,7 @@ impl Builder<'_, '_> {
         };
         if n > MAX_IDS {
             return Err(PictureError::Style(format!(
-                "expected at most {MAX_IDS} {elements} to label with ids, \"{}\" has {n}; omit `ids`",
+                "ids can label at most {MAX_IDS} {elements}, but \"{}\" has {n}: omit `ids`",
                 object.name
             )));
         }

@@ -55,12 +55,15 @@ impl Fit {
     ) -> Result<Self, PictureError> {
         let [azimuth, elevation] = from.angles();
         if !(azimuth.is_finite() && elevation.is_finite()) {
-            let message =
-                format!("expected finite angles in degrees, found {azimuth} and {elevation}");
+            let message = format!(
+                "expected finite camera angles in degrees, found the azimuth {azimuth} and the elevation {elevation}"
+            );
             return Err(PictureError::Camera(message));
         }
         if !(0.0..=0.45).contains(&margin) {
-            let message = format!("expected a margin from 0 to 0.45, found {margin}");
+            let message = format!(
+                "expected a margin from 0 to 0.45 (a fraction of the picture), found {margin}"
+            );
             return Err(PictureError::Camera(message));
         }
         let tangent = projection.tangent()?;

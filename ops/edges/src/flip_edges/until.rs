@@ -73,10 +73,10 @@ pub(crate) fn flip_until(
         report.refuse(OpError::refused_edit(reason, mesh, &[e.into()]))?;
     }
     Ok(report.note(if at_goal {
-        format!("passes: {done_passes}; no further legal flip would improve the mesh")
+        format!("passes: {done_passes}; no further flip that is allowed would improve the mesh")
     } else {
         format!(
-            "passes: {done_passes}, the limit set by `passes`; a higher limit can improve the mesh"
+            "passes: {done_passes}, which is the limit set by `passes`; with a higher limit, the mesh could improve further"
         )
     }))
 }

@@ -65,7 +65,9 @@ fn elements_without_a_value_are_counted() {
     assert_eq!(ratios, [-1.0; 6]);
     assert_eq!(
         notes,
-        ["\"mesh\": elements that get the value -1, because aspect_ratio is not defined there: 6"]
+        [
+            "\"mesh\": elements that get the value -1, because aspect_ratio is not defined for them: 6"
+        ]
     );
     let (curvatures, _) = measured("(of: MeanCurvature)", mesh.clone());
     assert_eq!(curvatures, [0.0; 8]);
@@ -144,7 +146,7 @@ fn geodesics_start_at_the_selected_vertices() {
     assert_eq!(unreached, [-1.0; 8]);
     assert_eq!(
         notes,
-        ["\"mesh\": elements that get the value -1, because geodesic is not defined there: 8"]
+        ["\"mesh\": elements that get the value -1, because geodesic is not defined for them: 8"]
     );
     assert!(read::<Measure>("(of: Geodesic())").is_err());
 }

@@ -105,7 +105,7 @@ fn note_zeros(columns: &[Attributes], parts: &[&Object], report: &mut Report) {
             if lacks(columns, parts, i, domain, &name) {
                 let part = &object.name;
                 report.notes.push(format!(
-                    "\"{part}\" has no {domain} attribute \"{name}\", so the values of this part are zero"
+                    "\"{part}\" has no {domain} attribute \"{name}\", so this attribute is zero for all elements of \"{part}\""
                 ));
             }
         }
@@ -143,7 +143,7 @@ pub(crate) fn tag_parts(joined: &mut Mesh, parts: &[&Object], report: &mut Repor
             Some(Values::Tag(marks)) => marks.clone(),
             Some(_) => {
                 report.notes.push(format!(
-                    "the faces of \"{name}\" are not tagged, because another face attribute has this name"
+                    "the faces of \"{name}\" are not tagged with this name, because a face attribute that is not a tag has the same name"
                 ));
                 first = end;
                 continue;

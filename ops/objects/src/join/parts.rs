@@ -9,7 +9,7 @@ pub(crate) const MAX_ELEMENTS: u64 = u32::MAX as u64 - 1;
 
 pub(crate) fn too_many(n: u64) -> String {
     format!(
-        "the result would have {n} elements of one kind, but at most {MAX_ELEMENTS} are supported"
+        "the result would have {n} elements of one kind, such as vertices, but at most {MAX_ELEMENTS} are supported"
     )
 }
 

@@ -193,7 +193,7 @@ pub(super) fn report(
             .sum();
         if n > 0 {
             report.notes.push(format!(
-                "vertices of parts without a skin, bound to the first joint: {n}"
+                "vertices of joined objects without a skin, which are bound to the first joint: {n}"
             ));
         }
     } else if let Err(why) = kept {

@@ -147,7 +147,9 @@ fn values_stay_with_their_elements_and_missing_values_are_zero_with_a_note() {
     );
     assert_eq!(
         report.notes,
-        ["\"a\" has no corner attribute \"uv\", so the values of this part are zero"]
+        [
+            "\"a\" has no corner attribute \"uv\", so this attribute is zero for all elements of \"a\""
+        ]
     );
     assert_eq!(report.losses, []);
 }

@@ -210,7 +210,9 @@ fn missing_and_unsuitable_attributes_are_refused() {
     );
     let error = refused(r#"(from: "scan", attributes: ["color"])"#, other);
     assert!(
-        error.contains("\"4 numbers\", but the existing attribute has the type \"number\""),
+        error.contains(
+            "\"4 numbers\", but the existing attribute of the same name has the type \"number\""
+        ),
         "{error}"
     );
     refused(r#"(from: "scan", attributes: ["material"])"#, target());

@@ -24,7 +24,7 @@ pub(super) fn run(args: &BatchArgs) -> anyhow::Result<bool> {
     for missing in &header.missing_shards {
         let of = n_parts(&reports).unwrap_or_default();
         print_error(&format!(
-            "error: the report of part {missing}/{of} is missing\n"
+            "error: the report of part {missing}/{of} of the batch is missing\n"
         ));
     }
     print(&format!(

@@ -79,7 +79,7 @@ pub(crate) fn run(args: &BatchArgs, engine: &Engine) -> anyhow::Result<bool> {
 }
 
 /// Returns the results of the batch as a report in the format JUnit XML. The text of each failure is read from the file
-/// that describes this failure in the folder of failures.
+/// that describes this failure, in the folder `failed` below the output folder.
 fn junit_report(batch: &Batch, rows: &[Row]) -> String {
     let files = batch.files_of_part();
     let labels: Vec<String> = files.iter().map(|file| file.label()).collect();
@@ -266,7 +266,8 @@ impl<'b> Chunk<'b> {
         })
     }
 
-    /// Records results in the journal and in the folder of failures.
+    /// Records results in the journal, and describes each failure in a file in the folder `failed` below the output
+    /// folder.
     fn record(&self, results: &[(usize, FileResult)], journal: &mut Journal) -> anyhow::Result<()> {
         let mut entries = Vec::new();
         for (i, result) in results {

@@ -263,7 +263,7 @@ fn finish(args: &SweepArgs, plan: &Plan, results: &[CellResult]) -> anyhow::Resu
     if unchecked > 0 && !plan.sweep.expects {
         let expectations = counted(unchecked, "expectation");
         summary += &format!(
-            "; {expectations} of the recipe not checked: write `expect: true` in the sweep to check them"
+            "; the sweep did not check {expectations} of the recipe: to check expectations, write `expect: true` in the sweep file"
         );
     }
     print(&format!("{summary}\n"))?;

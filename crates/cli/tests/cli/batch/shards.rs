@@ -36,7 +36,7 @@ fn parts_are_disjoint_and_merged_they_are_the_whole() {
     folder
         .run("batch --merge part3.jsonl part1.jsonl --report some.json")
         .with_code(1)
-        .complains(&["error: the report of part 2/3 is missing\n"]);
+        .complains(&["error: the report of part 2/3 of the batch is missing\n"]);
     assert_eq!(
         report(&folder, "some.json")["missing_shards"],
         serde_json::json!([2])

@@ -44,7 +44,7 @@ pub(super) fn decode(
             TriangleError::Code => Fault::byte(
                 first + i,
                 format!(
-                    "the code {code:#04x} refers to an edge or a vertex before the first triangle"
+                    "the code {code:#04x} refers to an earlier edge or vertex that does not exist"
                 ),
             ),
         })?;

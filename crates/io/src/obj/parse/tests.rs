@@ -144,7 +144,7 @@ fn errors_name_the_line_and_column() {
             "f 1 2 -4",
             4,
             7,
-            "vertex -4, but the file defines 3 vertices before this line",
+            "vertex -4, but the file defines only 3 vertices before this line",
         ),
         (
             "f 1 2 3/1",

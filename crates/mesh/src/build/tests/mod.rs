@@ -143,7 +143,7 @@ fn refuse_returns_an_error_for_a_non_manifold_vertex() {
     );
     assert_eq!(
         built.unwrap_err().to_string(),
-        "the faces are not a manifold: v0 joins faces that are not connected by edges"
+        "the faces are not a manifold: edges do not connect all faces around the vertex v0"
     );
 }
 

@@ -122,7 +122,7 @@ fn a_manifold_has_no_defects() {
     assert_eq!(
         check(&scene([("broken", broken)]), "Manifold"),
         Err(
-            "expected a manifold, but \"broken\" has a defect: the position of v3 is not finite"
+            "expected a manifold, but \"broken\" has a defect: the position of the vertex v3 is not finite"
                 .to_owned()
         )
     );

@@ -81,7 +81,10 @@ fn a_mesh_with_different_vertices_or_faces_is_not_the_same() {
     );
     assert_eq!(
         check("Same(as: Object(\"moved\"))"),
-        Err("the vertices do not match those of the other mesh (tolerance: 0)".to_owned())
+        Err(
+            "the vertices of the two meshes are not at the same positions (tolerance: 0)"
+                .to_owned()
+        )
     );
     assert_eq!(
         check("Same(as: Object(\"moved\"), tolerance: 0.25)"),
@@ -139,7 +142,7 @@ fn the_digest_of_the_scene_is_compared() {
         &cube(),
         &format!("Digest(\"{digest}\")"),
         "Digest(\"00\")",
-        &format!("expected the digest 00, found {digest}"),
+        &format!("expected the scene to have the digest 00, found {digest}"),
     );
 }
 

@@ -268,7 +268,7 @@ fn a_step_that_reaches_the_limit_of_passes_reports_it() {
     let once = parse("(edges: All, until: Delaunay, passes: 1)");
     let (mesh, report) = try_applied(&once, rough_torus(20, 12)).unwrap();
     assert!(
-        report.notes[0].starts_with("passes: 1, the limit"),
+        report.notes[0].starts_with("passes: 1, which is the limit"),
         "{report:?}"
     );
     let (_, more) = try_applied(&delaunay(), mesh).unwrap();

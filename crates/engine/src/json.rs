@@ -9,7 +9,7 @@ use serde_json::{Value as Json, json};
 /// A diagnostic, for serialization as JSON. Fields without a value are `null`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Problem {
-    /// `error` or `warning`.
+    /// The severity of the problem: `error` or `warning`.
     pub severity: &'static str,
     /// The path of the file.
     pub file: Option<String>,
@@ -55,7 +55,7 @@ pub fn losses(losses: &[Loss]) -> Vec<Json> {
 
 /// Returns the event `done` of a step. The event contains the label of the step, how many elements the scene has after
 /// the step, the report of the step, and the time that the step took. `number` is the index of the step, counted
-/// from 0. The field `number` of the event is counted from 1.
+/// from 0. The field `number` of the event is `number` + 1, because events count steps from 1.
 pub fn step_done(number: usize, done: &StepDone) -> Json {
     json!({
         "event": "done",
@@ -76,8 +76,8 @@ pub fn step_done(number: usize, done: &StepDone) -> Json {
     })
 }
 
-/// Converts a change to JSON. The field `text` names only some of the changed elements. The field `vertices`, `edges`
-/// or `faces` lists all of them.
+/// Converts to JSON a change that was made while a file was read. The field `text` names only some of the changed
+/// elements. The field `vertices`, `edges` or `faces` lists all of them.
 fn change(change: &ReadingChange) -> Json {
     let mut json = json!({
         "code": change.code, "count": change.count, "text": change.message,

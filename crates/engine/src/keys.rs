@@ -1,5 +1,5 @@
-//! Keys of steps. The key of a step depends on the step, on all steps before it, and on their input files. If the key
-//! is unchanged, the result of the step is unchanged.
+//! Keys of steps. The key of a step depends on the step, on all steps before it, and on the input files of these steps.
+//! If the key is unchanged, the editor uses the result that it has stored for the step.
 
 use std::path::{Path, PathBuf};
 
@@ -7,8 +7,8 @@ use store::{Entry, Store};
 
 use crate::Loaded;
 
-/// The key of a step: a hash of the memory budget, of the step and all steps before it, and of the lengths and
-/// modification times of their input files.
+/// The key of a step: a hash of the memory budget, the step and all steps before it. The lengths and modification times
+/// of the input files of these steps are also hashed.
 pub type StepKey = [u8; 32];
 
 /// The keys of a recipe.
@@ -19,7 +19,7 @@ pub struct StepKeys {
     /// The key of each expectation: a hash of the expectation, of the key of the step before it, and of the lengths and
     /// modification times of all input files.
     pub expectations: Vec<StepKey>,
-    /// The key before the first step.
+    /// The key before the first step: a hash of the memory budget.
     pub start: StepKey,
 }
 

@@ -1,6 +1,7 @@
-//! Runs recipes for the program, the editor, the Python package and browsers. The engine opens the recipe and its input
-//! files in a store, applies parameter values and the memory budget, and can use a step cache. Runs can be canceled.
-//! The language itself is in the crate `recipe`.
+//! Runs recipes for the program `meshwright`, the editor, the Python package and browsers. The engine opens the recipe
+//! and its input files in a store, which is the disk or a set of files in memory. The engine applies parameter values
+//! and the memory budget, and can use a step cache, which stores the results of steps. Runs can be canceled. The recipe
+//! language itself is implemented in the crate `recipe`.
 //!
 //! ```text
 //! Engine --open--> Source --load--> Loaded --run--> Outcome      (diagnostics and forecast are in Loaded)
@@ -87,7 +88,8 @@ pub struct Options<'a> {
     pub out: &'a Path,
     /// The memory budget for meshes, in bytes. Defaults to [`BUDGET`].
     pub budget: u64,
-    /// Whether losses are errors, except those that the recipe allows with `Allow`. Defaults to false.
+    /// Whether a step that loses data, such as an attribute, is an error. Losses that the recipe allows with
+    /// `on_loss: Allow([..])` are never errors. Defaults to false.
     pub strict: bool,
 }
 
@@ -112,7 +114,7 @@ impl<'r> Engine<'r> {
         }
     }
 
-    /// Makes this engine read and write its files in `store`, and returns it.
+    /// Makes this engine read and write its files in `store`, and returns the engine.
     #[must_use]
     pub fn with_store(self, store: Arc<dyn Store>) -> Self {
         Self { store, ..self }

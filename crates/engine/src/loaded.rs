@@ -19,7 +19,8 @@ pub struct Loaded {
     pub budget: u64,
     /// The forecast of the scene after each step.
     pub forecast: Forecast,
-    /// Whether the recipe was read without errors. The checks after reading can still have found errors.
+    /// Whether the recipe was read without errors. Even if this is true, the checks after reading have possibly found
+    /// errors.
     pub is_read: bool,
     /// All errors and warnings from reading and checking, in the order of the text.
     pub diagnostics: Vec<Diagnostic>,

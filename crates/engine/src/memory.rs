@@ -6,7 +6,7 @@ use std::sync::Arc;
 use scene::{Geometry, Scene};
 
 /// Adds up the memory of scenes. A mesh that several scenes share is counted once. The scenes must not be dropped
-/// before this value.
+/// before this value, because `SceneMemory` recognizes meshes by their addresses.
 #[derive(Debug, Default)]
 pub struct SceneMemory {
     bytes: u64,

@@ -22,14 +22,14 @@ pub struct Stop<'a> {
 pub struct UnknownStep {
     /// The path of the recipe.
     pub path: String,
-    /// The given id.
+    /// The given id or label, which no step or call has.
     pub id: String,
     /// The most similar ids, or the known ids if none is similar.
     pub help: String,
 }
 
 impl Loaded {
-    /// Removes the steps that are not to be run, and all expectations. Returns the label of the step that
+    /// Removes the steps that are not to be run, and all expectations of the recipe. Returns the label of the step that
     /// [`Stop::before`] names. If [`Stop::before`] names a call, returns the label of the first step of this call. The
     /// label seeds the random choices of that step. If [`Stop::before`] is `None`, returns an empty string.
     ///

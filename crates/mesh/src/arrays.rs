@@ -56,15 +56,15 @@ impl Connectivity {
 
 /// A half-edge mesh of polygons in space, with attributes.
 ///
-/// Two meshes are equal if all their arrays are equal, including the entries of dead elements, which are removed
-/// elements whose entries are still in the arrays. A clone has no open journal: its edits are not recorded until
-/// [`Mesh::begin`] is called on the clone.
+/// A removed element is dead: it is marked, but its entries stay in the arrays. Two meshes are equal if all their
+/// arrays are equal, including the entries of dead elements. A clone has no open journal, which is the record for
+/// undoing edits. Edits of the clone are not recorded until [`Mesh::begin`] is called on the clone.
 #[derive(Debug, Default)]
 pub struct Mesh {
     pub(crate) connectivity: Connectivity,
     pub(crate) positions: Vec<DVec3>,
     pub(crate) attributes: Attributes,
-    /// The dead elements of each domain. Corners have no marks: a corner is dead if its edge is dead.
+    /// The dead (removed) elements of each domain. Corners are never marked: a corner is dead if its edge is dead.
     pub(crate) dead: [Marks; 4],
     /// The values that edits have overwritten since [`Mesh::begin`]; `None` if no journal is open.
     pub(crate) journal: Option<Box<Journal>>,
@@ -95,8 +95,8 @@ impl Mesh {
     /// Creates a mesh from these arrays, without attributes. All elements are alive.
     ///
     /// Use this function in operations that compute the arrays of a whole mesh themselves. This function does not check
-    /// the arrays: the caller must ensure that they satisfy the invariants. [`try_from_arrays`](Self::try_from_arrays)
-    /// also checks the invariants.
+    /// the [invariants](crate#invariants): the caller must ensure that the arrays satisfy them.
+    /// [`try_from_arrays`](Self::try_from_arrays) also checks the invariants.
     ///
     /// # Panics
     ///
@@ -141,8 +141,8 @@ impl Mesh {
         self.n_living(Domain::Face)
     }
 
-    /// Returns the number of elements of this domain, including dead ones. Each column of the domain has this number of
-    /// values.
+    /// Returns the number of elements of this domain, including dead ones. Each attribute column of the domain has this
+    /// number of values.
     #[inline]
     pub fn domain_len(&self, domain: Domain) -> usize {
         match domain {
@@ -289,12 +289,12 @@ impl Mesh {
 
     // ---- Attributes ----------------------------------------------------------------------------
 
-    /// Returns all attributes.
+    /// Returns all attributes of the mesh.
     pub fn attributes(&self) -> &Attributes {
         &self.attributes
     }
 
-    /// Replaces all attributes.
+    /// Replaces all attributes of the mesh.
     ///
     /// # Panics
     ///
@@ -327,7 +327,7 @@ impl Mesh {
         T::of_mut(&mut column.values)
     }
 
-    /// Sets an attribute of the mesh. If there is already an attribute with the same name and domain, it is replaced.
+    /// Sets an attribute of the mesh. An existing attribute with the same name and domain is replaced.
     ///
     /// # Panics
     ///
@@ -344,7 +344,7 @@ impl Mesh {
         );
     }
 
-    /// Inserts a column. If there is already a column with the same name and domain, it is replaced.
+    /// Inserts an attribute column. An existing column with the same name and domain is replaced.
     ///
     /// # Panics
     ///
@@ -369,9 +369,9 @@ impl Mesh {
         removed
     }
 
-    /// Removes [`VERTEX_NORMAL`], [`CORNER_NORMAL`], [`TANGENT`], [`CORNER_TANGENT`], and the normals and tangents of
-    /// morph targets ([`crate::morph_normal_name`], [`crate::morph_tangent_name`]), which are wrong after the shape has
-    /// changed.
+    /// Removes the attributes that are wrong after the shape has changed: [`VERTEX_NORMAL`], [`CORNER_NORMAL`],
+    /// [`TANGENT`], [`CORNER_TANGENT`], and the normals and tangents of morph targets ([`crate::morph_normal_name`],
+    /// [`crate::morph_tangent_name`]).
     pub fn remove_normals(&mut self) {
         self.remove_column(Domain::Vertex, VERTEX_NORMAL.name);
         self.remove_column(Domain::Corner, CORNER_NORMAL.name);

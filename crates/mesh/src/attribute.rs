@@ -1,9 +1,9 @@
 //! Attributes: named, typed columns of values on vertices, corners, edges and faces.
 //!
-//! A column has one value for each element of its domain, and a [`Rule`] that defines what edits do with the values.
-//! The value of a corner is stored at its half-edge, which leaves the vertex of the corner and belongs to the face of
-//! the corner. A half-edge without a face also has a value, but this value has no meaning. Edits keep that value at
-//! zero where this is cheap.
+//! The domain of a column is one of these four kinds of elements. A column has one value for each element of its
+//! domain, and a [`Rule`] that defines what edits do with the values. The value of a corner is stored at its half-edge,
+//! which leaves the vertex of the corner and belongs to the face of the corner. A half-edge without a face also has a
+//! value, but this value has no meaning.
 //!
 //! Well-known attributes have constants ([`UV`], [`VERTEX_NORMAL`], ...). Programs can also use any other name.
 
@@ -40,9 +40,10 @@ pub const TANGENT: Attribute<VertexId, DVec3> = Attribute::new("tangent", Rule::
 pub const CORNER_TANGENT: Attribute<HalfEdgeId, DVec4> = Attribute::new("tangent", Rule::Drop);
 /// Red, green, blue and alpha of vertices, from 0 to 1.
 pub const COLOR: Attribute<VertexId, DVec4> = Attribute::new("color", Rule::Interpolate);
-/// The index of a face's material in the material list of its object, from 0; -1 for none.
+/// The index of a face's material in the list of materials of the object, counted from 0; -1 if the face has no
+/// material.
 pub const MATERIAL: Attribute<FaceId, i32> = Attribute::new("material", Rule::Copy);
-/// The smoothing group of a face; 0 for none.
+/// The number of the smoothing group of a face; 0 if the face is in no smoothing group.
 pub const SMOOTHING: Attribute<FaceId, i32> = Attribute::new("smoothing", Rule::Copy);
 /// The sharpness of an edge, from 0 (smooth) to 10 (infinitely sharp).
 pub const CREASE: Attribute<EdgeId, f64> = Attribute::new("crease", Rule::Copy);
@@ -55,12 +56,12 @@ pub enum Rule {
     /// A new element gets the weighted mean of the values of its source elements. Whole numbers and tags (named
     /// selections) are not averaged: the new element gets the value with the largest weight.
     Interpolate,
-    /// The values are unit vectors. New values are interpolated, then scaled to length 1. Transforms treat them as
-    /// normals of the surface. Subdivision drops the column, because the vectors would be wrong. Many other operations
-    /// also remove normals that would be wrong; see [`Mesh::remove_normals`](crate::Mesh::remove_normals).
+    /// The values are unit vectors. New values are interpolated, then scaled to length 1. Transforms treat the vectors
+    /// as normals of the surface. Subdivision drops the column, because the vectors would be wrong. Many other
+    /// operations also remove normals that would be wrong; see [`Mesh::remove_normals`](crate::Mesh::remove_normals).
     Normal,
-    /// A new element gets the value of the old element that contained it. If no old element contained the new
-    /// one, it gets the zero value. For example, both parts of a split edge keep the tags of the edge; a new
+    /// A new element gets the value of the old element that contained it. If no old element contained the new element,
+    /// the new element gets the zero value. For example, both parts of a split edge keep the tags of the edge; a new
     /// edge inside a face has no tags.
     Copy,
     /// The first edit that changes connectivity removes the column.

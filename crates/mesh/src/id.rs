@@ -12,8 +12,8 @@ pub trait Id:
     /// return an `Option` instead of this value.
     const NONE: Self;
 
-    /// The domain of the attribute columns that are indexed by ids of this kind. A half-edge stands for the corner at
-    /// its origin, in its face.
+    /// The domain of the attribute columns that are indexed by ids of this kind. For half-edges, this is
+    /// [`Domain::Corner`]: a half-edge stands for the corner at its origin, in its face.
     const DOMAIN: Domain;
 
     /// Creates the id with this index.

@@ -13,9 +13,9 @@
 //! entries: an undo truncates the arrays to their old lengths. An undo in turn records the values that it
 //! overwrites; this record is the change that redoes the edits.
 //!
-//! If the entries (without copies of whole arrays) take at least as much memory as the mesh plus 64 KiB, one copy of
-//! the mesh replaces them before the next edit starts. If a level of the journal has a copy of the mesh, no further
-//! entries are recorded for this level.
+//! A long journal is shortened before the next edit starts. If the entries (without copies of whole arrays) take at
+//! least as much memory as the mesh plus 64 KiB, one copy of the mesh replaces them. If a level of the journal has a
+//! copy of the mesh, no further entries are recorded for this level.
 
 use bytemuck::cast_slice_mut;
 use glam::DVec3;
@@ -27,7 +27,7 @@ use crate::{Connectivity, Domain, Id, Mesh, Values, VertexId};
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Change {
     entries: Vec<Entry>,
-    /// The bytes of positions and values, in the order of the entries that they belong to.
+    /// The bytes of the overwritten positions and attribute values, in the order of the entries that they belong to.
     values: Vec<u8>,
 }
 
@@ -55,7 +55,8 @@ pub(crate) struct Journal {
     recorded: Change,
     levels: Vec<Level>,
     /// The number of elements of each domain when the innermost level was opened. Changes are recorded only for
-    /// elements that existed at that time. All four numbers are 0 if the whole mesh was recorded.
+    /// elements that existed at that time. If the whole mesh was recorded, all four numbers are 0, so that no further
+    /// changes are recorded.
     lengths: Lengths,
 }
 
@@ -83,9 +84,10 @@ pub(crate) enum Entry {
     Values(Domain, usize),
     /// The dead mark of an element, which an undo toggles.
     Mark(Domain, usize),
-    /// A column, which replaces the current column of the same name.
+    /// A column that was overwritten or removed. An undo puts it in the place of the current column of the same name,
+    /// if there is one.
     Column(Domain, Box<Column>),
-    /// The name of a column to be removed.
+    /// The name of a column that did not exist before. An undo removes the column.
     NoColumn(Domain, Box<str>),
     Positions(Box<[DVec3]>),
     Attributes(Box<Attributes>),
@@ -124,7 +126,7 @@ impl Connectivity {
 /// The number of elements of each domain, including dead ones.
 type Lengths = [usize; 4];
 
-/// The last entries of all arrays: of each array, the entries from a given length on.
+/// The last entries of all arrays: of each array, the entries from a given index on.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Tail {
     connectivity: Connectivity,
@@ -134,7 +136,8 @@ pub(crate) struct Tail {
 }
 
 impl Journal {
-    /// Records an entry. Calls `entry` only if the entry is needed.
+    /// Records an entry, unless the innermost level already has a copy of the whole mesh. In that case, `entry` is not
+    /// called.
     pub(crate) fn record(&mut self, entry: impl FnOnce() -> Entry) {
         if self.levels.last().is_some_and(|level| !level.has_whole) {
             self.recorded.entries.push(entry());
@@ -251,8 +254,8 @@ impl Mesh {
         }
     }
 
-    /// Keeps all changes since the matching [`begin`](Self::begin). If this was the outermost level, returns the
-    /// change, which can be [reverted](Self::revert) later; otherwise `None`.
+    /// Keeps all changes since the matching [`begin`](Self::begin). If this call ends the outermost level, returns the
+    /// change, which can be [reverted](Self::revert) later. Otherwise, returns `None`.
     ///
     /// # Panics
     ///
@@ -284,8 +287,9 @@ impl Mesh {
     ///
     /// # Panics
     ///
-    /// Panics if a journal is open. If the change belongs to a different mesh or to a different state of it, the
-    /// result is unspecified: an invalid mesh, or a panic if the change refers to an element that does not exist.
+    /// Panics if a journal is open. If the change belongs to a different mesh, or to a different state of this mesh,
+    /// the result is unspecified. The call leaves an invalid mesh, or it panics if the change refers to an element that
+    /// does not exist.
     ///
     /// # Examples
     ///
@@ -308,7 +312,7 @@ impl Mesh {
         self.undo_entries(&mut change, 0)
     }
 
-    /// Runs `edit` atomically: if it returns an error, all its changes are undone.
+    /// Runs `edit` atomically: if `edit` returns an error, all changes that `edit` has made are undone.
     ///
     /// # Errors
     ///
@@ -340,7 +344,7 @@ impl Mesh {
 
     /// If the entries take at least as many bytes as the mesh plus [`JOURNAL_ALLOWANCE`], replaces them by one copy of
     /// the mesh as it was at `begin`. This function is called between edits. Does nothing while inner levels are open,
-    /// because inner levels should be short.
+    /// because an inner level is expected to record only a few edits.
     pub(crate) fn bound_journal(&mut self) {
         let Some(journal) = &self.journal else { return };
         let [level] = journal.levels[..] else { return };

@@ -21,8 +21,8 @@
 //!
 //! [`Mesh::defects`] lists every broken invariant, with the element that breaks it:
 //!
-//! 1. All arrays with one entry for each element of the same kind have the same length. The number of half-edges is
-//!    even.
+//! 1. All arrays that have one entry for each element of one kind (for example, for each half-edge) have the same
+//!    length. The number of half-edges is even.
 //! 2. Every stored id belongs to an element that was not removed.
 //! 3. `next` is a permutation of the half-edges. The half-edge `next(h)` lies on the same face as `h` (or around the
 //!    same hole), and starts where `h` ends: `origin(next(h)) == target(h)`.
@@ -60,9 +60,9 @@
 //!
 //! # Read in this order
 //!
-//! These 19 files explain the data structure and how it is edited. The edits in other files follow the pattern of
-//! `flip.rs` and `split.rs`. Of the other files in `build`, `polygons.rs`, `buckets.rs` and `star.rs` are used for all
-//! input; `orient.rs`, `split.rs` and `report.rs` handle polygons that do not form a manifold.
+//! These 19 files explain the data structure and the way in which edits change it. The edits in other files follow the
+//! pattern of `flip.rs` and `split.rs`. Of the other files in `build`, `polygons.rs`, `buckets.rs` and `star.rs` are
+//! used for all input; `orient.rs`, `split.rs` and `report.rs` handle polygons that do not form a manifold.
 //!
 //! | files | contents |
 //! | --- | --- |

@@ -23,9 +23,9 @@ fn length(v: DVec3) -> f64 {
     }
 }
 
-/// Scales a vector by a power of two, so that squares of its components cannot overflow and its length does not
-/// underflow. Returns the scaled vector and an exponent k: the original vector is the scaled vector times 2ᵏ. If the
-/// largest absolute value of a component is zero, not finite, or between 1e-70 and 1e70, the vector is returned
+/// Scales a vector by a power of two, so that squares of the scaled components cannot overflow and the scaled length
+/// does not underflow. Returns the scaled vector and an exponent k: the original vector is the scaled vector times 2ᵏ.
+/// If the largest absolute value of a component is zero, not finite, or between 1e-70 and 1e70, the vector is returned
 /// unchanged, with the exponent 0.
 fn ordinary(v: DVec3) -> (DVec3, i32) {
     let largest = v.abs().max_element();
@@ -39,8 +39,8 @@ fn ordinary(v: DVec3) -> (DVec3, i32) {
 
 /// Returns the area vector of a polygon with these corners, as [`Mesh::area_vector`] does for a face.
 ///
-/// The area vector is half the sum of the cross products of consecutive corners, relative to the first corner (Newell's
-/// method).
+/// The area vector is half the sum of the cross products of consecutive corner positions (Newell's method). All
+/// positions are taken relative to the first corner.
 #[inline]
 pub fn area_vector(mut corners: impl Iterator<Item = DVec3>) -> DVec3 {
     let Some(first) = corners.next() else {
@@ -98,15 +98,15 @@ impl Mesh {
         angle_between(next - p, prev - p)
     }
 
-    /// Returns the angle between the normals of the two faces at an edge, in radians from 0 (flat) to π;
-    /// `None` on the boundary, or if the area of a face is zero.
+    /// Returns the angle between the normals of the two faces at an edge, in radians from 0 (flat) to π. Returns `None`
+    /// on the boundary, or if the area of a face is zero.
     pub fn dihedral_angle(&self, e: crate::EdgeId) -> Option<f64> {
         let [f, g] = self.edge_faces(e);
         let (n, m) = (self.face_normal(f?), self.face_normal(g?));
         (n != DVec3::ZERO && m != DVec3::ZERO).then(|| angle_between(n, m))
     }
 
-    /// Returns V - E + F. V includes isolated vertices.
+    /// Returns V - E + F, where V, E and F are the numbers of vertices, edges and faces. V includes isolated vertices.
     pub fn euler_characteristic(&self) -> i64 {
         let count = |n: usize| i64::try_from(n).expect("fewer than 2^32 elements");
         count(self.n_vertices()) - count(self.n_edges()) + count(self.n_faces())

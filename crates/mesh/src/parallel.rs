@@ -16,8 +16,8 @@ use crate::zeroed::reserved;
 /// last bits of a sum.
 pub const BLOCK: usize = 4096;
 
-/// Calls `work` with each number below `n`. Each call is scheduled separately, so it should take at least a few
-/// microseconds.
+/// Calls `work` with each number below `n`. Each call is scheduled separately. Scheduling costs little only if a call
+/// takes at least a few microseconds.
 pub fn each(n: usize, work: &(dyn Fn(usize) + Sync)) {
     match n {
         0 => {}
@@ -26,8 +26,8 @@ pub fn each(n: usize, work: &(dyn Fn(usize) + Sync)) {
     }
 }
 
-/// Calls `work` with the index of each item and the item, and returns the results in order. Each call is scheduled
-/// separately.
+/// For each item, calls `work` with the index of the item and the item itself. Returns the results in order. Each call
+/// is scheduled separately.
 pub fn consume<P: Send, R: Send>(
     items: impl IntoIterator<Item = P>,
     work: impl Fn(usize, P) -> R + Sync,
@@ -75,7 +75,7 @@ pub fn blocks<R: Send>(n: usize, make: impl Fn(Range<usize>) -> R + Sync) -> Vec
     })
 }
 
-/// Calls `work` with each block of `out` and the index of its first element.
+/// Calls `work` for each block of `out`, with the index in `out` of the first element of the block, and with the block.
 pub fn fill<T: Send>(out: &mut [T], work: impl Fn(usize, &mut [T]) + Sync) {
     fill_blocks(out, &work);
 }
@@ -89,7 +89,7 @@ fn fill_blocks<T: Send>(out: &mut [T], work: &(dyn Fn(usize, &mut [T]) + Sync)) 
     });
 }
 
-/// Returns the value for each number below `n`.
+/// Returns `value(i)` for each number i below `n`, in order.
 ///
 /// # Panics
 ///

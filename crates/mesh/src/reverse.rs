@@ -8,10 +8,10 @@
 //!  a --- h -> b         a <- h --- b       next'(h)   = prev(h)
 //! ```
 //!
-//! In a face, the half-edge h that leaves a vertex v becomes the half-edge that ends at v. The half-edge before h,
-//! prev(h), becomes the one that leaves v. So prev(h) replaces h in three roles: as the half-edge of v, as the
-//! half-edge of the face, and as the half-edge that stores the values of the corner at v. If h is on the boundary, so
-//! is prev(h). Reversing twice restores the connectivity of all living elements.
+//! When a face is reversed, its half-edge h that leaves a vertex v becomes the half-edge that ends at v. The half-edge
+//! before h, prev(h), becomes the one that leaves v. So prev(h) replaces h in three roles: as the half-edge of v, as
+//! the half-edge of the face, and as the half-edge that stores the values of the corner at v. This also works at holes:
+//! if h has no face, prev(h) has no face either. Reversing twice restores the connectivity of all living elements.
 
 use crate::attribute::Attributes;
 use crate::{Connectivity, Domain, HalfEdgeId, Mesh};

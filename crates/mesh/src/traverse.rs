@@ -121,8 +121,8 @@ impl Mesh {
         self.vertex_half_edges(v).find(|&h| self.target(h) == w)
     }
 
-    /// Whether the origins of `x` and `y` share an edge. Walks around both vertices at the same time, so
-    /// the time is proportional to the smaller valence of the two.
+    /// Whether the origins of `x` and `y` share an edge. Walks around both vertices at the same time, so the time is
+    /// proportional to the smaller of the two valences.
     #[inline]
     pub(crate) fn share_an_edge(&self, x: HalfEdgeId, y: HalfEdgeId) -> bool {
         let (v, w) = (self.origin(x), self.origin(y));
@@ -171,8 +171,8 @@ impl Mesh {
             .is_some_and(|h| self.face(h).is_none())
     }
 
-    /// Whether any corner attribute has different values on the two sides of `e`, at either end.
-    /// A boundary edge is not a seam.
+    /// Whether `e` has an end at which any corner attribute has different values on the two sides of `e`. A boundary
+    /// edge is not a seam.
     pub fn is_seam(&self, e: EdgeId) -> bool {
         let [h, twin] = e.half_edges();
         self.face(h).is_some()

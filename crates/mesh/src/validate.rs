@@ -1,4 +1,5 @@
-//! Validation: lists every broken invariant with its element. A faster test says whether any invariant is broken.
+//! Validation: [`Mesh::defects`] lists every broken invariant with its element. [`Mesh::is_valid`] is faster, but only
+//! says whether any invariant is broken.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -19,7 +20,7 @@ pub enum Defect {
         "the entry of the array `{array}` for {element} refers to an element that does not exist"
     )]
     Dangling {
-        /// The array.
+        /// The name of the array.
         array: &'static str,
         /// The element whose array entry is invalid.
         element: Element,
@@ -27,7 +28,7 @@ pub enum Defect {
     /// The half-edge must be the `next` of exactly one half-edge, but it is the `next` of none or of several.
     #[error("{0} must be the `next` of exactly one half-edge")]
     NextNotPermutation(HalfEdgeId),
-    /// `next` lies on a different face.
+    /// The half-edge and its `next` lie on different faces.
     #[error("the half-edge {0} and its `next` half-edge lie on different faces")]
     NextOnOtherFace(HalfEdgeId),
     /// The origin of `next` is not the target of the half-edge.
@@ -67,7 +68,7 @@ pub enum Defect {
         "the {domain} attribute `{name}` must have one value for each {domain}, but has more or fewer"
     )]
     ColumnLength {
-        /// The domain.
+        /// The domain of the column.
         domain: Domain,
         /// The name of the column.
         name: String,
@@ -181,7 +182,7 @@ impl Mesh {
 
     // ---- The invariants, in the order of the crate's documentation ----------------------------
 
-    /// Checks invariant 1.
+    /// Checks invariant 1 of the crate's documentation.
     pub(crate) fn check_lengths(&self, report: ReportDefect) {
         let c = &self.connectivity;
         let n = c.next.len();
@@ -203,7 +204,7 @@ impl Mesh {
         }
     }
 
-    /// Checks invariant 2.
+    /// Checks invariant 2 of the crate's documentation.
     fn check_entries_of_half_edge(&self, h: HalfEdgeId, report: ReportDefect) {
         let has_face = self.face(h).is_none_or(|f| self.has_face(f));
         check_entry("next", h, self.has_edge(self.next(h).edge()), report);
@@ -289,8 +290,8 @@ impl Mesh {
         })
     }
 
-    /// Checks invariant 5. Returns the number of corners of a face, or `max + 1` if the face has more than
-    /// `max` corners.
+    /// Checks invariant 5 of the crate's documentation. Returns the number of corners of a face, or `max + 1` if the
+    /// face has more than `max` corners.
     fn loop_of_face(&self, f: FaceId, max: usize) -> Result<usize, Defect> {
         let first = self.face_half_edge(f);
         if self.face(first) != Some(f) {
@@ -309,8 +310,8 @@ impl Mesh {
         }
     }
 
-    /// Checks invariants 6 and 7. Returns the number of outgoing half-edges of a vertex, or `max + 1` if there
-    /// are more than `max`.
+    /// Checks invariants 6 and 7 of the crate's documentation. Returns the number of outgoing half-edges of a vertex,
+    /// or `max + 1` if there are more than `max`.
     fn fan_of_vertex(&self, v: VertexId, max: usize) -> Result<usize, Defect> {
         let Some(first) = self.vertex_half_edge(v) else {
             return Ok(0);
@@ -335,14 +336,14 @@ impl Mesh {
         Ok(n)
     }
 
-    /// Checks invariant 8.
+    /// Checks invariant 8 of the crate's documentation.
     fn check_position(&self, v: VertexId, report: ReportDefect) {
         if !self.position(v).is_finite() {
             report(Defect::NotFinite(v));
         }
     }
 
-    /// Checks invariant 9.
+    /// Checks invariant 9 of the crate's documentation.
     fn check_columns(&self, report: ReportDefect) {
         for (domain, column) in self.attributes.iter() {
             if column.values.len() != self.domain_len(domain) {

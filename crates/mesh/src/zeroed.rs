@@ -1,4 +1,4 @@
-//! Large arrays.
+//! Allocates large arrays in large pages of memory.
 //!
 //! The system maps each page of memory when it is first touched. If an array is written only once, mapping its memory
 //! in pages of 4 KiB takes as long as writing it. With pages of 2 MiB, mapping takes a third of this time.

@@ -13,7 +13,8 @@ use crate::{CancellableStore, Files, OpError};
 pub struct Context<'a> {
     progress: &'a dyn Progress,
     files: &'a Files,
-    /// The objects named in the step's `on:`; `None` if the step acts on all objects that it supports.
+    /// The names of the objects in the step's `on:`. `None` if the step has no `on:`; it then acts on all objects that
+    /// it supports.
     pub on: Option<&'a [String]>,
     /// The label of the step in the recipe. The selection `Random` is seeded with this label and with its own `seed`,
     /// so two steps with the same seed select different elements. Random positions and numbers, such as those of
@@ -28,7 +29,7 @@ pub struct Context<'a> {
     /// The other objects of the scene, each with its name and its mesh. The mesh is `None` if the object has another
     /// kind of geometry.
     others: Vec<(String, Option<Arc<Mesh>>)>,
-    /// Notes on the selections of the step, for its report.
+    /// Remarks about the selections of the step, for the report of the step.
     notes: Mutex<Vec<String>>,
 }
 
@@ -75,20 +76,20 @@ impl<'a> Context<'a> {
         self.others = others;
     }
 
-    /// Clears everything that [`set_object`](Self::set_object) has stored.
+    /// Removes everything that [`set_object`](Self::set_object) has stored in the context.
     pub fn clear_object(&mut self) {
         self.materials.clear();
         self.object.clear();
         self.others.clear();
     }
 
-    /// Returns the mesh of another object of the scene, in its state before the step. `user` is the name of the
-    /// operation or selection that needs the mesh, for error messages, such as `Project`.
+    /// Returns the mesh of another object of the scene, in its state before the step. `user` is the name, such as
+    /// `Project`, of the operation or selection that needs the mesh. Error messages contain this name.
     ///
     /// # Errors
     ///
-    /// Returns [`OpError::Object`] if no object has this name, if the object is not a mesh, or if it is the object that
-    /// is being changed.
+    /// Returns [`OpError::Object`] if no object has this name, if the object is not a mesh, or if the step is changing
+    /// this object itself.
     pub fn other_mesh(&self, user: &str, name: &str) -> Result<Arc<Mesh>, OpError> {
         if name == self.object {
             return Err(OpError::Object(format!(
@@ -111,7 +112,7 @@ impl<'a> Context<'a> {
         }
     }
 
-    /// Adds a note to the report of the step, unless the report already has an equal note.
+    /// Adds a note (a remark in one line) to the report of the step, unless the report already has an equal note.
     pub(crate) fn note(&self, note: String) {
         let mut notes = self.notes.lock().unwrap_or_else(PoisonError::into_inner);
         if !notes.contains(&note) {

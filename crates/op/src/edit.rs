@@ -18,8 +18,8 @@ pub enum OnRefusal {
 }
 
 impl OnRefusal {
-    /// Returns the planned number of edited elements: the number of selected elements. If refusals are skipped, it is
-    /// any number from 0 to the number of selected elements.
+    /// Returns the planned number of edited elements. With [`OnRefusal::Error`], this is the number of selected
+    /// elements. With [`OnRefusal::Skip`], it is any number from 0 to the number of selected elements.
     #[must_use]
     pub fn done(self, selected: Range) -> Range {
         match self {
@@ -28,7 +28,8 @@ impl OnRefusal {
         }
     }
 
-    /// Returns the problem that `plan` reports for an edit that will be refused: an error or a warning.
+    /// Returns the problem that `plan` reports for an edit that will be refused. The problem is an error for
+    /// [`OnRefusal::Error`] and a warning for [`OnRefusal::Skip`].
     pub fn problem(self, message: impl Into<String>) -> Problem {
         match self {
             Self::Error => Problem::error(message),

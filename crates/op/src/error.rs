@@ -114,7 +114,7 @@ pub enum OpError {
     /// An edit or a selection was refused.
     #[error("{message}")]
     Refused {
-        /// The reason.
+        /// The reason for the refusal.
         reason: Refusal,
         /// A message that describes the refusal and names the elements.
         message: String,
@@ -154,7 +154,7 @@ impl OpError {
         }
     }
 
-    /// Marks a refusal of an operation with the parameter `on_refusal`.
+    /// Records that the refused operation has the parameter `on_refusal`.
     #[must_use]
     pub fn skippable(mut self) -> Self {
         if let Self::Refused { can_skip, .. } = &mut self {

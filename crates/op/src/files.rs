@@ -3,9 +3,10 @@
 //! Paths of input files are relative to the folder of the recipe. Output files are always inside the output folder. An
 //! output path that leads out of the output folder is refused.
 //!
-//! Each use of a file is logged. The step cache reads the log to find the dependencies of a step. An operation that
-//! reads files reports each file with [`Files::has_read`]. If an operation requests a path but never reports that it
-//! read the file, the dependencies of the step are unknown. The step is then never cached.
+//! Each use of a file is logged. The step cache, which stores the results of steps, reads the log to find the files
+//! that a step depends on. An operation that reads files reports each file with [`Files::has_read`]. If an operation
+//! requests a path but never reports that it read the file, the dependencies of the step are unknown. The step is then
+//! never cached.
 
 use std::fmt;
 use std::path::{Component, Path, PathBuf};
@@ -49,8 +50,8 @@ pub struct Files {
     /// The names of the placeholders and the values that replace them. For example, ("model.stem", "cow") replaces
     /// `{model.stem}` in an output path with `cow`.
     pub placeholders: Vec<(String, String)>,
-    /// A line that describes the provenance of the outputs. Output files contain this line if their format can store
-    /// it.
+    /// A line that says how the output files were made (their provenance). Output files contain this line if their
+    /// format can store the line.
     pub provenance: Option<String>,
     /// The uses of files so far.
     pub log: FileLog,
@@ -84,7 +85,7 @@ pub enum FileUse {
 }
 
 impl FileLog {
-    /// Adds an entry.
+    /// Adds an entry to the log.
     pub fn note(&self, file: FileUse) {
         self.lock().push(file);
     }
@@ -126,9 +127,9 @@ impl Files {
         full
     }
 
-    /// Logs that a file was read. The file can be one whose path [`to_read`](Self::to_read) returned, or another file
-    /// that such a file refers to. A step can be cached only if its operation calls this method for every input path
-    /// that it requested. The result of a cached step must not depend on the contents of any other file.
+    /// Logs that a file was read. This can be a file whose path [`to_read`](Self::to_read) returned, or another file to
+    /// which such a file refers. A step can be cached only if its operation calls this method for every input path that
+    /// it requested. The result of a cached step must not depend on the contents of any other file.
     pub fn has_read(&self, path: impl Into<PathBuf>) {
         self.log.note(FileUse::Read(path.into()));
     }
@@ -229,7 +230,7 @@ impl Files {
     ///
     /// # Errors
     ///
-    /// Returns [`FileError::Link`].
+    /// Returns [`FileError::Link`] if the path leads out of the output folder.
     pub fn check_links(&self, relative: &Path) -> Result<(), FileError> {
         let Ok(root) = self.store.canonical(&self.output) else {
             return Ok(());

@@ -14,8 +14,8 @@ use crate::{
     Report, TargetKind, target_names,
 };
 
-/// An operation that changes one mesh. In a scene, the operation acts on every mesh. If the step has `on:`, it acts
-/// only on the meshes named there.
+/// An operation that changes one mesh at a time. A step applies the operation to every mesh of the scene. If the step
+/// has `on:`, only the meshes named there are changed.
 pub trait MeshOperation:
     Debug + Send + Sync + Serialize + DeserializeOwned + JsonSchema + 'static
 {
@@ -48,8 +48,8 @@ pub trait MeshOperation:
         Vec::new()
     }
 
-    /// Returns the problems that the mesh of the object `name` would cause. The operation [`reads`](Self::reads) this
-    /// object.
+    /// Returns the problems that the mesh of the object `name` would cause in this step. `name` is an object that the
+    /// operation [`reads`](Self::reads), and `mesh` is the plan of its mesh.
     fn plan_reading(&self, name: &str, mesh: &MeshPlan) -> Vec<Problem> {
         let _ = (name, mesh);
         Vec::new()
@@ -59,9 +59,9 @@ pub trait MeshOperation:
     /// This method runs before any geometry exists and must be fast.
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem>;
 
-    /// Changes the mesh. The mesh [is dense](Mesh::is_dense): ids are indices into its arrays, such as `positions()`.
-    /// Must call [`Context::advance`] before the first change. An operation that computes a new mesh stores it with
-    /// [`Mesh::replace`].
+    /// Changes the mesh. The mesh [is dense](Mesh::is_dense): no element is dead, so ids are indices into its arrays,
+    /// such as `positions()`. This method must call [`Context::advance`] before the first change. An operation that
+    /// computes a new mesh stores it with [`Mesh::replace`].
     ///
     /// # Errors
     ///
@@ -93,21 +93,21 @@ pub trait Operation:
     const DONE: &'static str = "";
     /// Whether a step can choose objects with `on:`.
     const TAKES_ON: bool = false;
-    /// Whether the operation leaves the scene unchanged when it fails. If false, the runner keeps the meshes in their
-    /// state before the step, and the operation changes copies of them.
+    /// Whether the operation leaves the scene unchanged when it fails. If not, the run keeps the meshes in their state
+    /// before the step, and the operation changes copies of these meshes.
     const ATOMIC: bool = false;
 
     /// Changes `plan` in the same way as [`apply`](Self::apply) will change the scene. Returns the problems of the
     /// step.
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem>;
 
-    /// Changes the scene, whose meshes [are dense](Mesh::is_dense). Must call [`Context::advance`] before the first
-    /// change.
+    /// Changes the scene. All meshes of the scene [are dense](Mesh::is_dense): they have no dead elements. This method
+    /// must call [`Context::advance`] before the first change.
     ///
     /// # Errors
     ///
     /// Returns an [`OpError`]. When an error is returned, a part of the scene has possibly already been changed. The
-    /// runner then restores the scene to its state before the step.
+    /// caller then restores the scene to its state before the step.
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError>;
 }
 

@@ -23,7 +23,7 @@ pub struct Range {
 }
 
 impl Range {
-    /// Any count.
+    /// The range that contains every count.
     pub const ANY: Self = Self {
         min: 0,
         max: u64::MAX,
@@ -77,8 +77,8 @@ impl Range {
         }
     }
 
-    /// Returns the range of this count minus `n`. An end that would be negative is 0. The upper end `max` must be a
-    /// known limit, not `u64::MAX`.
+    /// Returns the range of this count minus `n`. An end that would be negative is 0. The upper end `max` of this range
+    /// must be a known limit, not `u64::MAX`.
     #[must_use]
     pub const fn less(self, n: u64) -> Self {
         Self {
@@ -131,7 +131,7 @@ impl Range {
 /// What is known about an attribute before anything runs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PlannedAttribute {
-    /// The domain.
+    /// The domain of the attribute.
     pub domain: Domain,
     /// The name.
     pub name: String,
@@ -220,13 +220,13 @@ impl MeshPlan {
         self.degrees == Range::exactly(3)
     }
 
-    /// Returns the possible number of corners of some of the faces. The number is at most twice the number of edges of
-    /// the mesh. `faces` is the number of the faces whose corners are counted.
+    /// Returns the possible number of corners of some of the faces. `faces` is the number of these faces. The result is
+    /// at most twice the number of edges of the mesh.
     pub fn corners_of(&self, faces: Range) -> Range {
         faces.times(self.degrees).capped(self.edges.by(2).max)
     }
 
-    /// Adds elements.
+    /// Adds these numbers of elements to the counts of the plan.
     pub fn grow(&mut self, vertices: Range, edges: Range, faces: Range) {
         self.vertices = self.vertices.plus(vertices);
         self.edges = self.edges.plus(edges);
@@ -302,8 +302,8 @@ impl MeshPlan {
     }
 }
 
-/// Returns an iterator over the names `name`, `name.2`, `name.3` and so on, each together with its number. The first
-/// number is `first`.
+/// Returns an iterator over the names `name`, `name.2`, `name.3` and so on, each together with its number. `name`
+/// without a suffix has the number 1. The iterator starts at the number `first`.
 pub(crate) fn numbered(name: &str, first: u64) -> impl Iterator<Item = (u64, String)> {
     (first..).map(move |number| match number {
         1 => (1, name.to_owned()),
@@ -372,8 +372,8 @@ pub struct PlannedObject {
     pub unplaced_nodes: u64,
 }
 
-/// The plan of a scene at one point of a recipe. When a step is planned, it changes this plan in the same way as it
-/// will change the scene.
+/// The plan of a scene at one point of a recipe. A plan has counts instead of geometry. When a step is planned, the
+/// step changes the plan in the same way as it will change the scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Plan {
     objects: Vec<PlannedObject>,
@@ -388,14 +388,15 @@ pub struct Plan {
     pub inputs: Vec<PathBuf>,
     /// The files that the steps planned so far write.
     outputs: IndexSet<PathBuf>,
-    /// The data that the current step certainly loses. Attributes of meshes that the step changes are not included.
+    /// The data that the current step certainly loses. Lost attributes of changed meshes are not included: the crate
+    /// `recipe` finds them by comparing the plans before and after the step.
     pub losses: Vec<Loss>,
     /// The data that the current step possibly loses. The loss is uncertain because it is unknown whether the data
     /// exist, or what their values are.
     pub possible_losses: Vec<Loss>,
     graph: Arc<Graph>,
-    /// Whether an earlier step could not be read or planned. In this case, the scene can have objects that are missing
-    /// from the plan.
+    /// Whether an earlier step could not be read or planned. If so, the scene will possibly have objects that are
+    /// missing from the plan.
     pub incomplete: bool,
 }
 
@@ -439,8 +440,8 @@ impl Plan {
         &mut self.objects
     }
 
-    /// Returns whether [`objects_mut`](Self::objects_mut) was called since the last call of this method. If
-    /// `objects_mut` was not called, the only possible change is that objects were added at the end.
+    /// Returns whether [`objects_mut`](Self::objects_mut) was called since the last call of `take_edited`. If
+    /// `objects_mut` was not called, the only possible change of the objects is that some were added at the end.
     pub fn take_edited(&mut self) -> bool {
         std::mem::take(&mut self.is_edited)
     }
@@ -492,8 +493,8 @@ impl Plan {
         taken
     }
 
-    /// Adds an object `to` with the same nodes as the object `from` but with another geometry. Returns a problem if
-    /// another object has this name.
+    /// Adds an object `to` with the same nodes as the object `from` but with another geometry. Returns a problem if an
+    /// object with the name `to` already exists.
     pub fn insert_copy(
         &mut self,
         from: &str,
@@ -600,7 +601,7 @@ impl Plan {
 pub struct PlanContext<'a> {
     /// The input and output files of the run.
     pub files: &'a Files,
-    /// The objects named in the step's `on:`, all of which exist; `None` if the step has no `on:`.
+    /// The names of the objects in the step's `on:`. All of these objects exist. `None` if the step has no `on:`.
     pub on: Option<&'a [String]>,
     /// The memory budget of meshes, in bytes.
     pub budget: u64,

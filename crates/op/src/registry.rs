@@ -98,8 +98,8 @@ impl Registry {
         Self::default()
     }
 
-    /// Adds an operation. If another operation already has its name or one of its earlier names, [`check`](Self::check)
-    /// reports the conflict.
+    /// Adds an operation. If the current name or an earlier name of this operation already belongs to another
+    /// operation, [`check`](Self::check) reports the conflict.
     #[must_use]
     pub fn with<T: Operation>(mut self) -> Self {
         let entry = Entry::of::<T>();

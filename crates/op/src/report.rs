@@ -18,14 +18,14 @@ pub struct Report {
     pub losses: Vec<Loss>,
     /// The changes that were made to the data of a file while it was read.
     pub changes: Vec<ReadingChange>,
-    /// Other facts, one line each.
+    /// Other facts about the step, each in one line.
     pub notes: Vec<String>,
 }
 
-/// A change that was made while a file was read, such as the reversal of faces.
+/// A change that was made to the data of a file while the file was read, such as the reversal of faces.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
 pub struct ReadingChange {
-    /// A name for this kind of change that programs can rely on, such as `faces-reversed`.
+    /// A stable name for this kind of change, such as `faces-reversed`. Programs can rely on this name.
     pub code: String,
     /// The number of elements or values that were changed.
     pub count: u64,
@@ -49,7 +49,7 @@ pub enum ReadingElements {
 /// The edits that were refused for one reason.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
 pub struct Refused {
-    /// The reason.
+    /// The reason for which these edits were refused.
     pub reason: Refusal,
     /// The number of refused edits.
     pub count: u64,
@@ -60,7 +60,7 @@ pub struct Refused {
 /// Data that a step or a file format could not preserve.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
 pub struct Loss {
-    /// A name for this kind of loss that programs can rely on, such as `attribute-lost`.
+    /// A stable name for this kind of loss, such as `attribute-lost`. Programs can rely on this name.
     pub code: String,
     /// The number of lost values, elements or other items, if it is known.
     pub count: Option<u64>,
@@ -202,7 +202,7 @@ impl Report {
         Ok(())
     }
 
-    /// Adds the report of another part of the step.
+    /// Adds the contents of a second report, which is about another part of the same step.
     pub fn merge(&mut self, other: Self) {
         self.changed += other.changed;
         for refused in other.refused {

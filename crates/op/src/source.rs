@@ -9,14 +9,15 @@ use scene::{Object, Scene};
 use crate::plan::numbered;
 use crate::{Context, MeshPlan, OpError, Plan, PlannedGeometry, Problem, Report, Vector};
 
-/// The largest number of edges of a mesh that is built from polygons. Each edge adds at most two corners to the faces.
-/// Each corner can need two half-edges. The largest possible id of a half-edge is 2^32 - 2.
+/// The largest number of edges of a mesh that is built from polygons. Each edge is a side of at most two faces, so the
+/// faces have at most two corners for each edge. Each corner can need two half-edges. The largest possible id of a
+/// half-edge is 2^32 - 2.
 const MAX_EDGES: u64 = (u32::MAX as u64 - 1) / 4;
 
 /// A mesh that a step creates. A `Source` consists of the name of the new object, the planned element counts of its
 /// mesh, and the problems of the step's parameters.
 ///
-/// An operation creates the same `Source` in both its `plan` and its `apply` method:
+/// An operation creates the same `Source` in its method `plan` and in its method `apply`:
 ///
 /// ```
 /// use geometry::shapes;
@@ -47,8 +48,8 @@ pub struct Source<'a> {
 }
 
 impl<'a> Source<'a> {
-    /// Creates a source for a new object and a mesh with these counts. If `name` is omitted, the object is named after
-    /// the operation, in lower case. If that name is taken, `.2`, `.3` or a later number is added.
+    /// Creates a source for a new object and a mesh with these counts. If `name` is omitted, the object gets the name
+    /// of the operation in lower case. If another object has that name, `.2`, `.3` or a later number is added.
     pub fn new(operation: &'static str, name: Option<&'a str>, counts: MeshPlan) -> Self {
         let source = Self {
             operation,

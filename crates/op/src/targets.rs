@@ -17,7 +17,7 @@ pub struct TargetKind {
     pub operation: &'static str,
     /// What the operation does, as a verb phrase such as `changes meshes`.
     pub does: &'static str,
-    /// The words that messages use if the scene has no object of this kind, such as `no mesh to change`.
+    /// The words, such as `no mesh to change`, that messages use if the scene has no object of this kind.
     pub none: &'static str,
     /// What a recipe must do to get an object of this kind.
     pub help: &'static str,
@@ -110,8 +110,8 @@ pub fn target_scene<'s>(scene: &'s Scene, cx: &Context) -> Cow<'s, Scene> {
     Cow::Owned(scene.only(|name| on.iter().any(|wanted| wanted == name)))
 }
 
-/// Plans an operation on curves. `change` receives the number of control points of a curve, and returns the planned
-/// result and the problems of the step.
+/// Plans an operation on curves. `change` receives the possible number of control points of a curve. It returns the
+/// planned geometry that replaces the curve, and the problems of the step.
 pub fn plan_curves(
     operation: &'static str,
     plan: &mut Plan,

@@ -64,8 +64,8 @@ pub fn run(operation: &impl Operation, scene: &mut Scene) -> Result<Report, OpEr
 ///
 /// # Panics
 ///
-/// Panics if the operation fails or does not create exactly one object. Also panics if its plan has errors or differs
-/// from the mesh, or if the mesh breaks an invariant.
+/// Panics if the operation fails or does not create exactly one object. Also panics if the plan of the operation has
+/// errors or differs from the mesh, or if the mesh breaks an invariant.
 pub fn made(operation: &impl Operation) -> Mesh {
     let files = Files::default();
     let mut plan = Plan::default();

@@ -5,9 +5,10 @@
 //! capsule/before.mws     the scene before that step, bit for bit
 //! ```
 //!
-//! `recipe.ron` is an ordinary recipe. Its parameters are replaced by their values, and calls and repetitions are
-//! replaced by the steps that they stand for. Each step keeps its label, so it makes the same random choices as in the
-//! original run. The files that the steps read are not copied: `recipe.ron` refers to their original locations.
+//! `recipe.ron` is an ordinary recipe. In this recipe, parameters are replaced by their values, and calls and
+//! repetitions by the steps that they stand for. Each step keeps its label. The label seeds random choices, so the step
+//! makes the same choices as in the original run. The files that the steps read are not copied: `recipe.ron` refers to
+//! their original locations.
 
 use std::path::{Path, PathBuf};
 
@@ -23,7 +24,7 @@ use ron_tree::{Span, Value, ValueKind, string_literal};
 pub const BEFORE: &str = "before.mws";
 
 /// Returns the text of the recipe for a failure capsule in `folder`. The text contains the steps of `recipe`, starting
-/// with the step at the index `from`. The step at the index `from` failed with `message`. `inputs` are the files that
+/// with the step at the index `from`. `message` is the error with which this step failed. `inputs` are the files that
 /// `recipe` reads.
 pub fn capsule(
     recipe: &Recipe,
@@ -84,8 +85,8 @@ fn line(step: &RecipeStep, value: &Value) -> String {
 }
 
 impl Rebase<'_> {
-    /// Returns the edits of a recipe's text that rewrite the relative paths of input files. `value` is the syntax tree
-    /// of this text, and `inputs` are the files that the recipe reads.
+    /// Returns the edits of a recipe's text that make the relative paths of input files relative to the folder `to`.
+    /// `value` is the syntax tree of this text, and `inputs` are the files that the recipe reads.
     pub fn edits(&self, value: &Value, inputs: &[PathBuf]) -> Vec<(Span, String)> {
         let mut edits = Vec::new();
         let mut values = vec![value.clone()];

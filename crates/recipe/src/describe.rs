@@ -29,7 +29,7 @@ pub struct VariantDoc {
     pub written: String,
     /// The description of the variant.
     pub doc: String,
-    /// Its named fields.
+    /// The named fields of the variant.
     pub fields: Vec<FieldDoc>,
 }
 

@@ -6,14 +6,14 @@
 //! ```
 //!
 //! Jobs run on the same threads as the parallel loops inside them. As long as every thread has a job, no thread is
-//! idle. Each loop then runs entirely on the thread of its job and costs nothing extra. When no more jobs can start,
-//! idle threads help with the parallel loops of the last jobs. If there is not enough memory for the next job, the
-//! thread does not wait for memory, because a waiting thread could not help with the loops of other jobs. Instead, the
-//! thread returns to the thread pool. When a thread completes a job, memory becomes free. If there is now enough
-//! memory, the thread starts the next job. The thread wakes another thread if the limits allow one more job. While a
-//! job waits for a part of its parallel loop, the thread of the job does not start another job. Therefore, no job has
-//! to wait until another job has ended. A job also cannot deadlock on a lock that a suspended job on the same thread
-//! holds.
+//! idle. Each loop then runs entirely on the thread of its job, without the cost of distributing its work. When no more
+//! jobs can start, idle threads help with the parallel loops of the last jobs. If there is not enough memory for the
+//! next job, the thread does not wait for memory, because a waiting thread could not help with the loops of other jobs.
+//! Instead, the thread returns to the thread pool. When a thread completes a job, memory becomes free. If there is now
+//! enough memory, this thread starts the next job. The thread also wakes another thread if the limits allow one more
+//! job. While a job waits for a part of its parallel loop, the thread of the job does not start another job. Therefore,
+//! no job has to wait until another job has ended. A job also cannot deadlock on a lock that a suspended job on the
+//! same thread holds.
 
 use std::any::Any;
 use std::cell::Cell;
@@ -32,8 +32,8 @@ use crate::check::Forecast;
 pub struct JobLimits {
     /// The number of threads. 0 means one thread for each processor.
     pub threads: usize,
-    /// The maximum number of jobs that run at the same time. The number of jobs cannot exceed the number of threads. 0
-    /// means as many jobs as threads.
+    /// The maximum number of jobs that run at the same time. At most one job runs on each thread. 0 means as many jobs
+    /// as threads.
     pub jobs: usize,
     /// The memory budget, in bytes, that all running jobs share.
     pub budget: u64,
@@ -60,11 +60,11 @@ pub struct JobsError(#[from] ThreadPoolBuildError);
 pub struct Jobs<B, S, W> {
     /// The number of jobs.
     pub count: usize,
-    /// Returns the estimated peak memory of a job, in bytes.
+    /// The function that returns the estimated peak memory of a job, in bytes.
     pub bytes: B,
-    /// Returns `true` if no more jobs should be started.
+    /// The function that returns `true` once no more jobs are to be started.
     pub stop: S,
-    /// Runs a job.
+    /// The function that runs a job.
     pub work: W,
 }
 
@@ -141,7 +141,7 @@ fn deliver<T>(
 }
 
 thread_local! {
-    /// Whether this thread runs a job. A thread that waits for a part of its job also counts.
+    /// Whether this thread runs a job. This is also true while the thread waits for a part of its job.
     static RUNS_JOB: Cell<bool> = const { Cell::new(false) };
 }
 
@@ -171,8 +171,8 @@ where
     W: Fn(usize) -> T + Sync,
 {
     /// Runs jobs until no job can start. After starting a job, wakes another thread if the limits allow one more job.
-    /// If `is_broadcast` is set, all threads were started together. The first job therefore does not wake another
-    /// thread.
+    /// If `is_broadcast` is set, all threads were started together. A thread therefore does not wake another thread
+    /// when it starts its first job.
     fn work<'s>(&'s self, scope: &Scope<'s>, is_broadcast: bool) {
         // This thread already runs a job. The job that runs on this thread is waiting for a part of a loop. If the
         // thread started another job now, the waiting job could not continue until the other job has ended.
@@ -285,8 +285,8 @@ impl<T> InOrder<T> {
     }
 }
 
-/// The estimated memory for each byte of the input files, in bytes. This estimate is used if a forecast has no upper
-/// limit for the memory of its meshes. The memory must be enough for the file itself, its mesh, and an edited copy of
+/// The estimated number of bytes of memory for each byte of the input files. This estimate is used if a forecast has no
+/// upper limit for the memory of its meshes. It includes the file itself, the mesh of the file, and an edited copy of
 /// the mesh. The mesh of a text file is about as large as the file. The mesh of a binary file is up to three times as
 /// large as the file.
 const BYTES_FOR_EACH_BYTE_READ: u64 = 8;

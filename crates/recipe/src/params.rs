@@ -146,8 +146,9 @@ impl Param {
         }
     }
 
-    /// Converts a value that is written in a recipe to the canonical form for this parameter. If `folders` is given, a
-    /// relative path is rewritten so that it is relative to the new folder.
+    /// Converts a value that is written in a recipe to the form in which this parameter stores its values. For example,
+    /// the number `1` becomes `1.0` for a `Float`. If `folders` is given, a relative path is rewritten so that it is
+    /// relative to the new folder.
     ///
     /// # Errors
     ///
@@ -262,8 +263,8 @@ fn vector(parts: [f64; 3]) -> Result<Value, ParamError> {
     Ok(value(ValueKind::Tuple(parts)))
 }
 
-/// Returns a number as a value. The number is written with a decimal point or an exponent, and reading the text returns
-/// the same number.
+/// Returns a number as a value. The text of the value has a decimal point or an exponent, and parsing this text gives
+/// exactly the same number.
 fn float(x: f64) -> Result<Value, ParamError> {
     if !x.is_finite() {
         return Err(ParamError::new("a number", &format!("`{x:?}`")));

@@ -24,9 +24,10 @@ pub struct Recipe {
     /// The sources to which spans refer: first the text of the recipe itself, then the text of each recipe that it
     /// calls.
     pub sources: Vec<Source>,
-    /// The scopes of parameters. The first scope is that of the recipe itself, and each call has one further scope.
+    /// The scopes: each scope is a text with values for its parameters. The first scope is the recipe itself, and each
+    /// call of another recipe adds one scope.
     pub scopes: Vec<Scope>,
-    /// The names of the presets of the recipe.
+    /// The names of the presets of the recipe. A preset is a named set of parameter values.
     pub presets: Vec<String>,
     /// The steps in the order in which they run. Calls, repetitions and conditions are replaced by the steps that they
     /// stand for.
@@ -55,7 +56,7 @@ pub struct Parameter {
     pub name: String,
     /// The declaration of the parameter.
     pub param: Param,
-    /// The current value.
+    /// The current value of the parameter.
     pub value: Value,
     /// Where the value comes from.
     pub origin: Origin,
@@ -94,7 +95,7 @@ impl Parameter {
 #[derive(Clone, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum OnLoss {
-    /// The loss is reported.
+    /// The run reports the loss and continues.
     #[default]
     Warn,
     /// The run fails.
@@ -119,7 +120,7 @@ impl OnLoss {
     }
 }
 
-/// The kind of a step that contains other steps.
+/// The kind of a step that contains other steps: a call, a repetition or a condition.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     Call,
@@ -130,7 +131,7 @@ pub(crate) enum Kind {
 impl Kind {
     pub(crate) const ALL: [Self; 3] = [Self::Call, Self::Repeat, Self::If];
 
-    /// The name in recipes.
+    /// Returns the name of this kind of step in recipes.
     pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Call => "Call",
@@ -140,7 +141,7 @@ impl Kind {
     }
 }
 
-/// A step.
+/// A step of a recipe, as it was read.
 #[derive(Clone, Debug)]
 pub struct RecipeStep {
     /// The id of the step, which other parts of the recipe use to refer to it.
@@ -168,8 +169,8 @@ pub struct RecipeStep {
     pub span: Span,
     /// The operation as written in the recipe, but with parameters replaced by their values.
     pub value: Value,
-    /// One number for each `Repeat` around the step, from the outermost to the innermost: which of its repetitions this
-    /// step belongs to. Repetitions are counted from 1.
+    /// One number for each `Repeat` around the step, from the outermost to the innermost. It is the number, counted
+    /// from 1, of the repetition to which this step belongs.
     pub(crate) turns: Vec<u32>,
     /// The label without the numbers of the repetitions.
     pub(crate) stem: String,
@@ -229,7 +230,7 @@ impl Recipe {
     }
 
     /// Returns the placeholders that output paths of the recipe itself can contain, with their values. Each parameter
-    /// that is a path has two placeholders, `name.stem` and `name.name`.
+    /// that is a path has two placeholders: if its name is `p`, these are `p.stem` and `p.name`.
     pub fn placeholders(&self) -> Vec<(String, String)> {
         self.scopes
             .first()
@@ -237,8 +238,9 @@ impl Recipe {
             .unwrap_or_default()
     }
 
-    /// Returns the file settings of each scope, such as the folder from which it reads. For the recipe itself, these
-    /// settings are `files`. A called recipe reads from its own folder and has its own placeholders.
+    /// Returns the file settings of each scope, such as the folder from which the steps of the scope read. For the
+    /// recipe itself, these settings are `files`. A called recipe reads from its own folder and has its own
+    /// placeholders.
     pub fn files(&self, files: &Files) -> Vec<Files> {
         let of = |(i, scope): (usize, &Scope)| {
             if i == 0 {

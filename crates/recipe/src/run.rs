@@ -1,12 +1,12 @@
-//! Runs a recipe.
+//! Runs the steps of a recipe.
 //!
 //! The steps run on a scene, one after another. If a step fails, the run ends and no outputs are written. Steps write
 //! their files to a temporary folder. The files are moved to the output folder only after all steps have run and all
 //! expectations hold.
 //!
-//! If a [cache](StepCache) is used, most steps need not run. A step runs only if the cache does not have its result, or
-//! if a scene is needed that the cache does not have. A scene is needed if a step must run on it, if an expectation
-//! must be checked against it, or if the listener or the cache requests it.
+//! If a [cache](StepCache) is used, a step runs only in two cases: the cache does not have its result, or a scene is
+//! needed that the cache does not have. A scene is needed if a step must run on it, if an expectation must be checked
+//! against it, or if the listener or the cache requests it.
 
 mod cache;
 mod listener;
@@ -55,8 +55,8 @@ pub fn run(recipe: &Recipe, settings: Settings, listener: &dyn Listener) -> Outc
 }
 
 /// Runs a recipe starting at the step with index `first`. `scene` is the scene before this step, which an earlier run
-/// has passed to [`Listener::scene_after`] or returned in an [`Outcome`]. If one step has changed, a run from this step
-/// avoids running the steps before it again.
+/// has passed to [`Listener::scene_after`] or returned in an [`Outcome`]. Use this function after a change of one step:
+/// the steps before this step need not run again.
 ///
 /// The steps before `first` do not write their files again, and the expectations after these steps are not checked
 /// again. If `first` is not 0, the cache is not used. The cache identifies a scene by the steps that produced it, and
@@ -344,8 +344,8 @@ impl Runner<'_> {
         self.failures.push(diagnostic);
     }
 
-    /// Checks the expectations that belong after the step with the index `after`. If `after` is `None`, checks those at
-    /// the end of the recipe.
+    /// Checks the expectations that are placed after the step with the index `after`. If `after` is `None`, checks
+    /// those that are placed at the end of the recipe.
     fn check_expectations(
         &mut self,
         after: Option<usize>,

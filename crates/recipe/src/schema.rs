@@ -1,4 +1,5 @@
-//! JSON schemas. Text editors use the schema of whole recipes. The reader of recipes uses schemas of parts of a recipe.
+//! JSON schemas. Text editors can check and complete recipes with the schema of whole recipes. [`read`](crate::read())
+//! checks parts of a recipe with the schemas of these parts.
 
 use std::collections::HashMap;
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};

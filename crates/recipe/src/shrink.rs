@@ -1,4 +1,5 @@
-//! Reduces a scene on which a step fails. Removes objects and faces as long as the step still fails in the same way.
+//! Reduces a scene on which a step fails. Removes objects and faces as long as the step still fails with the same
+//! message, apart from the numbers in it.
 //!
 //! Faces are removed in blocks. The size of the blocks is halved until each block is a single face, as in the algorithm
 //! ddmin. Source: Zeller and Hildebrandt, "Simplifying and Isolating Failure-Inducing Input", 2002. Vertices keep their
@@ -48,7 +49,7 @@ pub fn is_alike(a: &str, b: &str) -> bool {
 ///
 /// # Errors
 ///
-/// The errors of `fails`.
+/// Returns the errors of `fails`.
 pub fn shrink(
     scene: &Scene,
     tries: usize,

@@ -15,12 +15,12 @@ pub enum SourceError {
     /// The text is longer than the maximum length of a recipe.
     #[error("{}: the recipe is larger than {} MiB", .0.display(), MAX_BYTES >> 20)]
     TooLong(PathBuf),
-    /// The bytes are not text.
+    /// The bytes of the file are not UTF-8 text.
     #[error("{}:{line}: the recipe is not UTF-8 text", path.display())]
     NotUtf8 {
-        /// The file.
+        /// The path of the file.
         path: PathBuf,
-        /// The number of the first line that is not text. Lines are counted from 1.
+        /// The number of the first line that is not UTF-8 text. Lines are counted from 1.
         line: usize,
     },
 }
@@ -31,7 +31,7 @@ pub struct Source {
     /// The path of the file in the form in which messages show it. Paths in the text are relative to the folder of this
     /// file.
     pub path: PathBuf,
-    /// The text.
+    /// The text of the file.
     pub text: Arc<str>,
 }
 

@@ -115,16 +115,16 @@ impl fmt::Display for Stamp {
 ///
 /// # Errors
 ///
-/// If the file cannot be read.
+/// Returns an error if the file cannot be read.
 pub fn digest(store: &dyn Store, path: &Path) -> Result<String, StoreError> {
     let bytes = store.read(path)?;
     let digest = blake3::Hasher::new().update_rayon(&bytes).finalize();
     Ok(digest.to_hex()[..32].to_owned())
 }
 
-/// Returns the path of a file in the form in which a stamp records it. The recorded path is relative to `folder`, the
-/// recipe's folder. If the path is absolute and leads out of this folder, only the name of the file is recorded. If
-/// `path` is relative, it is relative to the working directory.
+/// Returns the path of a file in the form in which a stamp records it. `folder` is the folder of the recipe, and a
+/// relative `path` is relative to the working directory. The recorded path is relative to `folder`. If `path` is
+/// absolute and leads out of `folder`, only the name of the file is recorded.
 pub fn shown(path: &Path, folder: &Path) -> String {
     let relative = if path.has_root() {
         let name = || path.file_name().unwrap_or_default().into();

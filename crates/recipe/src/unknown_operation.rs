@@ -18,9 +18,9 @@ const BOOLEANS: &[&str] = &[
 
 /// Returns the help text of an error about the unknown operation `name`. The text suggests at most three operations:
 /// first operations with a similar name, then other operations whose [`words`](op::Entry::words) contain a word of
-/// `name`. If operations are found by their words, only the operation with the most similar name is suggested before
-/// them. If neither search finds an operation, the text suggests operations whose names share a word with `name`. If
-/// there are no such operations either, the text names the command that lists all operations.
+/// `name`. If some operations are found by their words, the text suggests at most one operation with a similar name
+/// before them. If neither search finds an operation, the text suggests operations whose names share a word with
+/// `name`. If there are no such operations either, the text names the command that lists all operations.
 ///
 /// If `name` contains a word for a boolean operation, the text instead says that there are no boolean operations, and
 /// names other operations that can be used instead.

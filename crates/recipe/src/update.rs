@@ -22,8 +22,8 @@ pub struct Update {
     pub changes: Vec<Change>,
     /// The reference files to write, with their contents.
     pub files: BTreeMap<PathBuf, Vec<u8>>,
-    /// The failures that the update does not fix, in the order of the run. For an expectation, the help text gives the
-    /// reason.
+    /// The failures that the update does not fix, in the order of the run. If the failure is an expectation that does
+    /// not hold, its help text gives the reason.
     pub left: Vec<Diagnostic>,
 }
 
@@ -100,7 +100,8 @@ pub fn update(recipe: &Recipe, outcome: &Outcome) -> Update {
 }
 
 /// For each written expectation that does not hold in at least one repetition of its step, returns a list with one
-/// entry for each repetition. The entry is `None` if the expectation holds in that repetition.
+/// entry for each repetition. The entry is `None` if the expectation holds in that repetition, and otherwise the
+/// failure.
 fn unmet_in_text<'o>(
     recipe: &Recipe,
     outcome: &'o Outcome,
@@ -122,8 +123,9 @@ fn unmet_in_text<'o>(
     places.into_values().collect()
 }
 
-/// Finds the expectation that is not met. Returns its value in the tree and the fix, which records the actual value, or
-/// the reason why the expectation cannot be fixed. `turns` has one entry for each repetition of the step.
+/// In the syntax tree of the recipe, finds the expectation that does not hold. Returns the expectation and the edits
+/// that record the actual value, or the reason why the expectation cannot be fixed. `turns` has one entry for each
+/// repetition of the step.
 fn find_fix<'t>(
     tree: &'t Value,
     recipe: &Recipe,

@@ -26,11 +26,11 @@ pub struct Upgraded {
     pub renames: Vec<(usize, Rename)>,
 }
 
-/// Replaces old names in a recipe. The recipe can have other errors, as long as its text can be parsed.
+/// Replaces old names in a recipe. The recipe is allowed to have other errors, as long as its text can be parsed.
 ///
 /// # Errors
 ///
-/// The syntax errors of the text, or an error if the version is missing or not supported.
+/// Returns the syntax errors of the text, or an error if the version of the recipe is missing or not supported.
 pub fn upgrade(source: &str, registry: &Registry) -> Result<Upgraded, Vec<Diagnostic>> {
     let parsed = ron_tree::parse(source);
     let root = &parsed.value;

@@ -1,5 +1,5 @@
-//! Decodes a scene from its canonical form. The bytes can be corrupt, so lengths are checked before memory is
-//! allocated, and the arrays of a mesh are validated.
+//! Decodes a scene from its canonical form, which is the sequence of bytes that [`Scene::encode`] writes. The bytes can
+//! be corrupt, so lengths are checked before memory is allocated, and the arrays of a mesh are validated.
 
 use std::sync::Arc;
 
@@ -23,7 +23,7 @@ pub trait ArraySource {
     ///
     /// # Errors
     ///
-    /// [`DecodeError::Array`] with the reason why the array cannot be read.
+    /// Returns [`DecodeError::Array`] with the reason why the array cannot be read.
     fn read(&mut self, bytes: &mut [u8]) -> Result<(), DecodeError>;
 }
 
@@ -68,12 +68,13 @@ pub enum DecodeError {
 }
 
 impl Scene {
-    /// Decodes a scene from its canonical form. Arrays of at least `min_long` bytes are read from `arrays`. To
-    /// decode the output of [`encode`](Self::encode), pass `usize::MAX` and [`NoArrays`].
+    /// Decodes a scene from its canonical form. The contents of arrays of at least `min_long` bytes are not in the form
+    /// itself and are read from `arrays`. To decode the output of [`encode`](Self::encode), pass `usize::MAX` and
+    /// [`NoArrays`].
     ///
     /// # Errors
     ///
-    /// [`DecodeError`] if the bytes are not the canonical form of a scene.
+    /// Returns a [`DecodeError`] if the bytes are not the canonical form of a scene.
     pub fn decode(
         bytes: &[u8],
         min_long: usize,
@@ -137,7 +138,8 @@ impl<'a> Decoder<'a> {
         std::str::from_utf8(self.take(n)?).map_err(|_| DecodeError::Expected("a text in UTF-8"))
     }
 
-    /// Reads a name and returns the value with this name. `expected` describes the value in an error.
+    /// Reads a name and returns the value that `all` has for this name. If there is none, the error contains
+    /// `expected`, a description of the value.
     fn named<T: Copy>(
         &mut self,
         all: &[(&str, T)],

@@ -2,16 +2,16 @@
 //!
 //! The canonical form contains every array and every string with its length. Numbers are little-endian and keep all
 //! their bits. Two scenes have the same canonical form if and only if they have the same graph and the same objects in
-//! the same order, bit by bit, apart from removed elements of meshes.
+//! the same order, bit for bit. Removed elements of meshes are ignored in this comparison.
 //!
 //! If the scene has a graph, the graph follows the objects. A scene without a graph has the same form as in the
 //! first version of the canonical form, which had no graphs.
 //!
 //! A material is written as its name, base color, metalness, roughness and the path of its base color texture. Other
 //! properties are written only if they differ from their defaults: first a marker ([`MORE`]), then each property with
-//! its name. A material whose other properties all have their defaults has the same form as in the first version of
-//! the canonical form. Extras of a material and names of a texture are also written only if they are present, after
-//! another marker.
+//! its name. If all other properties of a material have their defaults, the material has the same form as in the first
+//! version of the canonical form. Extras of a material and names of a texture follow after another marker, and only if
+//! they are present.
 
 use std::fmt;
 
@@ -113,8 +113,8 @@ pub(crate) const GRAPH: &str = "graph";
 
 /// The first string of the canonical form. The string contains the version of the canonical form.
 pub(crate) const FORM: &str = "meshwright scene 1";
-/// The marker before the other properties of a material. The marker is at a position where a decoder could expect the
-/// length of a string. The marker cannot be mistaken for the length of a string, because no string has this length.
+/// The marker before the other properties of a material. Where the marker is written, a decoder could also expect the
+/// length of a string. The marker cannot be mistaken for such a length, because no string is that long.
 pub(crate) const MORE: u64 = u64::MAX;
 
 /// The name of a texture in the canonical form, and a function that returns the field of a material for this texture.
@@ -140,10 +140,10 @@ pub(crate) const RULES: [(&str, Rule); 4] = [
     ("drop", Rule::Drop),
 ];
 
-/// All wrap modes; the index of a mode is its code.
+/// All wrap modes. The index of a mode in this list is its code in the canonical form.
 pub(crate) const WRAPS: [Wrap; 3] = [Wrap::Repeat, Wrap::Mirror, Wrap::Clamp];
 
-/// All filters; the index of a filter is its code.
+/// All filters. The index of a filter in this list is its code in the canonical form.
 pub(crate) const FILTERS: [Option<Filter>; 3] = [None, Some(Filter::Nearest), Some(Filter::Linear)];
 
 /// Returns the index of a value in a list of all values.

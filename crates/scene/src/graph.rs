@@ -6,10 +6,10 @@
 //!              `---------- object "body"
 //! ```
 //!
-//! A mesh has coordinates in its own space. The placement of a node maps the space of the node to the space of its
-//! parent. The placements of a node and its ancestors, applied in turn, map the space of its object to the scene. If
-//! the node has a skin, the joints of the skin place the object instead. An object that no node references appears
-//! once, and its own space is the space of the scene.
+//! A mesh has coordinates in its own space. The placement of a node is an affine map from the space of the node to the
+//! space of its parent. The placements of a node and its ancestors, applied in turn, map the space of its object to the
+//! scene. If the node has a skin, the joints of the skin place the object instead. An object that no node references
+//! appears once, and its own space is the space of the scene.
 
 mod edit;
 mod form;
@@ -34,18 +34,19 @@ pub struct Graph {
     pub lights: Vec<String>,
     /// The skins that nodes refer to.
     pub skins: Vec<Skin>,
-    /// The animations of nodes.
+    /// The animations, which change properties of nodes over time.
     pub animations: Vec<Animation>,
     /// Arrays of numbers. Skins and animations refer to these arrays by index, and can share an array.
     pub arrays: Vec<Vec<f32>>,
-    /// Other parts of a glTF file, as JSON objects by name. `asset` has the copyright and the extras of the asset,
-    /// `scene` has the name and the extras of the scene, and `root` has the extras of the document.
+    /// Other parts of a glTF file: each value is a JSON object, and each key is the name of the part. `asset` has the
+    /// copyright and the extras of the asset, `scene` has the name and the extras of the scene, and `root` has the
+    /// extras of the document.
     pub document: BTreeMap<String, String>,
-    /// The labels of meshes. The key is the name of the object.
+    /// The labels of meshes. Each key is the name of the object that has the mesh.
     labels: BTreeMap<String, MeshLabel>,
 }
 
-/// A node.
+/// A node of the hierarchy. A node can place an object, a camera or a light.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Node {
     /// The name. Several nodes can have the same name.
@@ -90,12 +91,12 @@ impl MeshLabel {
 }
 
 impl Graph {
-    /// Returns the nodes.
+    /// Returns all nodes of the graph.
     pub fn nodes(&self) -> &[Node] {
         &self.nodes
     }
 
-    /// Whether the graph has neither nodes nor any other parts.
+    /// Whether the graph has no nodes and no other content, such as cameras or animations.
     pub fn is_empty(&self) -> bool {
         *self == Self::default()
     }
@@ -104,7 +105,7 @@ impl Graph {
     ///
     /// # Panics
     ///
-    /// If the parent, the camera or the light does not exist.
+    /// Panics if the parent, the camera or the light does not exist.
     pub fn push(&mut self, node: Node) -> usize {
         let index = self.nodes.len();
         assert!(node.parent.is_none_or(|parent| parent < index), "no parent");
@@ -121,7 +122,7 @@ impl Graph {
     ///
     /// # Panics
     ///
-    /// If the node does not exist.
+    /// Panics if the node does not exist.
     pub fn set_placement(&mut self, node: usize, placement: Placement) {
         self.nodes[node].placement = placement;
     }
@@ -136,7 +137,7 @@ impl Graph {
         self.labels.insert(object.into(), label);
     }
 
-    /// Returns one map for each node, from the space of the node to the scene.
+    /// Returns one affine map for each node, from the space of the node to scene space.
     pub fn to_scene(&self) -> Vec<DAffine3> {
         let mut maps: Vec<DAffine3> = Vec::with_capacity(self.nodes.len());
         for node in &self.nodes {
@@ -150,7 +151,8 @@ impl Graph {
         maps
     }
 
-    /// Returns for each object the indices of the nodes that reference it. The key is the name of the object.
+    /// Returns, for each object, the indices of the nodes that reference the object. The keys are the names of the
+    /// objects.
     pub fn nodes_of_objects(&self) -> BTreeMap<&str, Vec<usize>> {
         let mut nodes: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
         for (i, node) in self.nodes.iter().enumerate() {

@@ -1,8 +1,8 @@
 //! A scene: named objects, each a mesh, Bezier patches, a Bezier curve or polylines.
 //!
-//! Each object has its own space. The nodes of the [graph](Graph) place meshes in the scene. The coordinates of an
-//! object that no node references are in scene space. Object names are unique. The [digest](Scene::digest) of a
-//! scene is the same on every machine for the same content.
+//! Each object has its own coordinate system, called its space. The nodes of the [graph](Graph) place meshes in the
+//! scene. If no node references an object, the coordinates of the object are in scene space. Object names are unique.
+//! The [digest](Scene::digest) of a scene is the same on every machine for the same content.
 
 mod decode;
 mod digest;
@@ -40,7 +40,7 @@ pub use transformed::{
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scene {
     objects: Vec<Object>,
-    /// The graph is shared until it is changed, so that copying a scene is cheap.
+    /// Copies of a scene share the graph until one of them changes it, so that copying a scene is cheap.
     graph: Arc<Graph>,
 }
 
@@ -49,7 +49,7 @@ pub struct Scene {
 pub struct Object {
     /// The name, unique in its scene.
     pub name: String,
-    /// The shape.
+    /// The shape of the object.
     pub geometry: Geometry,
     /// The materials of the faces of a mesh. The attribute [`mesh::MATERIAL`] has indices into this list.
     pub materials: Vec<Material>,
@@ -58,7 +58,7 @@ pub struct Object {
 /// The shape of an object.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Geometry {
-    /// A mesh. The mesh is shared until it is changed, so that copying a scene is cheap.
+    /// A mesh. Copies of a scene share the mesh until one of them changes it, so that copying a scene is cheap.
     Mesh(Arc<Mesh>),
     /// Bicubic Bezier patches.
     Patches(Vec<Patch>),
@@ -161,7 +161,7 @@ impl Scene {
     ///
     /// # Errors
     ///
-    /// [`DuplicateName`] if the scene already has an object with this name. The scene is unchanged.
+    /// Returns [`DuplicateName`] if the scene already has an object with this name. The scene is then unchanged.
     pub fn insert(&mut self, object: Object) -> Result<(), DuplicateName> {
         if self.object(&object.name).is_some() {
             return Err(DuplicateName(object.name));
@@ -170,13 +170,13 @@ impl Scene {
         Ok(())
     }
 
-    /// Appends objects and the nodes that place them. Like [`Graph::append`], returns the number of parts of the
-    /// document that are not kept.
+    /// Appends objects and the nodes that place them. Like [`Graph::append`], returns the number of parts of
+    /// [`Graph::document`] that are not kept.
     ///
     /// # Errors
     ///
-    /// [`DuplicateName`] if the scene already has an object with one of the names, or two of the objects have the same
-    /// name. The scene is unchanged.
+    /// Returns [`DuplicateName`] if the scene already has an object with one of the names, or if two of the objects
+    /// have the same name. The scene is then unchanged.
     pub fn append(&mut self, objects: Vec<Object>, graph: Graph) -> Result<usize, DuplicateName> {
         let mut names: BTreeSet<&str> = self.objects.iter().map(|o| o.name.as_str()).collect();
         if let Some(object) = objects.iter().find(|o| !names.insert(&o.name)) {
@@ -206,13 +206,13 @@ impl Scene {
         }
     }
 
-    /// Renames an object. A node that references the object is renamed too if its name is `from`. The mesh can have a
-    /// different name than the object. The mesh is renamed if its name is `from`, or if no node was renamed. The object
-    /// keeps its position in the list. Returns whether the object exists.
+    /// Renames an object. A node that references the object is renamed too if its name is `from`. If the mesh has a
+    /// [label](MeshLabel), the label is renamed too if its name is `from`, or if no node was renamed. The object keeps
+    /// its position in the list. Returns whether the object exists.
     ///
     /// # Errors
     ///
-    /// [`DuplicateName`] if a different object has the new name. The scene is unchanged.
+    /// Returns [`DuplicateName`] if a different object has the new name. The scene is then unchanged.
     pub fn rename(&mut self, from: &str, to: &str) -> Result<bool, DuplicateName> {
         if from != to && self.object(to).is_some() {
             return Err(DuplicateName(to.to_owned()));

@@ -166,8 +166,8 @@ impl Texture {
 /// An image.
 #[derive(Clone, PartialEq)]
 pub enum Image {
-    /// The path of an image file that was not read, as written in the model file, with `/` as separator; or a URI
-    /// with a scheme.
+    /// The path of an image file that was not read, or a URI with a scheme. A path is stored as written in the model
+    /// file, with `/` as the separator.
     File(String),
     /// An image file that was read from the folder of the model file. The bytes are shared between copies, as in
     /// `Embedded`.
@@ -177,7 +177,8 @@ pub enum Image {
         /// The content of the image file.
         bytes: Arc<[u8]>,
     },
-    /// The bytes of an image file. The bytes are shared, so that copying a material is cheap.
+    /// The bytes of an image that is embedded in the model file. Copies of a material share the bytes, so that copying
+    /// is cheap.
     Embedded {
         /// The media type, such as `image/png`.
         mime: String,

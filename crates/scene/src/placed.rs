@@ -13,13 +13,14 @@ use crate::{Geometry, Object, Pose, Scene, transformed};
 /// An instance: an object with its placement in the scene.
 #[derive(Clone, Debug)]
 pub struct Instance<'s> {
-    /// The object.
+    /// The object that is placed.
     pub object: &'s Object,
     /// A name that is unique among all instances. The only instance of an object has the name of the object. If an
     /// object has several instances, each has the name of its node (or of the object, if the node has no name),
     /// followed by a number if necessary.
     pub name: String,
-    /// The map from the space of the object to the scene. For a skinned mesh, the map of the first joint.
+    /// The affine map from the space of the object to scene space. For a skinned mesh, this is the map of the first
+    /// joint.
     pub to_scene: DAffine3,
     /// The deformation of the object.
     pub pose: Pose,

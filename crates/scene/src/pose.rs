@@ -22,8 +22,8 @@ type Normals<'a> = (Domain, &'a [DVec3]);
 /// How a node deforms its object.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pose {
-    /// For each joint of the skin, the map from the points in the bind pose to the scene. `None` if the node has no
-    /// skin, the skin has no joints, or the mesh has no weights of joints.
+    /// For each joint of the skin, the affine map from points in the bind pose to scene space. `None` if the node has
+    /// no skin, the skin has no joints, or the mesh has no weights of joints.
     pub joints: Option<Arc<[DAffine3]>>,
     /// The weights of the morph targets.
     pub weights: Vec<f64>,
@@ -52,14 +52,14 @@ impl Pose {
         pose
     }
 
-    /// Whether the pose changes the points of a mesh, apart from the placement of its node.
+    /// Whether joints or morph targets change the points of a mesh. The placement of its node does not count.
     pub(crate) fn deforms(&self) -> bool {
         self.joints.is_some() || self.weights.iter().any(|&w| w != 0.0)
     }
 
-    /// Returns for each of `n` vertices the map from its point in the bind pose to the scene. The map is the
-    /// weighted mean of the maps of the joints of the vertex (linear blend skinning). A vertex without weights
-    /// follows the first joint. Returns `None` if the pose has no joints.
+    /// Returns, for each of `n` vertices, the affine map from its point in the bind pose to scene space. The map is the
+    /// weighted mean of the maps of the joints of the vertex (linear blend skinning). A vertex without weights follows
+    /// the first joint. Returns `None` if the pose has no joints.
     pub fn blended(&self, attributes: &Attributes, n: usize) -> Option<Vec<DAffine3>> {
         let maps = self.joints.as_deref()?;
         let columns = attributes.joints();
@@ -89,8 +89,9 @@ impl Pose {
         Some(parallel::collect(n, blend))
     }
 
-    /// Returns the attributes in this pose, before joints move the mesh, that differ from those in `attributes`: the
-    /// normals and tangents of the mesh and of its morph targets, and the texture coordinates and colors of the mesh.
+    /// Returns the attributes that the weights of the morph targets change, with their values before joints move the
+    /// mesh. These are normals and tangents of the mesh and of its morph targets, and texture coordinates and colors of
+    /// the mesh.
     pub fn morphed_attributes(
         &self,
         attributes: &Attributes,
@@ -153,9 +154,10 @@ impl Pose {
     /// one of the old columns of normals has values for corners, all new columns of normals have values for corners;
     /// otherwise, they have values for vertices. `vertex_of` returns the vertex of a corner.
     ///
-    /// The new normal is the normalized sum of the old normal and the weighted differences between the normals of the
-    /// morph targets and the old normal, as in glTF 2.0, section 3.7.2.2. The differences themselves do not change. If
-    /// the sum is zero, the old normal stays. Tangents are computed like normals, and their signs stay.
+    /// For each morph target, the difference between its normal and the old normal is multiplied by the weight of the
+    /// target. The new normal is the normalized sum of the old normal and these weighted differences, as in glTF 2.0,
+    /// section 3.7.2.2. The normals of the morph targets change by the same vector, so these differences stay the same.
+    /// If the sum is zero, the old normal stays. Tangents are computed like normals, and their signs stay.
     fn morphed_directions(
         &self,
         attributes: &Attributes,

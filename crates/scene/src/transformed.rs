@@ -8,12 +8,11 @@ use mesh::{
 use rayon::prelude::*;
 
 /// Returns a mesh with all points, normals, tangents and deltas of morph targets transformed. All ids stay the same. If
-/// the map is a reflection, faces are reversed as by [`Mesh::reverse`], but no attribute is dropped.
+/// the map is a reflection, faces are reversed as by [`Mesh::reverse`]. Unlike there, no attribute is dropped.
 ///
-/// Normals are multiplied by the cofactor matrix of the map, which is the inverse transpose of the map times its
-/// determinant (Turkowski, "Properties of Surface-Normal Transformations", 1990). The determinant of a reflection is
-/// negative, so the product with the cofactor matrix negates the normals. Reversing the faces negates the normals a
-/// second time.
+/// Normals are multiplied by the cofactor matrix of the map: the inverse transpose, multiplied by the determinant
+/// (Turkowski, "Properties of Surface-Normal Transformations", 1990). The determinant of a reflection is negative, so
+/// the product with the cofactor matrix negates the normals. Reversing the faces negates the normals a second time.
 pub fn transformed(mesh: &Mesh, map: &DAffine3) -> Mesh {
     let is_mirror = map.matrix3.determinant() < 0.0;
     let map = LinearMap::of(map);

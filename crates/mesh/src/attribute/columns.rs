@@ -14,7 +14,7 @@ pub struct Column {
     pub name: String,
     /// What edits do with the values.
     pub rule: Rule,
-    /// The values.
+    /// The values, one for each element of the domain.
     pub values: Values,
 }
 
@@ -85,8 +85,8 @@ impl Attributes {
         index.map(|i| &mut self.columns[domain as usize][i])
     }
 
-    /// Inserts a column into a domain. If the domain already has a column with the same name, it is replaced. The
-    /// length of the column must be the number of elements of this domain in the mesh that gets these attributes.
+    /// Inserts a column into a domain. An existing column of this domain with the same name is replaced. The length of
+    /// the column must be the number of elements of this domain in the mesh that gets these attributes.
     pub fn insert(&mut self, domain: Domain, column: Column) {
         let index = self.find(domain, &column.name);
         let columns = &mut self.columns[domain as usize];
@@ -122,10 +122,10 @@ impl Attributes {
         }
     }
 
-    /// Appends the values of `other`. `lens` contains the number of elements of each domain in the mesh that `self`
-    /// belongs to, and `other_lens` those in the mesh that `other` belongs to. A column that only one of the two meshes
-    /// has gets zero values for the elements of the other mesh. If two columns have the same name but different types,
-    /// the column of `other` is skipped, and its domain and name are returned.
+    /// Appends the values of `other`. `lens` contains the number of elements of each domain in the mesh of `self`.
+    /// `other_lens` contains the same numbers for the mesh of `other`. If only one of the two meshes has a column, the
+    /// column gets zero values for the elements of the other mesh. If two columns have the same name but different
+    /// types, the column of `other` is skipped, and its domain and name are returned.
     pub fn append(
         &mut self,
         lens: [usize; 4],

@@ -13,9 +13,9 @@
 //! The attribute `morph_tangent:t` has the tangents of the corners when morph target t has the weight 1, with the rule
 //! and the signs of [`CORNER_TANGENT`](crate::CORNER_TANGENT).
 //!
-//! The attributes `morph_uv:t`, `morph_uv1:t` and so on, and `morph_color:t`, have the changes that morph target t makes
-//! to the attribute `uv`, `uv1` or `color` if its weight is 1. Like `morph:t`, they store differences and follow the rule
-//! [`Rule::Interpolate`](crate::Rule::Interpolate).
+//! The attribute `morph_uv:t` has the changes that morph target t makes to the attribute `uv` if the weight of the
+//! target is 1. In the same way, `morph_uv1:t` belongs to `uv1`, and `morph_color:t` to `color`. Like `morph:t`, these
+//! attributes store differences and follow the rule [`Rule::Interpolate`](crate::Rule::Interpolate).
 
 use super::{Attributes, Values};
 use crate::{COLOR, DVec3, Domain, UV};
@@ -48,8 +48,8 @@ pub fn morph_tangent_name(target: usize) -> String {
     format!("{MORPH_TANGENT}{target}")
 }
 
-/// Returns the name of the attribute with the changes that a morph target makes to the texture coordinates or colors in
-/// the attribute with the name `changed`.
+/// Returns the name of the attribute with the changes that a morph target makes to the attribute `changed`, which has
+/// texture coordinates or colors.
 pub fn morph_value_name(changed: &str, target: usize) -> String {
     format!("{MORPH_VALUE}{changed}:{target}")
 }
@@ -65,20 +65,20 @@ pub fn morph_of(name: &str) -> Option<usize> {
     number(name.strip_prefix(MORPH)?)
 }
 
-/// Returns the morph target whose normals the attribute with this name stores; `None` if an attribute with this name
-/// does not store normals of a morph target.
+/// Returns the morph target whose normals the attribute with this name stores. Returns `None` if an attribute with this
+/// name does not store such normals.
 pub fn morph_normal_of(name: &str) -> Option<usize> {
     number(name.strip_prefix(MORPH_NORMAL)?)
 }
 
-/// Returns the morph target whose tangents the attribute with this name stores; `None` if an attribute with this name
-/// does not store tangents of a morph target.
+/// Returns the morph target whose tangents the attribute with this name stores. Returns `None` if an attribute with
+/// this name does not store such tangents.
 pub fn morph_tangent_of(name: &str) -> Option<usize> {
     number(name.strip_prefix(MORPH_TANGENT)?)
 }
 
-/// Returns the name of the texture coordinates or colors that the attribute with this name changes, and the morph
-/// target; `None` if an attribute with this name does not store changes of texture coordinates or colors.
+/// For the name of an attribute that stores changes of texture coordinates or colors, returns the name of the changed
+/// attribute and the morph target. For example, `morph_uv1:2` gives `uv1` and 2. Returns `None` for any other name.
 pub fn morph_value_of(name: &str) -> Option<(&str, usize)> {
     let (changed, target) = name.strip_prefix(MORPH_VALUE)?.split_once(':')?;
     let has_changes = changed == COLOR.name || uv_set(changed).is_some();

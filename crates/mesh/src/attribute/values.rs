@@ -15,15 +15,15 @@ const NO_SOURCE: usize = usize::MAX;
 /// The values of a column, one for each element of its domain.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Values {
-    /// Numbers.
+    /// One number for each element.
     Float(Vec<f64>),
-    /// Pairs of numbers.
+    /// A vector of two numbers for each element.
     Vec2(Vec<DVec2>),
-    /// Triples of numbers.
+    /// A vector of three numbers for each element.
     Vec3(Vec<DVec3>),
-    /// Quadruples of numbers.
+    /// A vector of four numbers for each element.
     Vec4(Vec<DVec4>),
-    /// Whole numbers.
+    /// A whole number for each element.
     Int(Vec<i32>),
     /// The flags of a tag, which is a named selection.
     Tag(Vec<bool>),
@@ -240,9 +240,9 @@ impl Values {
         each!(self, v => Value::of(other).map(|more| v.extend_from_slice(more)).is_some())
     }
 
-    /// Sets the value at `to` to the weighted mean of the values at `a` and `b`, where `t` is the weight of
-    /// `b`. Integers and tags get the value with the larger weight; if both weights are equal, the value at
-    /// `b`.
+    /// Sets the value at `to` to the weighted mean of the values at `a` and `b`, where `t` is the weight of `b`.
+    /// Integers and tags are not averaged: the value with the larger weight is used. If both weights are equal, the
+    /// value at `b` is used.
     pub(super) fn mix(&mut self, a: usize, b: usize, t: f64, to: usize) {
         match self {
             Self::Float(v) => v[to] = v[a] * (1.0 - t) + v[b] * t,
@@ -259,7 +259,7 @@ impl Values {
 pub trait Value:
     Copy + Default + PartialEq + Send + Sync + Zeroable + NoUninit + CheckedBitPattern + 'static
 {
-    /// Wraps a vector of this type.
+    /// Wraps a vector of this type in [`Values`].
     fn wrap(values: Vec<Self>) -> Values;
     /// Returns the values, if they have this type.
     fn of(values: &Values) -> Option<&[Self]>;

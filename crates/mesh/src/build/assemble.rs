@@ -15,7 +15,7 @@ pub(super) struct Edges {
     pub(super) half_edge_of_corner: Vec<HalfEdgeId>,
 }
 
-/// Whether the side of `c` is the first side of its edge.
+/// Whether the side that starts at corner `c` is the first side of its edge.
 #[inline]
 fn is_first(c: usize, twin: &[u32]) -> bool {
     // A missing twin, `NONE`, is greater than all corners.

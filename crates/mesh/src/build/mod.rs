@@ -3,9 +3,9 @@
 //! Each corner of a polygon also represents a directed side of the polygon. If the vertex of corner c is a and the next
 //! vertex is b, the side of c runs from a to b. The twin of c is a corner whose side runs from b to a. The corners are
 //! bucketed by vertex. Around each vertex, outgoing sides are then paired with incoming sides. The pairs also show
-//! whether the faces around the vertex form one fan, which means that they are all connected through edges at the
-//! vertex. Edges are numbered in the order in which the polygons first use them. The first half of an edge lies on the
-//! polygon that first used it.
+//! whether the faces around the vertex form one fan. In a fan, all faces are connected through edges at the vertex.
+//! Edges are numbered in the order in which the polygons first use them. The first half of an edge lies on the polygon
+//! that first used it.
 //!
 //! ```text
 //!    polygons --> buckets --> star, pair ----------------> assemble --> mesh
@@ -17,15 +17,15 @@
 //! repairs:
 //!
 //! - Two polygons that share an edge have a consistent orientation if their sides run along the edge in opposite
-//!   directions. Polygons that are connected through edges with exactly two sides form a part, and each part is
-//!   treated separately. If all neighbors in a part can be made consistent, its polygons form two groups: those
-//!   that have the same orientation as the first polygon of the part, and those that have the opposite
-//!   orientation. The smaller group is reversed. If both groups have the same size, the second one is reversed. If
-//!   the part cannot be made consistent, none of its polygons is reversed. The first corner of a reversed polygon
-//!   stays the first.
-//! - If there are more than two sides between two vertices a and b, or two sides that run in the same direction even
-//!   after these reversals, the k-th side from a to b is paired with the k-th side from b to a. The sides are counted
-//!   in the order of the corners. Unpaired sides become boundary edges.
+//!   directions. Polygons that are connected through edges with exactly two sides form a part, and each part is treated
+//!   separately. If all neighbors in a part can be made consistent, the polygons of the part form two groups. The first
+//!   group has the same orientation as the first polygon of the part, and the second group the opposite orientation.
+//!   The smaller group is reversed. If both groups have the same size, the second group is reversed. If the part cannot
+//!   be made consistent, none of its polygons is reversed. The first corner of a reversed polygon stays the first.
+//! - Two kinds of edges between vertices a and b are not manifold: edges with more than two sides, and edges with two
+//!   sides that run in the same direction even after polygons have been reversed. On such an edge, the k-th side from a
+//!   to b is paired with the k-th side from b to a. The sides are counted in the order of the corners. Unpaired sides
+//!   become boundary edges.
 //! - If the faces around a vertex form several fans, the fan that contains the first corner at the vertex keeps the
 //!   vertex. Each other fan gets a copy of the vertex, appended after all other vertices.
 //! - A polygon that has fewer than three corners, or that contains a vertex twice, is dropped.
@@ -68,7 +68,7 @@ pub enum BuildError {
     /// A position is infinite or not a number.
     #[error("the position of vertex {0} is not finite")]
     NotFinite(usize),
-    /// The mesh could have more elements than there are ids.
+    /// The input is so large that the mesh could have more elements than there are ids.
     #[error(
         "the mesh could have up to {0} {1}, which is too many: the highest possible id is 2^32 - 2"
     )]
@@ -100,8 +100,8 @@ pub enum BuildError {
 /// How polygons that do not form a manifold are handled.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum NonManifold {
-    /// Reverse polygons where this makes the orientation consistent with their neighbors. Then split edges and vertices
-    /// until the mesh is a manifold. All of these repairs are reported.
+    /// Reverse polygons where this makes their orientation consistent with that of their neighbors. Then split edges
+    /// and vertices until the mesh is a manifold. The [`BuildReport`] lists all of these repairs.
     #[default]
     Split,
     /// Like [`Split`](Self::Split), but every polygon keeps its orientation: if two neighbors run along
@@ -114,10 +114,10 @@ pub enum NonManifold {
     RefuseAsGiven,
 }
 
-/// A mesh built from polygons, and the maps from the input to its elements.
+/// A mesh built from polygons, and the maps from the corners and polygons of the input to the elements of the mesh.
 #[derive(Clone, Debug)]
 pub struct BuildOutput {
-    /// The mesh.
+    /// The mesh that was built.
     pub mesh: Mesh,
     /// The repairs that made the mesh a manifold.
     pub report: BuildReport,
@@ -157,8 +157,9 @@ impl BuildOutput {
 impl Mesh {
     /// Builds a mesh from polygons, given as lists of vertex indices in counter-clockwise order.
     ///
-    /// Polygon i becomes face i, unless polygon i or an earlier polygon is degenerate and dropped. The
-    /// [module](mod@crate::build) documents how non-manifold input is repaired.
+    /// Polygons that have fewer than three corners, or that contain a vertex twice, are dropped. If none of the
+    /// polygons 0 to i is dropped, polygon i becomes face i. The [module](mod@crate::build) documents how non-manifold
+    /// input is repaired.
     ///
     /// # Errors
     ///
@@ -257,7 +258,7 @@ fn build_without(
     Ok(built)
 }
 
-/// Builds a mesh from polygons. Requires that no polygon is degenerate.
+/// Builds a mesh from polygons. Requires that each polygon has at least three corners and contains no vertex twice.
 fn build_clean(
     mut positions: Vec<DVec3>,
     offsets: &[u32],

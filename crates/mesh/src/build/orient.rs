@@ -9,9 +9,9 @@
 //! ```
 //!
 //! Neighbors are polygons that share an edge with exactly two sides. Polygons that are connected through such edges
-//! form a part. If the polygons of a part can get a consistent orientation, they form two groups: those that have the
-//! same orientation as the first polygon of the part, and those that have the opposite orientation. The smaller group
-//! is reversed. If both groups have the same size, the second one is reversed.
+//! form a part. If the polygons of a part can get a consistent orientation, they form two groups. The first group has
+//! the same orientation as the first polygon of the part, and the second group the opposite orientation. The smaller
+//! group is reversed. If both groups have the same size, the second group is reversed.
 
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 

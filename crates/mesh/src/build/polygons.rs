@@ -9,7 +9,7 @@ use crate::parallel::BLOCK;
 /// Marks a missing corner.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// Polygons as flat arrays: polygon f has the corners from `offsets[f]` to `offsets[f + 1]`, exclusive, and `corners`
+/// Polygons as flat arrays: polygon f has the corners with the indices `offsets[f]..offsets[f + 1]`, and `corners`
 /// contains the vertex of each corner.
 ///
 /// A corner also represents the side from it to the next corner of its polygon.
@@ -156,7 +156,7 @@ pub(super) fn flatten(
     Ok((offsets, corners))
 }
 
-/// Checks the input and returns the degenerate polygons.
+/// Checks the input. Returns the degenerate polygons, which have fewer than three corners or contain a vertex twice.
 ///
 /// # Errors
 ///

@@ -10,7 +10,8 @@ pub struct BuildReport {
     /// The edges that had more than two sides, or two sides that ran in the same direction. Each edge is a pair of
     /// vertices, the lower one first.
     pub split_edges: Vec<[VertexId; 2]>,
-    /// The vertices that joined several fans, each paired with a copy that one of the fans got.
+    /// The vertices that joined several fans. Each entry is such a vertex and one of its copies; each fan except the
+    /// first got a copy.
     pub split_vertices: Vec<(VertexId, VertexId)>,
     /// The indices, in ascending order, of the polygons that were reversed to make their orientation consistent with
     /// that of their neighbors.
@@ -87,7 +88,7 @@ impl BuildReport {
 /// A repair of some elements of the input.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Repair {
-    /// A stable name of the kind of repair, for programs, such as `faces-reversed`.
+    /// A stable name for the kind of repair, such as `faces-reversed`. Programs can rely on this name.
     pub code: &'static str,
     /// The text that follows the number of elements, such as "non-manifold edges split".
     pub description: &'static str,
@@ -96,8 +97,8 @@ pub struct Repair {
 }
 
 impl Repair {
-    /// Creates the repair of these elements. The description is the singular or the plural text, depending on their
-    /// number. Returns `None` if the list is empty.
+    /// Creates the repair of these elements. The description is the singular or the plural text, depending on the
+    /// number of elements. Returns `None` if the list is empty.
     pub fn new(
         code: &'static str,
         singular: &'static str,

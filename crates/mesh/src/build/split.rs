@@ -11,7 +11,7 @@ use super::polygons::{Polygons, to_u32};
 use super::star::Star;
 use crate::VertexId;
 
-/// The vertices after splitting.
+/// The vertices after the split of those whose faces form several fans.
 pub(super) struct Split<'a> {
     /// For each corner, its vertex.
     pub(super) origins: Cow<'a, [u32]>,

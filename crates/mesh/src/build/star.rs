@@ -10,7 +10,8 @@
 use super::polygons::{NONE, Polygons, to_id};
 use crate::HalfEdgeId;
 
-/// If a vertex has at most this number of corners, they are matched by comparing all pairs; otherwise, they are sorted.
+/// To find the cyclic order of the corners at a vertex, neighboring corners are matched. If a vertex has at most this
+/// number of corners, all pairs are compared; otherwise, the corners are sorted.
 const MAX_COMPARED: usize = 32;
 
 /// The corners at one vertex. Each list has one entry for each corner, in the order of the corners passed to
@@ -26,7 +27,7 @@ pub(super) struct Star {
     /// For each corner, the next corner clockwise around the vertex, as an index into these lists; `NONE` on the
     /// boundary.
     pub(super) after: Vec<u32>,
-    /// A corner without a predecessor, which is at the start of a fan, as an index into these lists. 0 if all fans are
+    /// The index, in these lists, of a corner at the start of an open fan: no corner precedes it. 0 if all fans are
     /// closed.
     start: usize,
     is_closed: bool,
@@ -161,8 +162,8 @@ impl Star {
         self.start = start.unwrap_or(0);
     }
 
-    /// Returns the outgoing half-edge of the fan with the first corner that has no predecessor, or with the first
-    /// corner if all fans are closed. `corners` are those passed to [`set`](Self::set).
+    /// Returns the outgoing half-edge of one fan. This is the fan of the first corner without a predecessor. If all
+    /// fans are closed, it is the fan of the first corner. `corners` are those passed to [`set`](Self::set).
     pub(super) fn outgoing(&self, corners: &[u32]) -> Outgoing {
         if self.is_closed {
             Outgoing::along_side(corners[self.start])

@@ -8,7 +8,7 @@ impl Mesh {
     ///
     /// ```text
     ///      \     /              \     /
-    ///       \   /                2---1          1, 2, 3: new vertices at (1 - t) v + t w,
+    ///       \   /                1---2          1, 2, 3: new vertices at (1 - t) v + t w,
     ///         v        -->        \ /           w the other end of the edge, t the fraction
     ///         |                    3
     ///         |                    |
@@ -66,22 +66,23 @@ impl Mesh {
         Ok(new)
     }
 
-    /// Replaces `e` by a face: each of the other edges at the two ends of `e` is cut at `fraction` of its length,
-    /// measured from its end at `e`, and the cuts are connected.
+    /// Replaces `e` by a face. Each other edge at an end of `e` is cut at `fraction` of its length, measured from this
+    /// end, and the cuts are connected.
     ///
     /// ```text
     ///     \               /            \               /
-    ///      \             /              1 ----------- 4
+    ///      \             /              2 ----------- 3
     ///       a --- e --- b      -->      |             |         (with three edges at each end)
-    ///      /             \              2 ----------- 3
+    ///      /             \              1 ----------- 4
     ///     /               \            /               \
     /// ```
     ///
     /// `e` and its ends a, b die. The n other edges at a and b keep their ids and end at the cuts. The new elements are
     /// n vertices, the n edges from each new vertex to the next, and the face, whose first corner is the first new
-    /// vertex. The new vertices and edges are in clockwise order around e, from the edge after e at a (the origin of
-    /// the first half of e) to the last edge at b. The numbers of vertices, edges and faces grow by n - 2, n - 1 and 1.
-    /// The faces beside e keep their number of corners. Any other face with k corners at a or b gains k corners.
+    /// vertex. The new vertices and edges are in clockwise order around e. The cuts at a (the origin of the first half
+    /// of e) come first, starting with the edge after e. The cuts at b follow. The numbers of vertices, edges and faces
+    /// grow by n - 2, n - 1 and 1. The faces beside e keep their number of corners. Any other face with k corners at a
+    /// or b gains k corners.
     ///
     /// Attributes are set as in [`bevel_vertex`](Self::bevel_vertex). The new face has the values of the face
     /// to the left of the first half of e.

@@ -19,10 +19,11 @@ impl Mesh {
     ///
     /// All existing ids stay the same. New edges and faces are numbered along the longer loop (that of `h` if both have
     /// the same length). The first face is f. The first new edge is a-d, or b-c if the loop of `g` is longer than the
-    /// loop of `h`. A new face gets the values of the old face that shares its edge of the longer loop. If the face of
-    /// a new corner has an edge of the loop on which the corner lies, the corner gets the values of the existing corner
-    /// at the same vertex, on the other side of this edge. A triangle has no edge of the shorter loop, so its corner at
-    /// the shorter loop uses the edge of the last quad before the triangle. New edges have zero attribute values.
+    /// loop of `h`. A new face gets the values of the old face that shares its edge of the longer loop. Each new corner
+    /// lies on one of the two loops. If the face of the corner has an edge of this loop, the corner gets its values
+    /// from the other side of this edge, from the existing corner at the same vertex. A triangle has no edge of the
+    /// shorter loop, so its corner at the shorter loop uses the edge of the last quad before the triangle. New edges
+    /// have zero attribute values.
     ///
     /// Returns the new faces.
     ///

@@ -25,16 +25,16 @@ impl Mesh {
     /// Vertex attributes of v are interpolated between the two ends, except attributes whose rule does not interpolate:
     /// these keep their values at v. The corners at v of the faces beside `e` are interpolated within their face,
     /// separately on each side of a seam. Other faces can also have corners at the ends of `e`. For each attribute,
-    /// such a corner is compared with the corners of the faces beside `e` at the same end. If it has the same value as
-    /// one of them, it gets the new value of that corner. Otherwise, it keeps its value. When two edges become one, the
-    /// remaining edge gets the larger of their floating-point values, so that creases are preserved. A tag is set if
-    /// either edge had it. Attributes of other types keep the value of the remaining edge.
+    /// such a corner is compared with the corners of the faces beside `e` at the same end. If its old value is equal to
+    /// that of one of these corners, it gets the new value of that corner. Otherwise, it keeps its old value. When two
+    /// edges become one, the remaining edge gets the larger of their floating-point values, so that creases are
+    /// preserved. A tag is set if either edge had it. Attributes of other types keep the value of the remaining edge.
     ///
     /// A collapse is refused if it would change the topology of the surface or make two elements coincide. The test is
     /// the link condition of Dey, Edelsbrunner, Guha and Nekhayev ("Topology preserving edge contraction", 1999),
-    /// extended to polygons. The condition is applied to the surface in which each hole is closed by triangles that
-    /// join the edges of the hole to an additional vertex (a cone). The ends are allowed to share a neighbor only if it
-    /// is a corner of a triangle beside `e`, and to share a face only if it is beside `e`.
+    /// extended to polygons. For this test, each hole counts as closed by a cone: triangles that join the edges of the
+    /// hole to an additional vertex. The two ends of `e` are allowed to share a neighbor only if this neighbor is a
+    /// corner of a triangle beside `e`. They are allowed to share a face only if this face is beside `e`.
     ///
     /// Returns v.
     ///
@@ -47,12 +47,11 @@ impl Mesh {
     /// - [`EditError::DuplicateEdge`] if a second edge joins the ends.
     /// - [`EditError::VisitsTwice`] if a face that is not beside `e` has both ends as corners, because this
     ///   face would contain v twice.
-    /// - [`EditError::Vanishes`] for the edges of a single triangle, if no faces would be left, or if the
-    ///   only faces left at the merged vertex would be two faces back to back, as for a tetrahedron.
-    /// - [`EditError::SameFace`] if one face is on both sides of `e`, or if two edges would become one and
-    ///   this edge would have the same face on both sides. [`EditError::SameOpposite`] if two triangles
-    ///   beside `e` share a second edge. In both cases a collapse would be possible, but it is not implemented,
-    ///   because such edges are rare.
+    /// - [`EditError::Vanishes`] if no faces would be left, as for the edges of a single triangle. This error is also
+    ///   returned if the only faces left at the merged vertex would be two faces back to back, as for a tetrahedron.
+    /// - [`EditError::SameFace`] if one face is on both sides of `e`, or if two edges would become one edge with the
+    ///   same face on both sides. [`EditError::SameOpposite`] if two triangles beside `e` share a second edge. In both
+    ///   cases a collapse would be possible, but it is not implemented, because such edges are rare.
     /// - [`EditError::NoSuchEdge`].
     ///
     /// The mesh is unchanged.
@@ -87,9 +86,9 @@ impl Mesh {
         self.collapse(e, t, (1.0 - t) * a + t * b)
     }
 
-    /// Collapses an edge like [`collapse_edge`](Self::collapse_edge), to any point. The attributes are those at the
-    /// point on the edge that is nearest to the given point, or at the middle of the edge if both ends have the same
-    /// position.
+    /// Collapses an edge like [`collapse_edge`](Self::collapse_edge), to any point. The attributes are interpolated at
+    /// the point on the edge that is nearest to the given point. If both ends of the edge have the same position, they
+    /// are interpolated at the middle of the edge.
     ///
     /// # Errors
     ///
@@ -248,8 +247,8 @@ impl Mesh {
         Ok(())
     }
 
-    /// Requires that the merged vertex would have two edges and two faces. Returns whether these two faces would lie
-    /// back to back. This is true if every vertex of one of these faces would have two edges.
+    /// Requires that the merged vertex would have only two edges and two faces. Returns whether these two faces would
+    /// lie back to back. They would if every vertex of one of the faces had only two edges.
     fn would_fold(&self, e: EdgeId, apexes: [Option<VertexId>; 2]) -> bool {
         let [ab, ba] = e.half_edges();
         // Finds one of the two faces. A face beside e remains after the collapse if it is not a triangle. If both faces

@@ -23,17 +23,18 @@ impl Mesh {
     ///    |     |     |          |     |     |
     /// ```
     ///
-    /// If the cuts divide the faces around a vertex into several parts, the part with the lowest face id keeps the
-    /// vertex; each other part gets a copy of the vertex. The copies are ordered by the lowest face id of their parts.
-    /// New vertices are numbered in the order of the old vertices, and new edges in the order of `edges`. Faces keep
-    /// their ids. The copies of vertices and edges have the values of the originals, and corners keep their values.
-    /// Positions do not change: both sides of a cut coincide. [`stitch_edges`](Self::stitch_edges) is the inverse.
+    /// The cuts can divide the faces around a vertex into several parts. The part with the lowest face id then keeps
+    /// the vertex, and each other part gets a copy of the vertex. The copies are ordered by the lowest face id of their
+    /// parts. New vertices are numbered in the order of the old vertices, and new edges in the order of `edges`. Faces
+    /// keep their ids. The copies of vertices and edges have the values of the originals, and corners keep their
+    /// values. Positions do not change: both sides of a cut coincide. [`stitch_edges`](Self::stitch_edges) is the
+    /// inverse.
     ///
     /// An edge cannot be cut if neither of its ends would be split. The cut would then be a hole with two edges (a
     /// slit). A slit cannot be opened, and a list of polygons cannot represent it.
     /// [`slits`](Self::slits) lists these edges.
     ///
-    /// Returns the new edges: the other sides of `edges`, in the same order.
+    /// Returns the new edges. Each new edge is the other side of the cut along the edge at the same index of `edges`.
     ///
     /// # Errors
     ///
@@ -131,7 +132,8 @@ impl Mesh {
         edges
     }
 
-    /// Returns the outgoing half-edges of `v`, clockwise from the boundary, or from a cut edge if `v` is inside.
+    /// Returns the outgoing half-edges of `v`, clockwise from the boundary. If `v` is inside the mesh, they start at an
+    /// edge that will be cut.
     fn fan_from_gap(&self, v: VertexId, is_cut: impl Fn(HalfEdgeId) -> bool) -> Vec<HalfEdgeId> {
         let mut fan: Vec<HalfEdgeId> = self.vertex_half_edges(v).collect();
         if !self.is_boundary_vertex(v) {
@@ -141,7 +143,8 @@ impl Mesh {
         fan
     }
 
-    /// Adds an edge that gets the face of the second half of `e`. The halves without a face have no `next` yet.
+    /// Adds an edge that gets the face of the second half of `e`. The caller must set the `next` of the halves without
+    /// a face.
     fn duplicate_edge(&mut self, e: EdgeId) -> EdgeId {
         let [_, old] = e.half_edges();
         let (before, after, face) = (self.prev(old), self.next(old), self.face(old));

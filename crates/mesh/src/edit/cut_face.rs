@@ -70,13 +70,14 @@ impl Mesh {
     /// of the old face. Corners at diagonals have the values of the old corners; new edges have zero values.
     /// A diagonal can join two vertices that already share an edge.
     ///
-    /// Returns the faces.
+    /// Returns all parts as faces, in the order of [`polygon_parts`].
     ///
     /// # Errors
     ///
-    /// Returns [`EditError::Pinch`] if a diagonal starts and ends at the same vertex, which the face contains twice;
-    /// [`EditError::NoCut`] with the ends of the first diagonal in the list if two diagonals cross or are equal, or if
-    /// a diagonal joins neighboring corners; [`EditError::NoSuchFace`]; or [`EditError::Full`]. The mesh is unchanged.
+    /// Returns [`EditError::Pinch`] if both ends of a diagonal are at the same vertex, which the face contains twice.
+    /// Returns [`EditError::NoCut`], with the ends of the first diagonal in the list, if two diagonals cross or are
+    /// equal, or if a diagonal joins neighboring corners. Also returns [`EditError::NoSuchFace`] or
+    /// [`EditError::Full`]. The mesh is unchanged.
     ///
     /// # Panics
     ///

@@ -18,8 +18,8 @@ impl Mesh {
     /// # Errors
     ///
     /// Returns [`EditError::Pinch`] if the remaining faces around a vertex would not form one fan. This error occurs if
-    /// the vertex is on the boundary of the mesh, but neither edge of `f` at the vertex is. Also returns
-    /// [`EditError::NoSuchFace`]. The mesh is unchanged.
+    /// the vertex is on the boundary of the mesh, but neither of the two edges of `f` at the vertex is a boundary edge.
+    /// Also returns [`EditError::NoSuchFace`]. The mesh is unchanged.
     pub fn delete_face(&mut self, f: FaceId) -> Result<(), EditError> {
         self.delete_faces(&[f])
     }
@@ -34,10 +34,10 @@ impl Mesh {
     ///    +---+---+---+          +---+   +---+
     /// ```
     ///
-    /// Only the result is checked: a list of faces can be accepted even if one of its faces alone would be refused.
-    /// Edges that have no other face are deleted too. Vertices are not deleted; a vertex without other edges becomes
-    /// isolated. Other ids and attribute values do not change. An empty list changes nothing. Takes time proportional
-    /// to the number of listed faces plus the number of edges at their corners.
+    /// Only the final mesh is checked: a list of faces can be accepted even if the deletion of one of its faces alone
+    /// would be refused. Edges that have no other face are deleted too. Vertices are not deleted; a vertex without
+    /// other edges becomes isolated. Other ids and attribute values do not change. An empty list changes nothing. Takes
+    /// time proportional to the number of listed faces plus the number of edges at their corners.
     ///
     /// # Errors
     ///

@@ -38,9 +38,9 @@ impl Mesh {
         self.dissolve_edge_with(e, Seams::Refuse)
     }
 
-    /// Removes an edge like [`dissolve_edge`](Self::dissolve_edge); `seams` decides whether a seam is refused
-    /// or dropped. If a seam is dropped, the corners at the ends of the edge keep the values of the remaining
-    /// face.
+    /// Removes an edge like [`dissolve_edge`](Self::dissolve_edge); `seams` decides what happens if corner attributes
+    /// differ across the edge (a seam). With [`Seams::Drop`], the edge is removed, and the corners at its ends keep the
+    /// values of the remaining face.
     ///
     /// # Errors
     ///

@@ -60,9 +60,10 @@ impl Mesh {
         self.dissolve_vertex_with(v, Seams::Refuse)
     }
 
-    /// Removes a vertex like [`dissolve_vertex`](Self::dissolve_vertex); `seams` decides whether a seam is
-    /// refused or dropped. If a seam is dropped, the corner at the other end of the seam edge keeps one of its
-    /// two values: the value in the face that follows the edge counter-clockwise around `v`.
+    /// Removes a vertex like [`dissolve_vertex`](Self::dissolve_vertex); `seams` decides what happens if corner
+    /// attributes differ across an edge at `v` (a seam). With [`Seams::Drop`], the vertex is removed, and the corner at
+    /// the other end of this edge keeps one of its two values. It is the value in the face that follows the edge
+    /// counter-clockwise around `v`.
     ///
     /// # Errors
     ///
@@ -148,8 +149,8 @@ impl Mesh {
         Ok(merged)
     }
 
-    /// The spokes are outgoing half-edges of one vertex. Returns the half-edges around the faces of the spokes, except
-    /// those that start or end at this vertex.
+    /// The spokes are outgoing half-edges of one vertex. Returns the half-edges of the faces of the spokes, without the
+    /// half-edges that start or end at this vertex.
     fn rim_around(&self, spokes: impl Iterator<Item = HalfEdgeId>) -> Vec<HalfEdgeId> {
         let mut rim = Vec::new();
         for spoke in spokes.filter(|&h| self.face(h).is_some()) {
@@ -162,8 +163,8 @@ impl Mesh {
         rim
     }
 
-    /// Returns the spoke whose face has the most corners. Walks around the faces of all spokes at the same time, and
-    /// stops when at most one walk is not complete.
+    /// Returns the spoke (one of several outgoing half-edges of a vertex) whose face has the most corners. Walks around
+    /// the faces of all spokes at the same time, and stops when at most one walk is not complete.
     fn spoke_of_largest_face(&self, spokes: &[HalfEdgeId]) -> HalfEdgeId {
         let with_face = spokes.iter().filter(|&&h| self.face(h).is_some());
         let mut walks: Vec<(HalfEdgeId, HalfEdgeId)> = with_face.map(|&h| (h, h)).collect();
@@ -182,7 +183,8 @@ impl Mesh {
     }
 
     /// Returns a vertex that the merged face would contain twice. `rim` has the half-edges around all faces except the
-    /// face of the spoke `large`, which is not walked around.
+    /// face of the spoke `large`. To save time, this function does not walk around that face, because it has the most
+    /// corners.
     fn repeated_after_merge(
         &self,
         spokes: &[HalfEdgeId],

@@ -26,13 +26,13 @@ impl Mesh {
     /// The edges and vertices inside the faces keep their ids too. The vertices and edges of the rim stay in place with
     /// the rest of the mesh, and the moved faces get new vertices and edges. The new elements are numbered in the order
     /// of the half-edges h: in order of `faces`, and counter-clockwise from the first half-edge of each face. Each
-    /// half-edge h of the rim adds the vertex v', the edges v'-w' and v-v' in this order, and the side face. The
-    /// half-edge of the side face is h.
+    /// half-edge h of the rim, from v to w, adds the vertex v', the edges v'-w' and v-v' in this order, and the side
+    /// face. The half-edge that the side face stores is h.
     ///
-    /// If faces meet only at a vertex, each of their fans gets a separate copy of the vertex. If all faces of a sheet
-    /// are extruded, the sheet becomes a box that is open where the sheet was. If all faces of a closed component are
-    /// extruded, there is no rim, and the component only moves. If two edges of the rim are parallel (they join the
-    /// same two vertices), their copies are parallel too.
+    /// If faces meet only at a vertex, each of their fans gets a separate copy of the vertex. If all faces of an open
+    /// sheet are extruded, the sheet becomes a box without a bottom, because no face remains where the sheet was. If
+    /// all faces of a closed component are extruded, there is no rim, and the component only moves. If two edges of the
+    /// rim are parallel (they join the same two vertices), their copies are parallel too.
     ///
     /// **Attributes.** The copies of the vertices and edges of the rim have the values of the originals; the edges v-v'
     /// have zero values. A side face has the values of the face f at its rim edge. The corners of the side face at v
@@ -142,12 +142,12 @@ impl Mesh {
 pub(super) struct Rim {
     /// All half-edges of the faces, in order.
     half_edges: Vec<HalfEdgeId>,
-    /// The half-edges of the rim, in the order of `half_edges`. A half-edge of the rim is called a base here. The twin
-    /// of a base has no face, or has a face outside of the set.
+    /// The half-edges of the rim, in the order of `half_edges`. A half-edge of the rim is called a base, because a side
+    /// face stands on it. The twin of a base has no face, or has a face outside of the set.
     pub(super) bases: Vec<HalfEdgeId>,
     /// The index in `bases` of each base.
     index_of_base: BTreeMap<HalfEdgeId, usize>,
-    /// For each base, the index of the base that leaves its target in the same fan of faces.
+    /// For each base, the index of the base that starts where this base ends, in the same fan of faces.
     after: Vec<usize>,
     /// The half-edges that lead from a vertex of the rim into the set, each with the index of the base that
     /// leaves the same vertex in the same fan.

@@ -24,12 +24,12 @@ impl Mesh {
     ///        d                   d                 d-----+             d----+     (e from d to c)
     /// ```
     ///
-    /// Between two triangles, the edge becomes the other diagonal of the quadrilateral that the two triangles form.
-    /// Four flips of an edge between two triangles restore the mesh, apart from the half-edges that vertices and faces
-    /// store. All ids stay the same. Before the flip, `e` runs from a to b; afterwards from d to c, where c follows b
-    /// on face f, and d follows a on face g. The first half of `e` stays on f. Attributes of vertices, edges and faces
-    /// stay with their ids. The new corners at c and d get the values of the corner at the same vertex in the other
-    /// face.
+    /// Between two triangles, the edge becomes the other diagonal of the quadrilateral that the triangles form. After
+    /// four flips of such an edge, the mesh is as before, except that vertices and faces possibly store different
+    /// half-edges. All ids stay the same. Before the flip, `e` runs from a to b; afterwards from d to c, where c
+    /// follows b on face f, and d follows a on face g. The first half of `e` stays on f. Attributes of vertices, edges
+    /// and faces stay with their ids. The new corners at c and d get the values of the corner at the same vertex in the
+    /// other face.
     ///
     /// # Errors
     ///
@@ -54,7 +54,8 @@ impl Mesh {
         self.flip_edge_with(e, Seams::Refuse)
     }
 
-    /// Flips an edge like [`flip_edge`](Self::flip_edge); `seams` decides whether a seam is refused or dropped.
+    /// Flips an edge like [`flip_edge`](Self::flip_edge). `seams` decides what happens if corner attributes differ
+    /// across the edge (a seam): the flip is refused, or the values of one side are dropped.
     ///
     /// # Errors
     ///

@@ -1,4 +1,5 @@
-//! Insetting a face: adding a smaller copy of it inside, flat or raised.
+//! Insetting a face: adding a smaller copy of the face inside the face. The copy lies in the face, or above or below
+//! the face.
 
 use glam::DVec3;
 
@@ -22,13 +23,13 @@ impl Mesh {
     /// V, E and F grow by n, 2n and n, where f has n corners. The inner face keeps the id of `f`, and its first corner
     /// is the copy of the first corner of `f`. Existing vertices and edges do not move. As in
     /// [`extrude_faces`](Self::extrude_faces), the new elements are numbered in the order of the half-edges h of `f`,
-    /// counter-clockwise from the first. Each h adds the vertex v', the edges v'-w' and v-v' in this order, and the
-    /// face (v, w, w', v'), whose half-edge is h.
+    /// counter-clockwise from the first. Each h, from v to w, adds the vertex v', the edges v'-w' and v-v' in this
+    /// order, and the face (v, w, w', v'). The half-edge that this face stores is h.
     ///
-    /// Each new vertex, and each corner at a new vertex, gets values that are interpolated with the parameter t: from
-    /// the values at the outer corner (t = 0) to the mean of the values at all corners of the face (t = 1). Attributes
-    /// that are not interpolated are copied from the outer corner. Inner edges have the values of the outer edges, the
-    /// edges v-v' have zero values, and the faces of the ring have the values of `f`.
+    /// Each new vertex, and each corner at a new vertex, gets values that are interpolated with t = `fraction`. At t =
+    /// 0, they are the values at the outer corner; at t = 1, the mean of the values at all corners of the face.
+    /// Attributes that are not interpolated are copied from the outer corner. Inner edges have the values of the outer
+    /// edges, the edges v-v' have zero values, and the faces of the ring have the values of `f`.
     ///
     /// Returns the faces of the ring, in the order of the half-edges h.
     ///

@@ -61,7 +61,7 @@ pub enum EditError {
     /// The two vertices opposite the edge are the same vertex.
     #[error("both triangles at {0} have the same opposite vertex {1}")]
     SameOpposite(EdgeId, VertexId),
-    /// The same face lies on both sides of the edge.
+    /// The same face lies on both sides of the edge, or would after the edit.
     #[error("the same face is on both sides of {0}")]
     SameFace(EdgeId),
     /// The edit would make a second edge between the same two vertices.
@@ -81,10 +81,11 @@ pub enum EditError {
     /// neighboring corners.
     #[error("no face can be cut from {0} to {1}")]
     NoCut(VertexId, VertexId),
-    /// Several faces have both vertices as corners, or one face contains a vertex several times.
+    /// It is not clear which face to cut or where: several faces have both vertices as corners, or one face contains
+    /// one of the vertices several times.
     #[error("several cuts from {0} to {1} are possible")]
     SeveralCuts(VertexId, VertexId),
-    /// The edit would remove the last faces of a component, or fold two faces onto each other.
+    /// The edit would remove the last faces of a component, or leave two faces that lie back to back.
     #[error("no valid faces would be left around {0}")]
     Vanishes(EdgeId),
     /// The ends of the edge have a common neighbor that is not a corner of a triangle at the edge, so the ends
@@ -100,7 +101,8 @@ pub enum EditError {
     /// Corner attributes differ between the two sides of the edge, and the edit would lose the difference.
     #[error("{0} is a seam of corner attributes")]
     Seam(EdgeId),
-    /// The position along the edge is not between 0 and 1. Only a collapse allows 0 and 1 themselves.
+    /// The position along the edge is not between 0 (one end) and 1 (the other end). Only a collapse allows 0 and 1
+    /// themselves.
     #[error(
         "the position along the edge must be between 0 and 1, not {0} (only a collapse accepts 0 and 1)"
     )]
@@ -224,7 +226,7 @@ impl Mesh {
         }
     }
 
-    /// If `old` is the stored half-edge of its face, stores `new` instead.
+    /// If `old` is the half-edge that its face stores, makes the face store `new` instead.
     #[inline]
     fn replace_first_of_face(&mut self, old: HalfEdgeId, new: HalfEdgeId) {
         if let Some(f) = self.face(old).filter(|&f| self.face_half_edge(f) == old) {
@@ -232,7 +234,7 @@ impl Mesh {
         }
     }
 
-    /// If `old` is the stored half-edge of its origin, stores `new` instead.
+    /// If `old` is the half-edge that its origin stores, makes the origin store `new` instead.
     #[inline]
     fn replace_first_of_vertex(&mut self, old: HalfEdgeId, new: HalfEdgeId) {
         let v = self.origin(old);

@@ -48,7 +48,7 @@ impl Mesh {
     }
 
     /// Pokes a face like [`poke_face`](Self::poke_face), with the vertex at `position`, in scene units. As in
-    /// `poke_face`, the attributes at the vertex are means, which do not depend on `position`.
+    /// `poke_face`, the attributes at the new vertex are the means over the corners. They do not depend on `position`.
     ///
     /// # Errors
     ///

@@ -4,8 +4,9 @@ use crate::marks::Marks;
 use crate::{EditError, FaceId, HalfEdgeId, Mesh};
 
 impl Mesh {
-    /// Reverses the orientation of faces, so that inside and outside are exchanged. The faces must form whole
-    /// components, because the two faces at an edge must run along it in opposite directions.
+    /// Reverses the orientation of faces, so that inside and outside are exchanged. The faces must form whole connected
+    /// components: if only one of the two faces at an edge were reversed, both would run along the edge in the same
+    /// direction.
     ///
     /// ```text
     ///       c                    c
@@ -25,9 +26,9 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// Returns [`EditError::PartOfComponent`] with a listed face that shares an edge with a face that is not
-    /// listed, [`EditError::FaceListedTwice`], [`EditError::NoElements`] for an empty list, or
-    /// [`EditError::NoSuchFace`]. The mesh is unchanged.
+    /// Returns [`EditError::PartOfComponent`] if a listed face shares an edge with a face that is not listed; the error
+    /// contains the listed face. Also returns [`EditError::FaceListedTwice`], [`EditError::NoElements`] for an empty
+    /// list, or [`EditError::NoSuchFace`]. The mesh is unchanged.
     pub fn reverse_faces(&mut self, faces: &[FaceId]) -> Result<(), EditError> {
         let mut is_listed = Marks::default();
         for &f in faces {

@@ -18,9 +18,9 @@ impl Mesh {
     /// side without a face gets no new edge. A face with more than three corners is not cut: it gains m as a corner.
     /// Inside a triangle mesh, V, E and F grow by 1, 3 and 2; on its boundary by 1, 2 and 1. V - E + F stays the same.
     ///
-    /// Vertex attributes at m are interpolated between a and b. Corner attributes at m are interpolated within
-    /// their face, separately on each side of a seam. m-b has the edge values of `e`. The new faces have the
-    /// values of f and g.
+    /// Vertex attributes at m are interpolated between a and b. Corner attributes at m are interpolated within their
+    /// face, separately on each side of a seam. m-b has the edge values of `e`. Each new face has the values of the
+    /// face from which it was cut, f or g.
     ///
     /// If both triangles have the same opposite vertex (c is d), two edges join m and c.
     ///

@@ -17,10 +17,10 @@ impl Mesh {
     ///        y|  g  \            y|  g  \
     /// ```
     ///
-    /// `x` and `y` denote the corners at their origin: `x` denotes the corner in f, and `y` the corner in g. The
-    /// new edge runs from v to w. The first half of the new edge is on f, the second half is on g, and both faces
-    /// gain a corner. f or g can be a hole; then the edge is on the boundary. V and E grow by 1. All existing ids
-    /// stay the same.
+    /// `x` and `y` denote the corners at their origin: `x` denotes the corner in f, and `y` the corner in g. The new
+    /// edge runs from v to w. The first half of the new edge is on f, the second half is on g, and both faces gain a
+    /// corner. f or g can be a hole; then the new edge is on the boundary. V and E grow by 1. All existing ids stay the
+    /// same.
     ///
     /// [`split_face`](Self::split_face) is the corresponding edit for faces. To undo the split, collapse the new edge
     /// to the old position with [`collapse_edge_to`](Self::collapse_edge_to). This collapse can be refused only if two
@@ -28,7 +28,7 @@ impl Mesh {
     /// `split_vertex`, then `split_face`.
     ///
     /// The new vertex is at `position` and has the attributes of v. On each side of the new edge, the two corners at
-    /// its ends have the values of the old corner. The edge has zero values.
+    /// its ends have the values of the old corner. The new edge has zero values.
     ///
     /// Returns the new edge.
     ///

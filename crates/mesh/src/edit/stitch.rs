@@ -2,8 +2,8 @@
 
 use crate::{EdgeId, EditError, HalfEdgeId, Mesh, VertexId};
 
-/// Two half-edges without faces that are to become one edge: the origin of each is merged with the target of
-/// the other.
+/// Two half-edges without faces whose edges are to become one edge. The origin of each half-edge is merged with the
+/// target of the other.
 type Pair = [HalfEdgeId; 2];
 
 impl Mesh {
@@ -20,9 +20,9 @@ impl Mesh {
     /// a and a' become one vertex, and so do b and b'. The two vertices of one of these pairs can already be the same
     /// vertex. In each pair, the vertex with the lower id remains and keeps its position and values; the other vertex
     /// dies. The edge with the lower id remains, keeps its values and gets both faces; the other edge dies. Corners
-    /// keep their values, so different UVs form a seam. If the boundary edges next to `h` and `g` would become a hole
-    /// with two edges, they are stitched too, because a list of polygons cannot represent such a hole. To close a cut,
-    /// stitch one pair of edges after the other, starting at an end of the cut.
+    /// keep their values, so different UVs form a seam. If the stitch would leave a hole with only two edges, these two
+    /// edges are stitched too, because a list of polygons cannot represent such a hole. To close a whole cut, stitch
+    /// its pairs of edges one after the other, starting at an end of the cut.
     ///
     /// The order of `h` and `g` does not matter. The orientation of the faces always matches, because both
     /// half-edges have the surface on their right.
@@ -31,11 +31,11 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// Returns [`EditError::NotBoundary`] if `h` or `g` has a face, [`EditError::EdgeListedTwice`] if they are the
-    /// same, [`EditError::SameFace`] if the same face is beside both edges of a pair that would be stitched,
-    /// [`EditError::SelfLoop`] if two vertices that would be merged share an edge, [`EditError::VisitsTwice`] if two
-    /// such vertices share a face, [`EditError::DuplicateEdge`] if two such vertices are both joined to a third vertex
-    /// by edges that would not be stitched, or [`EditError::NoSuchHalfEdge`]. The mesh is unchanged.
+    /// Returns [`EditError::NotBoundary`] if `h` or `g` has a face, [`EditError::EdgeListedTwice`] if `h` is `g`, or
+    /// [`EditError::NoSuchHalfEdge`]. Returns [`EditError::SameFace`] if the same face is beside both edges of a pair
+    /// that would be stitched. For two vertices that would be merged, returns [`EditError::SelfLoop`] if they share an
+    /// edge, and [`EditError::VisitsTwice`] if they share a face. Returns [`EditError::DuplicateEdge`] if both are
+    /// joined to a third vertex by edges that would not be stitched. The mesh is unchanged.
     ///
     /// # Examples
     ///
@@ -93,7 +93,8 @@ impl Mesh {
         Ok(edges[0])
     }
 
-    /// Checks that the mesh stays valid when the edges of each pair and the vertices of each end are merged.
+    /// Checks that the mesh stays valid after the merge. Each of `pairs` has two half-edges whose edges are merged, and
+    /// each of `ends` two vertices that are merged.
     fn check_stitch(&self, pairs: &[Pair], ends: [[VertexId; 2]; 2]) -> Result<(), EditError> {
         for [x, y] in pairs {
             if self.face(x.twin()) == self.face(y.twin()) {

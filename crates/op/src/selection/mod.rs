@@ -237,7 +237,7 @@ pub trait Select: Sized + Sync {
 }
 
 impl<S: Select> Shared<'_, S> {
-    /// Evaluates the variant.
+    /// Returns one flag for each element: whether this variant selects the element.
     fn mask(&self, mesh: &Mesh, cx: &Context) -> Result<Vec<bool>, OpError> {
         Ok(match *self {
             Self::Own => {
@@ -383,12 +383,12 @@ fn tagged<S: Select>(mesh: &Mesh, name: &str) -> Result<Vec<bool>, OpError> {
     Err(OpError::refused(Refusal::Missing, message))
 }
 
-/// Returns the elements that `mask` does not mark.
+/// Returns a mask of the elements that `mask` does not mark.
 fn not<S: Select>(mesh: &Mesh, mask: &[bool]) -> Vec<bool> {
     marks::<S>(mesh, |id| !mask[id.index()])
 }
 
-/// Returns the vertices of the marked elements.
+/// Returns a mask of the vertices of the marked elements.
 fn touched<S: Select>(mesh: &Mesh, mask: &[bool]) -> Vec<bool> {
     let mut vertices = vec![false; mesh.domain_len(Domain::Vertex)];
     for v in S::marked(mesh, mask).flat_map(|id| S::vertices(mesh, id)) {
@@ -397,15 +397,15 @@ fn touched<S: Select>(mesh: &Mesh, mask: &[bool]) -> Vec<bool> {
     vertices
 }
 
-/// Returns the elements with at least one marked vertex.
+/// Returns a mask of the elements with at least one marked vertex.
 fn touching<S: Select>(mesh: &Mesh, vertices: &[bool]) -> Vec<bool> {
     marks::<S>(mesh, |id| {
         S::vertices(mesh, id).any(|v| vertices[v.index()])
     })
 }
 
-/// Returns the marked elements and their neighbors. Two vertices are neighbors if they share an edge, and two edges or
-/// faces are neighbors if they share a vertex.
+/// Returns a mask of the marked elements and their neighbors. Two vertices are neighbors if they share an edge, and two
+/// edges or faces are neighbors if they share a vertex.
 fn grow<S: Select>(mesh: &Mesh, mask: &[bool]) -> Vec<bool> {
     let mut vertices = touched::<S>(mesh, mask);
     if S::Id::DOMAIN == Domain::Vertex {
@@ -427,8 +427,8 @@ fn center<S: Select>(mesh: &Mesh, id: S::Id) -> DVec3 {
     sum / n
 }
 
-/// Returns the `count` marked elements with the lowest keys. Among elements with equal keys, those with the lowest ids
-/// are chosen.
+/// Returns a mask of the `count` marked elements with the lowest keys. Among elements with equal keys, those with the
+/// lowest ids are chosen.
 fn lowest<S: Select, K: PartialOrd>(
     mesh: &Mesh,
     count: u32,
@@ -483,7 +483,7 @@ fn missing_element(number: u32, noun: &str, n: usize) -> OpError {
     OpError::refused(Refusal::Missing, message)
 }
 
-/// The default of a `count`.
+/// The default value of the field `count` of selections.
 const fn one() -> u32 {
     1
 }

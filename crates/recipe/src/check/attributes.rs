@@ -108,7 +108,7 @@ impl Attributes {
         }
     }
 
-    /// Reports an expectation about an attribute that cannot exist at this point of the recipe.
+    /// Reports an error for an expectation about an attribute that cannot exist at this point of the recipe.
     pub(super) fn expected(
         &self,
         placed: &RecipeExpectation,

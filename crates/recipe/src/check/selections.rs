@@ -127,7 +127,7 @@ fn add<'v>(
     }
 }
 
-/// The items of `Name([..])`.
+/// Returns the items of the list in `Name([..])`.
 fn listed(call: &Call) -> impl Iterator<Item = &Value> {
     let items = call.body.single().and_then(Value::items);
     items.into_iter().flatten()

@@ -31,7 +31,7 @@ pub enum ColumnDifference {
     /// The connectivity of the meshes is not [`Connectivity::Same`](super::Connectivity::Same), so the values cannot be
     /// compared.
     Unknown,
-    /// Values differ.
+    /// Some corresponding values differ.
     Values {
         /// The number of values that differ.
         count: usize,
@@ -55,8 +55,8 @@ impl AttributeDifference {
     }
 }
 
-/// Compares the attributes of two meshes. Values are compared only if `orders` is given, because it says which elements
-/// of the two meshes correspond.
+/// Compares the attributes of two meshes. Values are compared only if `orders` is given, because `orders` says which
+/// elements of the two meshes correspond.
 pub(super) fn differences(
     [a, b]: [&Mesh; 2],
     orders: Option<&[Order; 2]>,

@@ -39,9 +39,9 @@ pub struct Counts {
     pub components: usize,
     /// The number of boundary loops.
     pub boundary_loops: usize,
-    /// The sum of the areas of the faces.
+    /// The sum of the areas of the faces, in square scene units.
     pub area: f64,
-    /// The enclosed volume. The volume has no meaning if the mesh has boundary loops.
+    /// The enclosed volume, in cubic scene units. The volume has no meaning if the mesh has boundary loops.
     pub volume: f64,
     /// The lowest and the highest coordinates of the vertices. `None` if the mesh has no vertices.
     pub bounds: Option<[DVec3; 2]>,

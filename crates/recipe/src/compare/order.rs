@@ -7,7 +7,7 @@ use mesh::{EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 pub(super) struct Order {
     pub(super) vertices: Vec<VertexId>,
     pub(super) faces: Vec<FaceId>,
-    /// Sorted by face. Within a face, the corner at the vertex with the lowest id comes first.
+    /// The corners, sorted by face. Within a face, the corner at the vertex with the lowest id comes first.
     pub(super) corners: Vec<HalfEdgeId>,
     /// The edges, sorted by the lower vertex id of each edge. Edges with the same lower vertex id are sorted by the
     /// higher vertex id.

@@ -44,7 +44,7 @@ pub(crate) fn values(
     Ok(values)
 }
 
-/// Calls `visit` with each value of an attribute and its element.
+/// Calls `visit` with each value of an attribute and the element that has this value.
 fn each(
     subject: Subject,
     name: &str,

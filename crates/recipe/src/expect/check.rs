@@ -267,8 +267,8 @@ fn count(of: &Elements, object: &Object, mesh: &Mesh, subject: Subject) -> Resul
     Ok(n as u64)
 }
 
-/// Checks that the Hausdorff distance of two meshes is certainly below a limit. If the limit is small, the measurement
-/// uses a fraction of the limit as its tolerance, so that small limits can be checked, too.
+/// Checks that the Hausdorff distance of two meshes is certainly below a limit. The measurement has a tolerance. If the
+/// limit is small, a fraction of the limit is used as the tolerance, so that small limits can be checked, too.
 fn distance_below(
     mesh: &Mesh,
     other: &Mesh,

@@ -360,7 +360,8 @@ pub enum Expectation {
     },
     /// A file that a step writes equals a reference file, which `meshwright test --update` creates and updates.
     /// Pictures (.png, .apng) are compared pixel by pixel. Mesh files are compared by the objects that are read from
-    /// them, and all other files byte by byte. Differences in the recorded provenance are ignored.
+    /// them, and all other files byte by byte. Differences in the recorded provenance, which says how the file was
+    /// made, are ignored.
     Output {
         /// The path of the written file, relative to the output folder, as in the step that writes the file.
         path: String,
@@ -425,8 +426,8 @@ const fn yes() -> bool {
 }
 
 impl Expectation {
-    /// Returns an error if the expectation itself is wrong, whatever the scene contains. If an expectation can never
-    /// fail, that is an error.
+    /// Returns an error if the expectation itself is wrong, whatever the scene contains. An expectation that can never
+    /// fail counts as wrong.
     pub fn problem(&self) -> Option<&'static str> {
         let needs_bound = match self {
             Self::Objects { eq, min, max }

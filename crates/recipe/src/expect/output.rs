@@ -1,8 +1,8 @@
-//! The expectation `Output`, which compares a file that a step has written with a reference file beside the recipe. The
-//! code calls the reference file the golden file.
+//! The expectation `Output`, which compares a file that a step has written with a reference file in the folder of the
+//! recipe. In the code, the reference file is called `golden`.
 //!
 //! Pictures are compared pixel by pixel. Mesh files are compared by the objects that are read from them, and all other
-//! files byte by byte. The provenance that is recorded in a file is ignored.
+//! files byte by byte. The provenance in a file, which says how the file was made, is ignored.
 
 use std::path::{Component, Path, PathBuf};
 
@@ -29,8 +29,8 @@ pub(super) fn is_picture(path: &str) -> bool {
 ///
 /// # Errors
 ///
-/// [`Violation`] if the path leads out of the recipe's folder, directly or through a link, or if the path is a folder, a
-/// link or a device.
+/// Returns a [`Violation`] if the path leads out of the recipe's folder, directly or through a link. Also returns a
+/// [`Violation`] if the path is a folder, a link or a device.
 pub(crate) fn golden(files: &Files, path: &str) -> Result<PathBuf, Violation> {
     let relative = Path::new(path);
     let is_plain = relative
@@ -197,8 +197,8 @@ fn compare(written: &Path, golden: &Path, subject: Subject) -> Result<(), Violat
     }))
 }
 
-/// Returns the digests of the scenes in two files. If each of two corresponding objects has the name of its file, these
-/// names are treated as equal.
+/// Returns the digests of the scenes in two files. A single object in a file often has the name of the file. If each of
+/// two corresponding objects has the name of its file, these names are treated as equal.
 fn digests(
     (path, scene): (&Path, &Scene),
     (other_path, mut other): (&Path, Scene),

@@ -10,8 +10,8 @@ use super::subject::{Subject, Violation};
 /// be much larger than the meshes.
 const MAX_BYTES: u64 = 1 << 36;
 
-/// A subject (see [`Subject`]) made from another subject. Its objects are the instances of the objects of that subject,
-/// in scene space.
+/// A [`Subject`], which is a scene to check, made from another one. Its objects are the instances of the other
+/// subject's objects, in scene space.
 pub(crate) struct PlacedSubject<'a> {
     scene: Cow<'a, Scene>,
     on: Option<Vec<String>>,
@@ -19,7 +19,7 @@ pub(crate) struct PlacedSubject<'a> {
 }
 
 impl<'a> PlacedSubject<'a> {
-    /// Places all objects. `other` is an object that must have exactly one instance.
+    /// Places all objects in scene space. `other` is an object that must have exactly one instance.
     ///
     /// # Errors
     ///

@@ -8,8 +8,8 @@ use mesh::{DVec3, Mesh, VertexId};
 use super::subject::Violation;
 
 /// An index of the vertices of a mesh for finding them by position. The list `tree` is a k-d tree. The vertex in the
-/// middle of the list splits the other vertices by one coordinate, the one in which their bounding box is longest. Each
-/// half of the list is split in the same way.
+/// middle of the list splits the other vertices by one coordinate: the coordinate along which the bounding box of the
+/// vertices is longest. Each half of the list is split in the same way.
 pub(super) struct PositionIndex<'m> {
     mesh: &'m Mesh,
     tree: Vec<(VertexId, u8)>,
@@ -22,8 +22,9 @@ impl<'m> PositionIndex<'m> {
         Self { mesh, tree }
     }
 
-    /// Returns the free vertex nearest to `p`, as its index in the tree. Returns `None` if no free vertex is within the
-    /// tolerance. If several vertices have the same distance from `p`, returns the one with the lowest id.
+    /// Returns the free (not yet matched) vertex nearest to `p`, as its index in the tree. Returns `None` if no free
+    /// vertex is within the tolerance. If several vertices have the same distance from `p`, returns the one with the
+    /// lowest id.
     fn nearest(&self, p: DVec3, tolerance: f64, free: &FreeVertices) -> Option<usize> {
         let mut best = (tolerance, VertexId::NONE, 0);
         let all = 0..self.tree.len();

@@ -20,7 +20,7 @@ pub trait Reader: Sync {
     ///
     /// # Errors
     ///
-    /// [`Violation`] if the file cannot be read. Its message gives the path and the reason.
+    /// Returns a [`Violation`] if the file cannot be read. Its message gives the path and the reason.
     fn scene(&self, path: &Path, files: &Files) -> Result<Scene, Violation>;
 
     /// Compares the pixels of two PNG files, each given by its path and bytes. Returns a description of the differences
@@ -28,7 +28,7 @@ pub trait Reader: Sync {
     ///
     /// # Errors
     ///
-    /// [`Violation`] if one of the files cannot be read. Its message gives the path and the reason.
+    /// Returns a [`Violation`] if one of the files cannot be read. Its message gives the path and the reason.
     fn compare_pictures(
         &self,
         found: (&Path, &[u8]),
@@ -45,12 +45,14 @@ pub struct Violation {
     pub message: String,
     /// The actual value, if the expectation would hold with this value as the expected value.
     pub found: Option<ActualValue>,
-    /// Whether the expectation could not be checked. In this case, `Not(..)` of the expectation does not hold either.
+    /// Whether the expectation could not be checked, for example because a file cannot be read. In this case, `Not(..)`
+    /// of the expectation does not hold either.
     pub(super) is_unknown: bool,
 }
 
 impl Violation {
-    /// Creates a violation without an actual value, for expectations in which no value can be replaced.
+    /// Creates a violation without an actual value, for expectations in which `meshwright test --update` can replace no
+    /// value.
     pub(super) fn unmet(message: impl Into<String>) -> Self {
         Self {
             message: message.into(),
@@ -87,9 +89,9 @@ impl From<&str> for Violation {
 /// The actual value, which can replace the expected value in the recipe.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ActualValue {
-    /// An integer for `eq`.
+    /// An integer, which can replace the value of `eq`.
     Count(i128),
-    /// A number for `eq`.
+    /// A number, which can replace the value of `eq`.
     Number(f64),
     /// The digest of the scene.
     Digest(String),
@@ -102,14 +104,14 @@ pub enum ActualValue {
         /// The allowed difference between the colors of two pictures, in steps of 1/255.
         tolerance: u8,
     },
-    /// A position for `is`.
+    /// A position, which can replace the value of `is`.
     Position {
         /// The actual position.
         at: DVec3,
         /// The allowed distance from the expected position.
         tolerance: f64,
     },
-    /// The bounding box.
+    /// A bounding box, which can replace the two corners in `Bounds`.
     Bounds {
         /// The lowest coordinates.
         min: DVec3,

@@ -62,8 +62,9 @@ impl Group {
     }
 }
 
-/// Counts the motions that map every vertex to a point within the tolerance of a vertex. If `connectivity` is set, each
-/// motion must also map every face onto a face.
+/// Counts the motions that map the vertices of the mesh onto themselves: the image of each vertex lies within the
+/// tolerance of a vertex, a different one for each image. If `connectivity` is set, each motion must also map every
+/// face onto a face.
 pub(super) fn count(mesh: &Mesh, motions: &[Motion], tolerance: f64, connectivity: bool) -> u64 {
     let points = PositionIndex::new(mesh);
     let keeps = |motion: &Motion| {

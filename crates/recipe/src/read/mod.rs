@@ -50,7 +50,7 @@ impl Reading {
     }
 }
 
-/// Values that the caller of `read` sets for the parameters of a recipe. By default, there are none.
+/// Values that the caller of `read` sets for the parameters of a recipe. By default, no values are set.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Values<'a> {
     /// The names of parameters, each with its value as plain text.
@@ -116,7 +116,7 @@ pub fn read_by(schemas: &Schemas, store: &dyn Store, source: &Source, values: Va
     }
 }
 
-/// Returns an error if a text declares another version than the expected one, as in `recipe: 2`.
+/// Returns an error if a text declares another version than `expected`, for example with `recipe: 2` if 1 is expected.
 pub(crate) fn wrong_version(root: &Value, kind: &str, expected: i128) -> Option<Diagnostic> {
     let version = root.field(kind)?;
     let ValueKind::Number(number) = &version.kind else {
@@ -170,13 +170,13 @@ fn take_items(list: Option<&mut Value>) -> Vec<Value> {
     }
 }
 
-/// Reads one text in one scope.
+/// Reads one text in one scope, which is one set of parameter values.
 struct Reader<'s, 'a> {
     shared: &'s mut Shared<'a>,
     source: Source,
     /// The index of the scope.
     scope: usize,
-    /// The text at the start of the labels of all steps.
+    /// The text at the start of the labels of all steps that this reader reads.
     prefix: String,
     on_loss: OnLoss,
     diagnostics: Vec<Diagnostic>,
@@ -188,7 +188,7 @@ struct Reader<'s, 'a> {
     broken: HashSet<String>,
     /// The names of parameters that an `arg(..)` or an `If` uses.
     used: HashSet<String>,
-    /// The ids of steps.
+    /// The ids of the steps in this text that were read so far.
     ids: IndexSet<String>,
     /// Whether an error was already reported for too many steps.
     has_too_many_steps: bool,

@@ -153,8 +153,8 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// Returns a placeholder for a step that could not be read. Because of the placeholder, other steps keep their
-    /// indices, and the id of the step remains known.
+    /// Returns a placeholder for a step that could not be read. The placeholder keeps the indices of the other steps
+    /// unchanged, and the id of the unreadable step remains known.
     pub(super) fn broken_step(&mut self, written: Value) -> Draft {
         let run = written.field("run").unwrap_or(&written);
         let (name, span) = run.name().unwrap_or(("?", written.span));
@@ -206,9 +206,9 @@ impl Reader<'_, '_> {
     }
 }
 
-/// Improves the help text of errors about unknown parameters. If the parameter has the name of a field of the step or
-/// of the expectation around the call, such as `on`, the help text says where to write this field. `inner` is the name
-/// of the field that contains the call: `run` or `that`.
+/// Improves the help text of errors about unknown parameters. An unknown parameter can have the name of a field, such
+/// as `on`, that belongs outside of the parentheses of the operation or expectation. The help text then says where to
+/// write this field. `inner` is the name of the field that contains the operation or expectation: `run` or `that`.
 pub(super) fn explain_outer_fields(
     wrong: &mut [Diagnostic],
     call: &Value,

@@ -10,9 +10,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::recipe::{RecipeExpectation, RecipeStep};
 
-/// A step cache that is set up for runs of one recipe.
+/// A step cache, which stores the results of steps, set up for the runs of one recipe.
 pub trait StepCache: fmt::Debug + Sync {
-    /// Starts a run.
+    /// Starts a run that uses this cache.
     fn begin(&self) -> Box<dyn CachedRun + '_>;
 }
 
@@ -20,8 +20,8 @@ pub trait StepCache: fmt::Debug + Sync {
 /// each step, [`run`](crate::run()) calls [`look_up`](Self::look_up). If the lookup finds no result,
 /// [`run`](crate::run()) runs the step and calls [`record_step`](Self::record_step).
 pub trait CachedRun {
-    /// Looks up the next step. If `stage` is given, the files that the step wrote are restored into this temporary
-    /// folder. This folder collects the outputs until the run succeeds.
+    /// Looks up the next step. `stage` is the temporary folder that collects the outputs until the run succeeds. If
+    /// `stage` is given, the files that the step wrote in an earlier run are restored into this folder.
     ///
     /// # Errors
     ///
@@ -47,8 +47,8 @@ pub trait CachedRun {
         time: Duration,
     ) -> RerunReason;
 
-    /// Considers the scenes after the steps `from + 1` to `to`, counted from 1, and loads the latest of them that is
-    /// stored. Returns this scene, and the number of steps before it.
+    /// Of the scenes after the steps `from + 1` to `to` (counted from 1), loads the latest one that is stored. Returns
+    /// the number of steps before this scene, and the scene.
     fn load_scene(&mut self, from: usize, to: usize) -> Option<(usize, Scene)>;
 
     /// Whether the step with the index `index` leaves the scene unchanged. Indices start at 0.
@@ -66,7 +66,7 @@ pub trait CachedRun {
     /// Records the digest of the current scene.
     fn set_digest(&mut self, digest: Digest);
 
-    /// Whether the cache needs the final scene, even if no step does.
+    /// Whether the cache needs the scene at the end of the run, even if no step or expectation needs it.
     fn wants_scene(&self) -> bool;
 
     /// Writes everything that was recorded about the last step to the cache.
@@ -136,7 +136,7 @@ pub enum RerunReason {
     /// The id changed, and the id seeds the random choices of the step.
     #[error("the id of the step changed, and random choices depend on the id")]
     Id,
-    /// The expected refusal changed.
+    /// The field `refused:` of the step, which names the expected refusal, changed.
     #[error("`refused` changed")]
     Refused,
     /// The memory budget changed.
@@ -153,7 +153,7 @@ pub enum RerunReason {
         "the step's output files record the recipe and its parameters, and one of these changed"
     )]
     Provenance,
-    /// The names of the step's output files changed.
+    /// The names of the output files that the step writes changed.
     #[error("the names of the step's output files changed")]
     Outputs,
     /// An earlier step ran again. The values are its number, counted from 1, and its label.

@@ -16,12 +16,12 @@ pub trait Listener: Progress {
     fn step_begins(&self, _number: usize, _label: &str) {}
     /// Called when a step is done.
     fn step_done(&self, _number: usize, _done: &StepDone) {}
-    /// Whether to compute the digest of the scene after each step. This is slow for large scenes.
+    /// Whether the run computes the digest of the scene after each step. This computation is slow for large scenes.
     fn wants_digests(&self) -> bool {
         false
     }
-    /// Whether to call [`scene_after`](Self::scene_after). If this method returns true, scenes are loaded from the
-    /// cache even if no step needs them.
+    /// Whether the run calls [`scene_after`](Self::scene_after). If this method returns true, scenes are loaded from
+    /// the cache even if no step needs them.
     fn wants_scenes(&self) -> bool {
         false
     }
@@ -31,7 +31,7 @@ pub trait Listener: Progress {
     fn scene_after(&self, _number: usize, _scene: &Scene) {}
     /// Called when a step fails or an expectation does not hold.
     fn failed(&self, _: &Failure) {}
-    /// Whether to find the elements that violate an expectation. The search takes time.
+    /// Whether the run searches for the elements that violate an expectation. The search takes time.
     fn wants_places(&self) -> bool {
         false
     }

@@ -8,7 +8,8 @@ use store::{Entry, TemporaryFolder, files_below};
 
 use super::Settings;
 
-/// Creates the stage if the recipe writes files. If outputs are kept, the stage is inside the output folder.
+/// Creates the stage, the temporary folder for outputs, if the recipe writes files. If the outputs are to be kept after
+/// the run, the stage is inside the output folder.
 pub(super) fn staging<'a>(settings: &Settings<'a>) -> Result<Option<TemporaryFolder<'a>>, String> {
     if !settings.writes {
         return Ok(None);
@@ -68,7 +69,7 @@ fn moves(stage: &Path, files: &Files) -> Result<Vec<(PathBuf, PathBuf)>, String>
 /// The files of a stage. Each file has metadata that change whenever the file is written.
 pub(super) type Listing = BTreeMap<PathBuf, Entry>;
 
-/// Lists a stage. Skips files that cannot be listed, because `deliver` reports them.
+/// Lists the files of a stage. Skips files that cannot be listed: `deliver` reports these files as errors.
 pub(super) fn listing(stage: &Path, files: &Files) -> Listing {
     let paths = files_below(&*files.store, stage).unwrap_or_default();
     let files = paths.into_iter().filter_map(|path| {

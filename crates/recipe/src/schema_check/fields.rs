@@ -5,7 +5,7 @@ use super::{Checker, Place, listed, nearest};
 use ron_tree::{Field, Number, Span, Value, ValueKind};
 
 impl Checker {
-    /// Checks `(a: 1, b: 2)`.
+    /// Checks a struct value, such as `(a: 1, b: 2)`, against its schema.
     ///
     /// `owner` is the span of the name of the struct or, if there is no name, of the opening bracket. If fields are
     /// missing, the error is reported at this span.
@@ -103,7 +103,7 @@ impl Checker {
         );
     }
 
-    /// Checks `{"a": 1}`.
+    /// Checks a map, such as `{"a": 1}`, against its schema.
     pub(super) fn check_map(&mut self, value: &Value, schema: &Schema, place: Place) {
         let ValueKind::Map(entries) = &value.kind else {
             return self.mismatch(value, &schema.expectation(), place, None);

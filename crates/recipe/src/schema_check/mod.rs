@@ -2,8 +2,8 @@
 //!
 //! `schemars` derives the schema from the type, and the values are written as `ron` writes them. If a value is accepted
 //! here, it can be deserialized, unless it breaks a rule that the schema does not contain. An example is the rule that
-//! a direction must not be zero. Deserialization stops at the first error. The check here finds all errors of a value,
-//! each with its span and a help text.
+//! a direction must not be zero. Deserialization stops at the first error. In contrast, this check finds all errors of
+//! a value, each with its span and a help text.
 //!
 //! ```text
 //! schema                                        in the recipe
@@ -41,8 +41,8 @@ use shorthand::Short;
 
 /// Returns all errors of `value` against `schema`, in the order of the text.
 ///
-/// `schema` is a root schema, so references are looked up in its `$defs`. Parts of the value that could not be read are
-/// skipped.
+/// `schema` is a root schema: references in it are looked up in its own `$defs`. Parts of the value that could not be
+/// read are skipped.
 pub fn check_schema(value: &Value, schema: &Json) -> Vec<Diagnostic> {
     checked(value, schema).wrong
 }
@@ -58,9 +58,9 @@ pub(crate) fn checked(value: &Value, schema: &Json) -> Checked {
 ///
 /// # Errors
 ///
-/// Returns all errors of the value against the schema. If there are none, returns the error of deserialization. The
-/// list is empty if the only error is a part of the value that could not be read, because the parser has already
-/// reported it.
+/// Returns all errors of the value against the schema. If there are none, returns the error of deserialization. If the
+/// only error is a part of the value that could not be read, the list is empty, because the parser has already reported
+/// this error.
 pub(crate) fn typed<T: DeserializeOwned>(
     value: &Value,
     schema: &Json,
@@ -327,7 +327,8 @@ impl Checker {
         }
     }
 
-    /// Checks `(1, 2)`. `expected` is a description of the expected value for messages.
+    /// Checks a tuple, such as `(1, 2)`, against the schemas of its items. `expected` describes the expected value in
+    /// messages.
     fn check_tuple(&mut self, value: &Value, items: &[Schema], expected: &str, place: Place) {
         let values = match &value.kind {
             ValueKind::Tuple(values) => values.as_slice(),

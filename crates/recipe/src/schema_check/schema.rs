@@ -19,7 +19,7 @@ pub(crate) struct Schema<'s> {
 /// The alternatives of a schema, which are the variants of an enumeration or other schemas.
 #[derive(Debug, Default)]
 pub(super) struct Choice<'s> {
-    /// Variants without content.
+    /// The names of the variants without content.
     pub(super) units: Vec<&'s str>,
     /// Variants with content. The schema of such a variant is read only when it is needed.
     variants: Vec<(&'s str, &'s Json)>,

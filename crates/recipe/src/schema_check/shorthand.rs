@@ -1,5 +1,5 @@
 //! Checks enumerations in which a value can omit the name of the variant. The name can be omitted if the content fits
-//! only one variant. The schema of these enumerations has the keyword `x-shorthand`. An example is [`op::Elements`].
+//! exactly one variant. The schema of these enumerations has the keyword `x-shorthand`. An example is [`op::Elements`].
 //!
 //! ```text
 //! Sharp(above: 30)   exists only for edges                ---> Edges(Sharp(above: 30))
@@ -123,7 +123,7 @@ impl Checker {
 
 /// The result of checking a value against a schema.
 pub(crate) struct Checked {
-    /// The errors.
+    /// The errors in the value.
     pub(crate) wrong: Vec<Diagnostic>,
     /// The old names that the value uses for fields and variants, in the order of the text. The schema lists old names
     /// in `aliases`.

@@ -92,7 +92,7 @@ impl Metric {
     ///
     /// # Errors
     ///
-    /// [`Violation`] if the metric cannot be measured, for example because an object or a file is missing.
+    /// Returns a [`Violation`] if the metric cannot be measured, for example because an object or a file is missing.
     pub fn measure(
         &self,
         outcome: &Outcome,

@@ -15,9 +15,9 @@
 //!
 //! [`read_sweep`] reads the text, and [`Sweep::grid`] checks its values against the parameters that the recipe
 //! declares. Both [`read_sweep`] and [`Sweep::grid`] report all errors at once. The lists of `zip` have the same
-//! length, and the n-th values of all these lists form a row. The cells are all combinations of one value from each
-//! list of `over` and one row of `zip`. From cell to cell, the row of `zip` changes fastest, then the value from the
-//! last list of `over`.
+//! length, and the n-th values of all these lists form a row. Each cell stands for one run of the recipe. The cells are
+//! all combinations of one value from each list of `over` and one row of `zip`. From cell to cell, the row of `zip`
+//! changes fastest, then the value from the last list of `over`.
 
 mod metric;
 mod values;
@@ -39,7 +39,7 @@ pub use metric::{Measured, Metric, Statistic};
 /// The version of sweeps that this program reads.
 pub const SWEEP_VERSION: i128 = 1;
 
-/// The maximum number of cells of a sweep.
+/// The maximum number of cells (runs) of a sweep.
 pub const MAX_CELLS: usize = 10_000;
 
 /// A sweep that was read. The values of the sweep are not yet checked against the recipe.
@@ -79,7 +79,7 @@ pub struct Grid {
     pub set: Vec<(String, Setting)>,
 }
 
-/// Parameters that change together.
+/// A group of parameters whose values change together from cell to cell.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Axis {
     /// The range of the indices that these parameters have in [`Grid::parameters`].
@@ -221,8 +221,8 @@ impl Sweep {
     ///
     /// # Errors
     ///
-    /// All errors: parameters that the recipe does not have, values of a wrong type or out of range, empty lists, a
-    /// parameter that is given twice, lists of `zip` with different lengths, or more than [`MAX_CELLS`] cells.
+    /// Returns all errors: parameters that the recipe does not have, values of a wrong type or out of range, empty
+    /// lists, a parameter that is given twice, lists of `zip` with different lengths, or more than [`MAX_CELLS`] cells.
     pub fn grid(&self, parameters: &[Parameter], folder: &Path) -> Result<Grid, Vec<Diagnostic>> {
         let mut diagnostics = Vec::new();
         self.check_names(parameters, &mut diagnostics);

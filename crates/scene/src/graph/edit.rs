@@ -83,7 +83,8 @@ impl Graph {
     }
 
     /// Adds a child that references the object `part` to each node that references the object `whole`. The child has
-    /// the location, skin and weights of its parent. If only one node references `whole`, the child is named `part`.
+    /// the skin and the morph weights of its parent, and lies where its parent lies: its own placement is the identity.
+    /// If only one node references `whole`, the child is named `part`.
     pub fn add_part(&mut self, whole: &str, part: &str) {
         let nodes = self.nodes_of(whole);
         for &parent in &nodes {
@@ -107,9 +108,9 @@ impl Graph {
         }
     }
 
-    /// Appends the nodes of another graph. The objects of the two graphs must have different names. If the documents of
-    /// both graphs have a part with the same name but different content, the part of this graph is kept. Returns the
-    /// number of parts of `other` that are not kept.
+    /// Appends the nodes of another graph. The objects of the two graphs must have different names. If
+    /// [`Graph::document`] has a part with the same name but different content in both graphs, the part of this graph
+    /// is kept. Returns the number of parts of `other` that are not kept.
     pub fn append(&mut self, other: Self) -> usize {
         let (n, cameras, lights) = (self.nodes.len(), self.cameras.len(), self.lights.len());
         let (skins, arrays) = (self.skins.len(), self.arrays.len());
@@ -148,9 +149,10 @@ impl Graph {
 
     /// Returns a graph for the objects that `is_wanted` accepts. The graph has the nodes that reference these objects,
     /// the joints of their skins, the roots of these joints, and the ancestors of all these nodes. Joints and ancestors
-    /// keep no objects that `is_wanted` refuses, and no skins and morph weights of such objects. The graph also has the
-    /// skins and labels of the accepted objects, and the animations of its nodes, except the animations of morph weights
-    /// of nodes without an object. All arrays and the parts of the document are kept; cameras and lights are not.
+    /// keep no objects that `is_wanted` refuses, and no skins and morph weights of such objects. The returned graph
+    /// also has the skins and labels of the accepted objects. It has the animations of its nodes, except those that
+    /// animate the morph weights of a node without an object. All arrays and all parts of the document are kept;
+    /// cameras and lights are not.
     pub(crate) fn only(&self, is_wanted: impl Fn(&str) -> bool) -> Self {
         let mut graph = Self {
             nodes: self.nodes.clone(),
@@ -186,8 +188,8 @@ impl Graph {
         graph
     }
 
-    /// Removes the nodes for which `keep` is false. `keep` must be true for joints and roots of skins, and for the
-    /// parents of kept nodes.
+    /// Removes the nodes whose flag in `keep` is false. The flag must be true for joints, for roots of the joints of
+    /// skins, and for the parents of kept nodes.
     fn keep_nodes(&mut self, keep: &[bool]) {
         let mut n = 0;
         let places = keep.iter().map(|&is_kept| {

@@ -32,8 +32,9 @@ impl Placement {
         scale: [1.0; 3],
     };
 
-    /// After a map is split into scale, rotation and translation, these parts are composed to a matrix again. This is
-    /// the largest allowed difference from the matrix of the map, relative to the largest number in that matrix.
+    /// To check the split of a map into scale, rotation and translation, these parts are composed to a matrix again.
+    /// `TOLERANCE` is the largest allowed difference from the matrix of the map, relative to the largest number in that
+    /// matrix.
     const TOLERANCE: f64 = 1e-12;
 
     /// Returns the map from the space of the node to the space of its parent. The map is not finite if a number is not

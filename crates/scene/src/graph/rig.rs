@@ -24,12 +24,12 @@ pub struct Skin {
     pub extras: Option<String>,
 }
 
-/// An animation.
+/// An animation: values over time for properties of nodes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Animation {
     /// The name.
     pub name: Option<String>,
-    /// The values over time that channels refer to.
+    /// The values over time. Channels refer to these samplers by index.
     pub samplers: Vec<AnimationSampler>,
     /// The channels. Each channel applies a sampler to a property of a node.
     pub channels: Vec<Channel>,
@@ -37,7 +37,7 @@ pub struct Animation {
     pub extras: Option<String>,
 }
 
-/// Values over time.
+/// The keyframes of a property: values at given times.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct AnimationSampler {
     /// The index in [`Graph::arrays`] of the times of the keyframes, in seconds, in ascending order.
@@ -67,7 +67,7 @@ pub enum Interpolation {
 pub struct Channel {
     /// The index of the sampler in its animation.
     pub sampler: usize,
-    /// The node.
+    /// The index of the node.
     pub node: usize,
     /// The property of the node.
     pub property: AnimatedProperty,
@@ -89,7 +89,7 @@ pub enum AnimatedProperty {
 }
 
 impl Interpolation {
-    /// All modes. The index of a mode is its code in the canonical form.
+    /// All interpolation modes. The index of a mode is its code in the canonical form.
     pub(crate) const ALL: [Self; 3] = [Self::Linear, Self::Step, Self::CubicSpline];
 
     /// Returns the name in glTF.
@@ -150,7 +150,7 @@ impl Graph {
     ///
     /// # Panics
     ///
-    /// If the node does not exist.
+    /// Panics if the node does not exist.
     pub fn insert_parent(&mut self, node: usize) {
         let parent = super::Node {
             parent: self.nodes[node].parent,
@@ -186,12 +186,12 @@ impl Graph {
         }
     }
 
-    /// Returns one map for each joint of a skin, from the points of the mesh in its bind pose to the scene.
+    /// Returns one affine map for each joint of a skin, from points of the mesh in its bind pose to scene space.
     /// `to_scene` is the result of [`Graph::to_scene`].
     ///
     /// # Panics
     ///
-    /// If the skin does not exist.
+    /// Panics if the skin does not exist.
     pub fn joint_maps(&self, skin: usize, to_scene: &[DAffine3]) -> Vec<DAffine3> {
         let skin = &self.skins[skin];
         let matrices = skin.inverse_bind_matrices.map(|array| &self.arrays[array]);
@@ -249,7 +249,7 @@ impl Graph {
         removed
     }
 
-    /// Keeps only the skins for which `keep` is true. Nodes with a removed skin have no skin afterwards.
+    /// Keeps only the skins whose flag in `keep` is true. Nodes with a removed skin have no skin afterwards.
     pub fn retain_skins(&mut self, keep: &[bool]) {
         let mut n = 0;
         let places: Vec<Option<usize>> = (keep.iter())

@@ -37,7 +37,8 @@ use crate::extremes::MEASURES;
 use crate::fixtures::with_attributes;
 use crate::samples::samples;
 
-/// The maximum growth of the time when the size of the mesh is doubled twice, which is 2.3 squared.
+/// The largest allowed factor between the times for a mesh and for a mesh that is four times as large. The factor
+/// is 2.3 for each of two doublings of the size.
 const MAX_GROWTH: f64 = 2.3 * 2.3;
 
 /// The minimum time of a measurement. Meshes are enlarged until the work takes this long.

@@ -54,8 +54,8 @@ pub fn run(registry: Registry) -> ExitCode {
 }
 
 /// Returns the recipes that `meshwright test` runs if it is given these paths of recipes and folders. The result
-/// includes recipes that cannot be read. Recipes without expectations are left out. A recipe that was found in a folder
-/// is also left out if another recipe of the list calls it.
+/// includes recipes that cannot be read. Recipes without expectations are left out. A recipe that was not given by its
+/// own path but found in a folder is also left out if another of the given and found recipes calls it.
 ///
 /// # Errors
 ///

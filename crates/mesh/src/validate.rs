@@ -49,7 +49,7 @@ pub enum Defect {
     )]
     FaceHalfEdge(FaceId),
     /// The half-edge stored at a vertex leaves a different vertex, or a vertex with edges stores no half-edge.
-    #[error("the half-edge stored at the vertex {0} is missing or does not start at {0}")]
+    #[error("the vertex {0} stores no half-edge, or stores one that does not start at {0}")]
     VertexHalfEdge(VertexId),
     /// The half-edge stored at a boundary vertex has a face.
     #[error(

@@ -76,7 +76,9 @@ pub(super) struct Appearance {
     placing: Vec<Quadric>,
     /// For each wedge: the integral of the sum of the squared linear functions of normals.
     normals: Vec<Quadric>,
-    /// For each wedge and component: the integral of the gradient and the offset of the linear functions.
+    /// For each wedge and each component of the attributes: the integral of the linear functions of this component over
+    /// the triangles of the wedge. The first three numbers are the integral of the gradient, and the fourth is the
+    /// integral of the offset.
     fits: Vec<DVec4>,
     /// For each wedge and component: the value, times the weight of its column.
     values: Vec<f64>,

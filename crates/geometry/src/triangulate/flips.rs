@@ -134,7 +134,8 @@ impl Flips {
     fn flip(&mut self, points: &[[f64; 2]], corners: &mut [u32], a: u32) -> bool {
         let b = self.mates[a as usize];
         if b == NONE {
-            // After the side was queued, another flip has moved it to the boundary.
+            // A flip that was made after this side was queued has changed its triangle, so the side is now on the
+            // boundary.
             return false;
         }
         let turned = |side: u32, by: u32| side - side % 3 + (side + by) % 3;

@@ -183,7 +183,7 @@ impl Transfer {
                     && old.values.type_name() != column.values.type_name()
                 {
                     let message = format!(
-                        "the {domain} attribute \"{name}\" of \"{}\" has values of the type \"{}\", but the existing attribute of the same name has the type \"{}\"",
+                        "the {domain} attribute \"{name}\" of \"{}\" has values of the type \"{}\", but the mesh that receives them already has an attribute of this name with the type \"{}\"",
                         self.from,
                         column.values.type_name(),
                         old.values.type_name()

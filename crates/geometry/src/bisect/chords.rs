@@ -224,7 +224,7 @@ mod tests {
 
     #[test]
     fn coincident_corners_of_a_slit_are_ordered_correctly() {
-        // A square with a square hole, joined by a slit that the line crosses.
+        // A square with a square hole. A slit connects the hole to the outer boundary, and the line crosses this slit.
         let keyhole = [
             (-4., -4.),
             (4., -4.),

@@ -62,7 +62,7 @@ pub struct Forecast {
 }
 
 impl Forecast {
-    /// Whether there are errors, so that the recipe cannot run.
+    /// Whether there are errors that prevent the recipe from running.
     pub fn has_errors(&self) -> bool {
         self.diagnostics.iter().any(Diagnostic::is_error)
     }

@@ -44,7 +44,7 @@ pub struct Reading {
 }
 
 impl Reading {
-    /// Whether there are errors, so that the recipe cannot run.
+    /// Whether there are errors that prevent the recipe from running.
     pub fn has_errors(&self) -> bool {
         self.diagnostics.iter().any(Diagnostic::is_error)
     }

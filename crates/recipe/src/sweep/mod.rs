@@ -156,7 +156,7 @@ pub fn read_sweep(source: &str) -> SweepReading {
 }
 
 impl SweepReading {
-    /// Whether there are errors, so that the sweep cannot run.
+    /// Whether there are errors that prevent the sweep from running.
     pub fn has_errors(&self) -> bool {
         self.diagnostics.iter().any(Diagnostic::is_error)
     }

@@ -25,8 +25,8 @@ use tempfile::TempDir;
 /// The memory budget in bytes.
 const BUDGET: u64 = 4 << 30;
 
-/// The maximum planned memory peak, in bytes, of recipes that are run from every step. For larger recipes, the test
-/// does nothing.
+/// The test that runs a recipe from every step does nothing if the predicted memory peak of the recipe is above this
+/// number of bytes.
 const MAX_BYTES_FROM_EVERY_STEP: u64 = 16 << 20;
 
 /// The operations that only write files. The expectations of a recipe do not depend on these operations, except for

@@ -2,7 +2,8 @@
 
 use mesh::{CREASE, DVec3, Mesh};
 
-/// The scales of coordinates. Half of the meshes have ordinary coordinates.
+/// The factors by which the coordinates of a mesh are multiplied. Half of the factors are 1, so half of the meshes have
+/// ordinary coordinates.
 const SCALES: [f64; 8] = [1.0, 1.0, 1.0, 1.0, 0.0, 1e-300, 1e100, 1e290];
 
 /// Removes the first byte and returns it. Returns 0 if there are no bytes.

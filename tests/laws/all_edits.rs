@@ -1,4 +1,4 @@
-//! Tests long random sequences of edits of all kinds on every fixture.
+//! Tests long random sequences of edits of all kinds, on every small test mesh of the module `fixtures`.
 
 use glam::DVec3;
 use mesh::Mesh;
@@ -14,7 +14,7 @@ const EDITS: usize = 1000;
 /// elements. The limit counts edges instead of faces, because even a few faces can have many corners.
 const MAX_EDGES: usize = 250;
 
-/// Returns the small fixtures, with and without attributes.
+/// Returns the small test meshes, with and without attributes.
 fn meshes() -> Vec<Mesh> {
     let small = fixtures::meshes().into_iter().map(|(_, mesh)| mesh);
     let small: Vec<Mesh> = small.filter(|mesh| mesh.n_faces() < 100).collect();
@@ -48,16 +48,17 @@ proptest! {
             mesh.begin();
             for (i, &code) in codes.iter().enumerate() {
                 let kind = if mesh.n_edges() > MAX_EDGES {
-                    // These kinds of edits delete faces, compact the mesh, or remove edges.
+                    // These kinds of edits do not add elements: they delete faces, compact the mesh, or remove edges.
                     [2, 7, 8, 9, 12, 25, 26, 27][usize::from(code.kind % 8)]
                 } else {
                     code.kind
                 };
-                // Algorithms for whole surfaces take most of the time, so they get a twentieth of the edits.
+                // Algorithms for whole surfaces are slow, so at most one of twenty edits is such an algorithm.
                 let is_slow = kind > LAST_LOCAL && i % 20 != 0;
                 let kind = if is_slow { kind % LAST_LOCAL } else { kind };
                 let code = EditCode { kind, ..code };
-                // Every tenth edit is made in an inner level of the journal, and this level is then rolled back.
+                // Every tenth edit is made in a nested level of the journal (the record for undoing edits). This level
+                // is then rolled back.
                 if i % 10 == 9 {
                     let before = mesh.clone();
                     mesh.begin();

@@ -126,8 +126,8 @@ const LONG_STEPS: &[&str] = &[
     "Picture(path: \"a.png\", size: (2000, 2000))",
 ];
 
-/// The limit of one second is much longer than the usual time between two calls, so that the test does not fail on a
-/// slow machine.
+/// The limit of one second is much longer than the usual time between two progress calls, so that the test does not
+/// fail on a slow machine.
 #[test]
 #[cfg(unix)]
 fn long_steps_report_progress_at_least_once_a_second() {
@@ -163,7 +163,7 @@ fn long_steps_report_progress_at_least_once_a_second() {
 }
 
 /// The steps that precede the tested step in each recipe of the next test. These steps create an object for each name
-/// that samples use.
+/// to which the sample parameters of operations refer.
 const PRELUDE: &str = r#"
     Cube(name: "mesh", triangles: true),
     Octahedron(name: "other"),

@@ -1,4 +1,5 @@
-//! Tests every operation with every sample of its parameters on every fixture.
+//! Tests every operation, with every sample of its parameters (module `samples`), on every test scene (module
+//! `fixtures`).
 
 use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -229,7 +230,7 @@ fn planning_never_panics_even_for_incomplete_plans() {
     assert_none(&failures);
 }
 
-/// Returns the exact plan of an existing scene.
+/// Returns the plan of an existing scene. All counts in this plan are exact.
 pub(crate) fn exact_plan(scene: &Scene) -> Plan {
     let exactly = |n: usize| Range::exactly(n as u64);
     let planned = |object: &Object| match &object.geometry {
@@ -245,7 +246,7 @@ pub(crate) fn exact_plan(scene: &Scene) -> Plan {
     plan
 }
 
-/// Describes the differences between a scene and its plan.
+/// Describes the differences between a scene and the plan that predicted it.
 fn differences(scene: &Scene, plan: &Plan) -> Vec<String> {
     let found: Vec<_> = scene
         .objects()

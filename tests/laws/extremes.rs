@@ -31,12 +31,12 @@ const NUMBERS: &[&str] = &[
     "9223372036854775807",
 ];
 
-/// The memory budget in bytes. If the plan of a case exceeds the budget, the case is skipped, so that meshes stay
-/// small.
+/// The memory budget in bytes. A case is skipped if its plan predicts meshes that exceed the budget, so that meshes
+/// stay small.
 const BUDGET: u64 = 1 << 20;
 
-/// Returns a sample and its variants in which an extreme number replaces one number or all numbers. Variants that
-/// cannot be read are left out.
+/// `parameters` is a sample of the parameters of an operation. Returns this sample, and variants of it in which an
+/// extreme number replaces one number or all numbers. Variants that cannot be read are left out.
 fn extreme_variants(parameters: &str, can_be_read: impl Fn(&str) -> bool) -> Vec<String> {
     let tokens: Vec<_> = Lexer::new(parameters).collect();
     let with = |chosen: &[usize], number: &str| -> String {
@@ -116,7 +116,7 @@ fn failures(entry: &Entry, sample: &str, fixture: &str, scene: &Scene) -> Vec<St
         .collect()
 }
 
-/// Returns the maximum number of bytes of the meshes of a plan.
+/// Returns the maximum number of bytes that a plan predicts for its meshes.
 fn bytes(plan: &Plan) -> u64 {
     let objects = plan.objects().iter().map(|object| match &object.geometry {
         PlannedGeometry::Mesh(mesh) => mesh.bytes().max,

@@ -1,5 +1,5 @@
-//! The scenes on which every operation is tested. The first mesh of a scene is named "mesh" and the second mesh
-//! "other", so that samples can refer to the meshes.
+//! The scenes on which every operation is tested. The first mesh of a scene is named "mesh", and the second mesh is
+//! named "other". The sample parameters of operations refer to these names.
 
 use bezier::Curve;
 use geometry::shapes;
@@ -10,7 +10,7 @@ use mesh::{
 };
 use scene::{Geometry, Material, Object, Scene};
 
-/// Returns every fixture with its name.
+/// Returns every test scene with its name.
 pub(crate) fn scenes() -> Vec<(&'static str, Scene)> {
     let mut scenes: Vec<_> = meshes()
         .into_iter()
@@ -31,7 +31,7 @@ pub(crate) fn scenes() -> Vec<(&'static str, Scene)> {
     scenes
 }
 
-/// Returns the fixtures that consist of one mesh without attributes.
+/// Returns the meshes of the test scenes that consist of one mesh without attributes.
 pub(crate) fn meshes() -> Vec<(&'static str, Mesh)> {
     vec![
         ("nothing", Mesh::default()),

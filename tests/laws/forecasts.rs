@@ -1,5 +1,5 @@
-//! Tests that `check` knows what a run will refuse or lose. The tested recipes are small, and combine a shape or a file
-//! with operations and formats.
+//! Tests that `check` predicts what a run will refuse or lose. One test runs small recipes: each makes a shape or loads
+//! a file, applies at most one operation, and saves the result. The other test runs the recipes in `scenes/`.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -10,7 +10,8 @@ use rayon::prelude::*;
 
 use crate::{assert_none, recipes, root};
 
-/// Parts of messages about problems that `check` knows: kinds of geometry, attributes, objects and budgets.
+/// Texts in the messages about problems that `check` must find: wrong kinds of geometry, missing attributes and
+/// objects, and exceeded memory budgets.
 const KNOWN: [&str; 5] = [
     "has no attribute",
     "no object is named",
@@ -19,7 +20,8 @@ const KNOWN: [&str; 5] = [
     ", found patches",
 ];
 
-/// Losses that depend on values, which `check` does not know: coincident vertices, and meshes that lose all faces.
+/// The names of losses that `check` cannot predict, because they depend on the values in the meshes: coincident
+/// vertices, and meshes that lose all faces.
 const OF_VALUES: [&str; 2] = ["position", "mesh"];
 
 /// Returns how a run disagrees with the forecast of its recipe.

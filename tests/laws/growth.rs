@@ -83,7 +83,8 @@ const SELECTIONS: &[&str] = &[
     "TagFaces(name: \"new\", faces: Component(All))",
 ];
 
-/// Creates scenes with about `n` faces. The meshes have the names of the fixtures of all operations.
+/// Creates scenes with about `n` faces. The meshes have the same names as in the module `fixtures`, because the samples
+/// of the operations refer to these names.
 fn scenes(n: usize) -> Vec<(&'static str, Scene)> {
     let side = side(n);
     let around = u32::try_from(n).expect("ids have 32 bits");

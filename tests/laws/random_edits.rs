@@ -264,7 +264,7 @@ impl Polygons {
     }
 
     /// Flips the edge between two faces, so that each end moves to the next corner. The checks are in the same order as
-    /// in the mesh.
+    /// in `Mesh::flip_edge`.
     fn flip(&self, [a, b]: [u32; 2], e: EdgeId) -> Result<Self, EditError> {
         let (Some(f), Some(g)) = (self.with_side(a, b), self.with_side(b, a)) else {
             return Err(EditError::Boundary(e));
@@ -328,7 +328,7 @@ impl Polygons {
         Ok(Self::new(positions, self.removed.clone(), faces))
     }
 
-    /// Deletes a face, unless one of its vertices would then have two fans of faces.
+    /// Deletes a face, unless one of its vertices would then have two fans of faces, which touch only at this vertex.
     fn delete(&self, face: &[u32]) -> Result<Self, EditError> {
         let place = self.faces.iter().position(|f| f == face);
         let mut faces = self.faces.clone();
@@ -341,7 +341,7 @@ impl Polygons {
     }
 
     /// Collapses the edge from a to b, unless this would change the topology or make more elements coincide. The checks
-    /// are in the same order as in the mesh.
+    /// are in the same order as in `Mesh::collapse_edge`.
     fn collapse(&self, [a, b]: [u32; 2], t: f64, e: EdgeId) -> Result<Self, EditError> {
         if t > 1.0 {
             return Err(EditError::OutsideEdge(t));

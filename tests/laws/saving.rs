@@ -1,4 +1,4 @@
-//! Tests that the plan of `Save` agrees with the writers of all formats.
+//! Tests that the plan of `Save`, which predicts problems and losses, agrees with the writers of all formats.
 
 use std::collections::BTreeSet;
 

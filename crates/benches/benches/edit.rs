@@ -8,8 +8,9 @@ use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_mai
 use mesh::{EdgeId, EditError, Mesh};
 use op::{Context, Files, NoProgress, OnRefusal, edit_each};
 
-/// Flips every edge, and splits every edge, of a torus of a million triangles. Edits in random order are memory-bound.
-/// Flipping the edges in the order of their ids is not measured, because a few vertices would get a very high valence.
+/// Measures how long it takes to flip every edge of a torus of a million triangles, and to split every edge of this
+/// torus. Edits in random order are memory-bound: they mostly wait for the memory. Flipping the edges in the order of
+/// their ids is not measured, because a few vertices would get a very high valence.
 fn every_edge_once(c: &mut Criterion) {
     let mesh = common::torus();
     let in_order: Vec<EdgeId> = mesh.edges().collect();
@@ -39,7 +40,7 @@ fn every_edge_once(c: &mut Criterion) {
     group.finish();
 }
 
-/// Flips every edge. Illegal flips are refused.
+/// Flips every edge. The mesh refuses flips that are not legal.
 fn flip(mesh: Mesh, edges: &[EdgeId]) -> Mesh {
     edit_every(mesh, edges, |mesh, e| mesh.flip_edge(e).map(drop))
 }

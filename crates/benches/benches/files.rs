@@ -6,8 +6,8 @@
 //! the glTF accessors into arrays. If `python3 -c "import rapidobj"` works (`pip install rapidobj`), the C++ reader
 //! rapidobj is measured too. rapidobj uses all threads, returns arrays of 32-bit numbers, and triangulates polygons.
 //!
-//! Most programs write OBJ files with six decimals. Meshwright writes enough digits to restore the same `f64`. Both
-//! kinds of files are read.
+//! Most programs write OBJ files with six decimals. Meshwright writes enough digits to restore the same `f64`. The
+//! benchmark reads both kinds of OBJ files.
 
 use std::fs;
 use std::path::Path;

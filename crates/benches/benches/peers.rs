@@ -1,4 +1,4 @@
-//! Compares the speed of local edits with other half-edge meshes in Rust.
+//! Compares the speed of local edits in Meshwright and in other half-edge libraries for Rust.
 //!
 //! Each library edits the same torus of a million triangles. Each library flips every edge whose flip is legal, and
 //! splits every edge. Each library except tri-mesh also collapses every edge whose collapse is legal. The edges are in
@@ -11,7 +11,7 @@
 //! 3. an end of the edge has too few edges,
 //! 4. an edge already connects the far corners, so that the flip would make a double edge,
 //! 5. the far corners are the same vertex, or
-//! 6. the edge is a seam.
+//! 6. the edge is a seam: the values of corners, such as UVs, differ between its two sides.
 //!
 //! | | checks of a flip |
 //! | --- | --- |
@@ -27,9 +27,9 @@
 //! collapse, so its collapses are not measured. All positions are `f64`.
 //!
 //! In this benchmark, Meshwright prefetches the memory of the next edits. Meshwright also checks in each edit whether
-//! the mesh has an open journal, attribute columns, or dead elements (deleted elements that are still stored). The
-//! measured mesh has none of these. Like Meshwright, alum marks deleted elements as dead. tri-mesh finds its elements
-//! through hash maps.
+//! the mesh has an open journal (a record for undoing edits), attribute columns, or dead elements (deleted elements
+//! that are still stored). The measured mesh has none of these. Like Meshwright, alum marks deleted elements as dead.
+//! tri-mesh finds its elements through hash maps.
 //!
 //! At the end, the program compares the libraries that check for double edges: all of them must have flipped the same
 //! number of edges.

@@ -1,6 +1,6 @@
-//! How many triangles and pixels per second does rendering process? The time starts with the scene in memory and ends
-//! with the pixels in memory. The scenes have many small triangles or a few large triangles, and some of them have
-//! lines or ambient occlusion.
+//! How many triangles and pixels per second does rendering process? The measured time starts when the scene is in
+//! memory, and ends when the pixels are in memory. The scenes have many small triangles or a few large triangles, and
+//! some of them have lines or ambient occlusion.
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use geometry::shapes;

@@ -30,7 +30,7 @@ const TOLERANCE: f64 = 1e-12;
 pub(crate) struct Sides {
     /// Whether each side is collapsed. The sides are numbered as in the picture at the top of the file.
     pub(crate) collapsed: [bool; 4],
-    /// Whether all rows of control points coincide or all columns of control points coincide. If so, the patch is a
+    /// Whether all rows of control points are the same within the tolerance, or all columns are. If so, the patch is a
     /// curve or a point.
     has_no_area: bool,
 }

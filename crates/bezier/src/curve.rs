@@ -115,8 +115,8 @@ impl<P: Point> Curve<P> {
         }
     }
 
-    /// Returns the n + 1 points at i/n for i from 0 to n, where n is `segments`. The first and the last point are
-    /// exactly the first and the last control point.
+    /// Returns the n + 1 points of the curve at the parameters i/n for i from 0 to n, where n is `segments`. The first
+    /// and the last point are exactly the first and the last control point.
     ///
     /// For 0 segments, returns only the start point. If the order of the control points is reversed, the function
     /// returns the same points in reverse order, equal bit for bit.

@@ -16,17 +16,17 @@
 //! N(e) = N0 + e N1 + e² N2 + ...      N(e) / |N(e)|  ->  Nk / |Nk|  as e goes to 0,
 //! ```
 //!
-//! where Nk is the first nonzero coefficient of the polynomial. At a regular point, it is N0 = du x dv. On a collapsed
-//! edge v = 0, where du = 0 along the edge, the first nonzero coefficient is N1 = duv x dv, with the mixed derivative
-//! duv. On the edge v = 1, the line into the patch has b = -1, and N1 = -duv x dv. At a collapsed corner, and on an
-//! edge along which N0 and N1 are zero, the first nonzero coefficient is N2 or a later one. N has degree 5 in u and in
-//! v, so N10 is the last coefficient.
+//! where Nk is the first nonzero coefficient of the polynomial. At a regular point, this coefficient is N0 = du x dv.
+//! On a collapsed edge v = 0, where du = 0 along the edge, the first nonzero coefficient is N1 = duv x dv, with the
+//! mixed derivative duv. On the edge v = 1, the line into the patch has b = -1, and N1 = -duv x dv. At a collapsed
+//! corner, and on an edge along which N0 and N1 are zero, the first nonzero coefficient is N2 or a later one. N has
+//! degree 5 in u and in v, so N10 is the last coefficient.
 //!
 //! From a point on an edge, the line runs straight across the patch; from a corner, it runs along the diagonal. If the
 //! limit of the normals exists, it is the same along every line. If the limit of the normals does not exist, the result
 //! is the limit along the chosen line. At a cusp, and at the tip of a cone that is a corner of a patch, the limit does
-//! not exist. If N is zero along the whole line, two more lines beside it are tried. If N is zero along all three
-//! lines, the point has no normal.
+//! not exist. If N is zero along the whole line, two more lines from the same point are tried, one on each side of the
+//! first line. If N is zero along all three lines, the point has no normal.
 //!
 //! Before the coefficients are compared with zero, the derivatives are scaled. The derivatives along u are divided by
 //! the largest difference of control points that are neighbors along u. The derivatives along v are divided by the

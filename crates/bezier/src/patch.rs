@@ -115,7 +115,7 @@ impl Patch {
 
     /// Returns the largest coordinate difference between neighboring control points, along u and along v.
     ///
-    /// A derivative is compared to these values to decide whether it is treated as zero.
+    /// Derivatives are divided by these values before the code decides whether a normal is treated as zero.
     pub(crate) fn max_steps(&self) -> DVec2 {
         let along = |patch: &Self| {
             let pairs = patch.points.iter().flat_map(|row| row.windows(2));

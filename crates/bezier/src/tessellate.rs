@@ -20,13 +20,13 @@
 //! A cell with two or more collapsed sides is left out. To test whether a side is collapsed, its boundary curve is
 //! sampled at i/m for i from 0 to m. The number m is n or 3, whichever is smaller, where n is the number of segments. A
 //! side is collapsed if the coordinates of every sample differ from the coordinates of the first sample by at most the
-//! tolerance. The tolerance is 1e-12 times the longest side of the bounding box of the control points of the patch. If
-//! adjacent sides are collapsed, take the first of them in the order v = 0, u = 1, v = 1, u = 0. Their common vertex is
-//! at the start of this first side. The UV and the normal of the vertex are those at the middle of this first side.
+//! tolerance. The tolerance is 1e-12 times the longest side of the bounding box of the control points of the patch. The
+//! sides have the order v = 0, u = 1, v = 1, u = 0. The vertex of adjacent collapsed sides is at the start of the first
+//! of these sides in this order. The UV and the normal of the vertex are those at the middle of that side.
 //!
-//! A patch is a curve or a point if all of its rows of control points coincide, or all of its columns, with the
-//! tolerance for collapsed sides. A patch gives no vertices and no faces if it is a curve or a point, or if none of its
-//! cells becomes a face. The result lists the patches without vertices and faces.
+//! A patch is a curve or a point if all rows of its control points are the same, or all columns, within the tolerance
+//! for collapsed sides. A patch gives no vertices and no faces if it is a curve or a point, or if none of its cells
+//! becomes a face. The result lists the patches without vertices and faces.
 //!
 //! The tessellation detects collapsed sides, and patches that are a curve or a point. It detects no other degeneracies.
 //! Faces can have zero area if a patch folds onto itself. With too few segments, the corners of a cell can be

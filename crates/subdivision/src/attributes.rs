@@ -14,7 +14,7 @@ use crate::rules::{FaceVarying, Rules};
 use crate::sharpness::{Sharpness, decreased};
 use crate::topology::{Place, Topology, add_linear, linear_value};
 
-/// The sources of the attributes of the next level: the old mesh and its correspondence to the next level.
+/// The input from which the attributes of the next level are computed.
 pub(crate) struct AttributeSources<'a> {
     pub(crate) mesh: &'a Mesh,
     /// The next level, without attributes.
@@ -37,8 +37,8 @@ impl AttributeSources<'_> {
     /// - Vertices: [`Rule::Interpolate`] uses the masks of the positions. [`Rule::Copy`] keeps the values of
     ///   old vertices, and new vertices have the value zero.
     /// - Corners: if `sharpness` is given, [`Rule::Interpolate`] smooths each piece between seams separately, as
-    ///   defined by [`FaceVarying`]; otherwise it interpolates linearly within the old face. [`Rule::Copy`] works in
-    ///   the same way as for vertices.
+    ///   defined by [`FaceVarying`]; otherwise it interpolates linearly within the old face. [`Rule::Copy`] keeps the
+    ///   values of old corners, and new corners have the value zero.
     /// - Edges: parts of an old edge copy its value, and other new edges have the value zero.
     /// - Faces: parts of an old face copy its value.
     ///

@@ -14,12 +14,13 @@ pub enum SubdivisionError {
     NotTriangle {
         /// The scheme.
         scheme: Scheme,
-        /// The first face with more than three corners, in the compacted mesh.
+        /// The first face with more than three corners. The id is valid in the compacted mesh (without deleted
+        /// elements).
         face: FaceId,
         /// The number of corners of the face.
         degree: usize,
     },
-    /// A coordinate is so large that the weighted sums of the masks could overflow.
+    /// A coordinate is so large that a weighted sum of coordinates could overflow.
     #[error(
         "{} accepts only coordinates of at most {:e} in magnitude, but {vertex} has a larger coordinate",
         .scheme.name(), crate::MAX_COORDINATE
@@ -27,7 +28,8 @@ pub enum SubdivisionError {
     TooFar {
         /// The scheme.
         scheme: Scheme,
-        /// The first vertex with a coordinate above the maximum, in the compacted mesh.
+        /// The first vertex with a coordinate above the maximum. The id is valid in the compacted mesh (without deleted
+        /// elements).
         vertex: VertexId,
     },
     /// The scheme can only subdivide a whole mesh.

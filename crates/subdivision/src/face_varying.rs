@@ -1,8 +1,8 @@
 //! Smooths corner values, such as texture coordinates, piece by piece between seams.
 //!
-//! A piece is a set of corners around a vertex that have the same value. The edges between pieces are seams.
-//! Inside a piece, values are smoothed as positions are. Along the border of a piece, values are either
-//! smoothed as on a boundary, from values of this piece only, or interpolated linearly:
+//! A piece is a set of corners around a vertex that have the same value. The edges between pieces are seams. Inside a
+//! piece, values are smoothed as positions are. Along the border of a piece, values are smoothed or interpolated
+//! linearly. Smoothing works as on a boundary, and reads values of this piece only:
 //!
 //! ```text
 //!            \   |   /                     The value at v in the upper piece is x. If v is not a corner of this
@@ -12,13 +12,14 @@
 //!            /   |   \
 //! ```
 //!
-//! [`FaceVarying`] decides which vertices are corners of a piece. The rules are those of OpenSubdiv's face-varying
-//! interpolation. In this crate, the rules are applied to each level separately. So one call that computes two levels
-//! gives the same result as two calls that compute one level each. The results can differ from those of OpenSubdiv in
-//! one case: two pieces meet at a vertex, and a semi-sharp edge is inside one of them. While this semi-sharp edge
-//! inside one piece is sharp, the value of the other piece can stay unchanged, too. OpenSubdiv decides on the first
-//! level whether the value stays unchanged, and keeps this decision. If the pieces, their seam and their vertex have
-//! different semi-sharp values, the results on later levels can differ from those of OpenSubdiv.
+//! [`FaceVarying`] decides which vertices are corners of a piece, where the value of the piece does not change. The
+//! rules are those of OpenSubdiv's face-varying interpolation. In this crate, the rules are applied to each level
+//! separately. So one call that computes two levels gives the same result as two calls that compute one level each. The
+//! results can differ from those of OpenSubdiv in one case: two pieces meet at a vertex, and a semi-sharp edge (sharp
+//! on the first levels only) is inside one of them. As long as this edge is sharp, the value of the other piece can
+//! stay unchanged, too. OpenSubdiv decides on the first level whether the value stays unchanged, and keeps this
+//! decision. If the pieces, their seam and their vertex have different semi-sharp values, the results on later levels
+//! can differ from those of OpenSubdiv.
 
 use mesh::{DVec4, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 use progress::{Cancelled, Meter};
@@ -35,13 +36,13 @@ pub(crate) struct Field<'a> {
     scheme: Scheme,
     rule: FaceVarying,
     values: &'a [DVec4],
-    /// For each edge, whether the values on its two sides differ at one of its ends.
+    /// For each edge, whether the values on its two sides differ at one or both of its ends.
     seams: Vec<bool>,
     /// For each face, the mean of its corner values, if the scheme is Catmull-Clark; otherwise empty.
     centers: Vec<DVec4>,
 }
 
-/// Indices into pairs of the sharpness on this level and on the next level.
+/// Indices into a pair: the sharpness on this level, and the sharpness on the next level.
 const NOW: usize = 0;
 const NEXT: usize = 1;
 
@@ -316,7 +317,8 @@ impl VertexPieces {
         }
     }
 
-    /// Returns the state of piece `i`, from the sharpness on this level or on the next level.
+    /// Returns the state of piece `i`. `when` is `NOW` to use the sharpness on this level, or `NEXT` to use the
+    /// sharpness on the next level.
     fn state(&self, field: &Field, i: usize, when: usize) -> State {
         let (rule, n) = (field.rule, self.pieces.len());
         let own = self.sharpness(field)[when];
@@ -358,8 +360,8 @@ impl VertexPieces {
         [now, decreased(now)]
     }
 
-    /// Returns the weight of this level's rule if a piece becomes smooth within the level: the mean sharpness
-    /// of the elements that become smooth.
+    /// Returns the weight of this level's rule in the blend with the next level's rule. The weight is the mean
+    /// sharpness of the elements whose sharpness falls to 0 on the next level, but at most 1.
     fn weight(&self, field: &Field, piece: &Piece) -> f64 {
         let edges = piece.inside.iter().map(|&h| field.edge_sharpness(h));
         fading_weight(edges.chain([self.sharpness(field)]))

@@ -14,9 +14,9 @@
 //!      first(h) = 2h + (h & 1)       second(h) = first(h) ^ 2
 //! ```
 //!
-//! The new half-edge of an old vertex is the first part of its old half-edge. The new half-edge is on the boundary if
-//! the old half-edge is. The half-edge of a new vertex is the second part of a half-edge of the old edge. If the old
-//! edge is on the boundary, it is the second part of the boundary half-edge.
+//! Each vertex stores one outgoing half-edge. An old vertex stores the first part of the half-edge that it stored
+//! before. This part is on the boundary if the old half-edge is. A new vertex stores the second part of one of the two
+//! halves of the old edge. If the old edge is on the boundary, this is the second part of the boundary half-edge.
 //!
 //! The four half-edges and the vertex of each old edge are computed from the old mesh only, so all old edges can
 //! be processed in parallel. The idea is from Vanhoey and Dupuy, "A Halfedge Refinement Rule for Parallel Loop
@@ -49,8 +49,8 @@ pub(crate) fn on_edge(mesh: &Mesh, h: HalfEdgeId) -> VertexId {
 
 /// Returns the location of the corner at the origin of new half-edge `i`, which must be a part of an old half-edge.
 pub(crate) fn place(mesh: &Mesh, i: usize) -> Place {
-    // An old edge has four parts: parts 0 and 2 belong to its first half-edge, parts 1 and 3 to its second
-    // half-edge. Parts 0 and 3 start at the origins of these half-edges.
+    // An old edge has four parts: parts 0 and 2 belong to its first half-edge, parts 1 and 3 to its second half-edge.
+    // Part 0 starts at the origin of the first half-edge, and part 3 starts at the origin of the second half-edge.
     let h = HalfEdgeId::new(i / 4 * 2 + i % 2);
     if mesh.face(h).is_none() {
         Place::Outside
@@ -64,7 +64,7 @@ pub(crate) fn place(mesh: &Mesh, i: usize) -> Place {
 /// The next half-edge of each of the two parts of a half-edge, and the face of each part.
 pub(crate) type PartLinks = ([HalfEdgeId; 2], [FaceId; 2]);
 
-/// The slices of the arrays of the next level for the elements that come after those on old edges.
+/// Slices of the arrays of the next level. They hold all elements that come after the elements on old edges.
 pub(crate) struct AddedArrays<'n> {
     pub(crate) halves: Arrays<'n>,
     /// The half-edges of the vertices that come after the new vertices on old edges.
@@ -72,8 +72,9 @@ pub(crate) struct AddedArrays<'n> {
     pub(crate) face_half_edge: &'n mut [HalfEdgeId],
 }
 
-/// Builds the connectivity of the next level. The parts of old edges come first; `parts` gives the links of each
-/// half-edge. After the parts of old edges, `fill_added` writes `edges` edges, `vertices` vertices and `faces` faces.
+/// Builds the connectivity of the next level. The links of a half-edge are its next half-edge and its face. The parts
+/// of old edges come first; `parts` gives the links of the two parts of each old half-edge. After the parts of old
+/// edges, `fill_added` writes `edges` edges, `vertices` vertices and `faces` faces.
 pub(crate) fn split_edges(
     mesh: &Mesh,
     [vertices, edges, faces]: [usize; 3],

@@ -8,8 +8,8 @@ use crate::error::SubdivisionError;
 use crate::parallel::any;
 use crate::rules::Scheme;
 
-/// The largest absolute value of a coordinate that can be subdivided. A mask adds up the coordinates of fewer than 2^32
-/// vertices, each several times. With this limit, the sums of the masks stay finite.
+/// The largest absolute value of a coordinate that can be subdivided. Each new position is a weighted sum of fewer than
+/// 2^32 old positions, and a position can occur several times in this sum. With this limit, such sums stay finite.
 pub const MAX_COORDINATE: f64 = 1e290;
 
 /// Returns the mesh without dead (deleted) elements. A mesh that has no dead elements (a dense mesh) is borrowed, not
@@ -23,7 +23,7 @@ pub(crate) fn dense(mesh: &Mesh) -> Cow<'_, Mesh> {
     Cow::Owned(dense)
 }
 
-/// Checks that a scheme can subdivide all faces and positions of a dense mesh.
+/// Checks that a scheme can subdivide all faces and positions of a dense mesh, which has no deleted elements.
 ///
 /// # Errors
 ///

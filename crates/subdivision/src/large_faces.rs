@@ -1,6 +1,7 @@
 //! Faces with many corners. A new corner at the center of such a face, or at a Doo-Sabin point in it, depends on all
-//! corners of the face. So that the time does not grow with the square of the number of corners, three sums over all
-//! corners are computed once, and every new corner is a mean of these sums and of one old corner.
+//! corners of the face. If each new corner added up all old corners, the time would grow with the square of the number
+//! of corners. Instead, three sums over all corners are computed once. Every new corner is a weighted sum of these
+//! three sums and of one old corner.
 //!
 //! Write x(0), .., x(n - 1) for the corners of a face, and a for 2π/n:
 //!
@@ -21,7 +22,7 @@ use mesh::{FaceId, HalfEdgeId, Mesh};
 
 use crate::parallel::any;
 
-/// The largest number of corners of a face whose corners are summed for each new corner.
+/// A face with at most this number of corners is not large: each new corner in it sums all corners of the face again.
 const MAX_SMALL: usize = 64;
 
 /// The number of sums for each face: m, c and s.
@@ -31,8 +32,8 @@ const SUMS: usize = 3;
 #[derive(Default)]
 pub(crate) struct LargeFaces {
     faces: Vec<FaceId>,
-    /// For each half-edge of these faces: the index of its face in `faces`, its position in the face, and the number of
-    /// corners of the face.
+    /// For each half-edge of these faces: the index of the face in `faces`, the position of the half-edge in the face,
+    /// and the number of corners of the face.
     corners: HashMap<HalfEdgeId, (usize, usize, usize)>,
 }
 
@@ -61,7 +62,8 @@ impl LargeFaces {
         SUMS * self.faces.len()
     }
 
-    /// Calls `add` with each corner in sum `i`, as the half-edge that starts there, and with its weight.
+    /// Calls `add` for each corner that sum `i` includes, with the half-edge that starts at the corner and with the
+    /// weight of the corner.
     pub(crate) fn add_sum(&self, mesh: &Mesh, i: usize, mut add: impl FnMut(HalfEdgeId, f64)) {
         let f = self.faces[i / SUMS];
         let n = mesh.degree(f) as f64;
@@ -82,9 +84,9 @@ impl LargeFaces {
         Some(SUMS * i)
     }
 
-    /// Calls `add` with the values whose weighted sum is the Doo-Sabin point of the corner at the origin of `h`, and
-    /// with their weights. `own` is the index of the old value at this corner, and `sums` is the index of the first sum.
-    /// Returns false, and does nothing else, if the face of `h` is not large.
+    /// The Doo-Sabin point of the corner at the origin of `h` is a weighted sum of values. Calls `add` with the index
+    /// and the weight of each of these values. `own` is the index of the old value at this corner, and `sums` is the
+    /// index of the first sum. Returns false, and does nothing else, if the face of `h` is not large.
     #[inline]
     pub(crate) fn add_doo_sabin(
         &self,

@@ -28,7 +28,8 @@ pub(crate) fn finer(
     })
 }
 
-/// Calls `visit` with the topology and the masks of one level.
+/// Calls `visit` with the topology of one level, which computes the connectivity, and with the masks, which compute the
+/// positions.
 pub(crate) fn with_level<T>(
     mesh: &Mesh,
     rules: Rules,

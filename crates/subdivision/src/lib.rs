@@ -14,10 +14,11 @@
 //! | [`Sqrt3`](Scheme::Sqrt3) | 3 triangles each, then old edges are flipped | move | smooth |
 //! | [`DooSabin`](Scheme::DooSabin) | one face each, plus one face for each old edge and vertex | are replaced by faces | smooth |
 //!
-//! A level is not a sequence of edits. The arrays of a level are computed directly from the old arrays, each
-//! element independently and in parallel. The result is identical bit for bit for any number of threads. The
-//! modules `halves`, `triangles`, `quads`, `doo_sabin` and `sqrt3` explain how the ids of new elements follow
-//! from the old ids. The weighted means are in `masks`, and creases are in `sharpness`.
+//! A level is not computed by a sequence of edits of the mesh. The new arrays are computed directly from the old
+//! arrays, each element independently and in parallel. The result is identical bit for bit for any number of threads.
+//! The modules `halves`, `triangles`, `quads`, `doo_sabin` and `sqrt3` explain how the ids of new elements follow from
+//! the old ids. The weights of the means are in the module `masks`, and the rules for creases are in the module
+//! `sharpness`.
 //!
 //! # Convergence
 //!
@@ -49,10 +50,10 @@
 //! ```
 //!
 //! `+` is a torus of regular valence, and `o` is an icosahedron. `*` is a place in the diagram where `+` and `o`
-//! coincide. On the torus, the distance is quadratic in the edge length, so each level divides the distance by four.
-//! Around the vertices of valence 5 of the icosahedron, each level scales the surface by the subdominant eigenvalue
-//! 3/8 + cos(2π/5)/4 = 0.452. After the first levels, each level also scales the distance to the limit position by this
-//! eigenvalue.
+//! coincide. Each level halves the edges. On the torus, the distance is quadratic in the edge length, so each level
+//! divides the distance by four. Around the vertices of valence 5 of the icosahedron, each level scales the surface by
+//! the subdominant eigenvalue 3/8 + cos(2π/5)/4 = 0.452. After the first levels, each level also scales the distance to
+//! the limit position by this eigenvalue.
 //!
 //! # Examples
 //!

@@ -6,7 +6,8 @@ use rayon::prelude::*;
 
 use crate::parallel::{BLOCK, fill_uncounted};
 
-/// A range of half-edges to be written: the same range of three arrays.
+/// A range of half-edges to be written: the slices of three arrays (next half-edge, origin and face) for these
+/// half-edges.
 pub(crate) struct Arrays<'n> {
     pub(crate) next: &'n mut [HalfEdgeId],
     pub(crate) origin: &'n mut [VertexId],
@@ -28,7 +29,7 @@ impl Arrays<'_> {
     }
 }
 
-/// The entries of one element: `N` half-edges, and the first half-edge of each of `K` faces or vertices.
+/// What one element writes into the arrays: `N` half-edges, and the first half-edge of each of `K` faces or vertices.
 pub(crate) struct Entries<const N: usize, const K: usize> {
     pub(crate) next: [HalfEdgeId; N],
     pub(crate) origin: [VertexId; N],
@@ -71,7 +72,8 @@ pub(crate) fn write<const N: usize, const K: usize>(
 /// Writes the block with the given index: its half-edges, and the first half-edges of its faces or vertices.
 type Task<'a> = dyn Fn(usize, Arrays, &mut [HalfEdgeId]) -> Result<(), Cancelled> + Sync + 'a;
 
-/// Runs `task` on all blocks in parallel. Takes a `dyn` task so that the parallel loop is compiled once.
+/// Runs `task` on all blocks in parallel. The task is `dyn`, so that the parallel loop is compiled once and not for
+/// each closure.
 fn each_block(blocks: Vec<(Arrays, &mut [HalfEdgeId])>, task: &Task) -> Result<(), Cancelled> {
     let blocks = blocks.into_par_iter().enumerate();
     blocks.try_for_each(|(block, (halves, firsts))| task(block, halves, firsts))

@@ -20,9 +20,9 @@
 //!            b                              b
 //! ```
 //!
-//! Without smoothing, each piece is similar to its old triangle, or is half of a triangle that is similar to the old
-//! triangle. So the smallest angle has a bound that does not depend on the number of levels. Over all levels together,
-//! the cotangent of the smallest angle grows by at most a factor of three. Source: Bank, Sherman and Weiser,
+//! Without smoothing, each new triangle is similar to its old triangle, or is half of a triangle that is similar to the
+//! old triangle. So the smallest angle has a bound that does not depend on the number of levels. Over all levels
+//! together, the cotangent of the smallest angle grows by at most a factor of three. Source: Bank, Sherman and Weiser,
 //! "Refinement Algorithms and Data Structures for Regular Local Mesh Refinement", 1983.
 //!
 //! # Polygons
@@ -138,7 +138,8 @@ pub fn refine_faces(
             cuts,
             SmoothedElements::of(&mesh, &vec![false; chosen.len()]),
         );
-        // The cut into green triangles does not smooth positions or decrease sharpness.
+        // The last step, which cuts triangles with a hanging vertex in two, does not smooth positions or decrease
+        // sharpness.
         let linear = Rules {
             scheme: Scheme::Midpoint(Split::Triangles),
             ..rules
@@ -158,8 +159,8 @@ fn finer(mesh: &Mesh, pieces: &Pieces, rules: Rules, meter: &Meter) -> Result<Me
     })
 }
 
-/// Estimates how much the levels add to the meter. Ignores the faces around the chosen faces, which can also be
-/// cut.
+/// Estimates how much the levels add to the progress meter. Ignores the faces around the chosen faces, although these
+/// faces can also be cut.
 fn work(mesh: &Mesh, chosen: &[bool], levels: u32) -> u64 {
     let kept = (mesh.n_vertices() + mesh.n_faces()) as u64;
     let n_chosen = chosen.iter().filter(|&&c| c).count() as u64;
@@ -186,7 +187,7 @@ fn check_size(
     size.check(scheme, level..level, budget)
 }
 
-/// Iterates over the half-edges of a face, from its first one.
+/// Iterates over the half-edges of a face, starting with its first half-edge.
 fn sides(mesh: &Mesh, f: usize) -> mesh::Orbit<'_> {
     mesh.face_half_edges(FaceId::new(f))
 }

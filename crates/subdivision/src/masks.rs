@@ -56,8 +56,9 @@ impl<M: Masks> AnyMasks for M {
     }
 }
 
-/// Adds the mask of an old vertex. `smooth(weight, add)` adds the smooth mask of the scheme, scaled by `weight`. The
-/// masks of creases and corners are the same for all schemes. An isolated vertex stays in place.
+/// Calls `add` with the mask of an old vertex, that is, with old vertices and their weights. `smooth(weight, add)` does
+/// this for the smooth mask of the scheme, scaled by `weight`. The masks of creases and corners are the same for all
+/// schemes. An isolated vertex stays in place.
 #[inline]
 fn at_vertex<A: FnMut(usize, f64)>(
     mesh: &Mesh,

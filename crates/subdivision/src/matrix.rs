@@ -1,4 +1,5 @@
-//! The subdivision matrix, for refining several fields over one mesh.
+//! The subdivision matrix. With this matrix, several lists of vertex values of the same mesh can be refined without
+//! subdividing the mesh again.
 
 use std::ops::Range;
 

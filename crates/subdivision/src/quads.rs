@@ -18,9 +18,9 @@
 //!     first(h)  second(h)
 //! ```
 //!
-//! The vertex on edge e is V + e, and the center of face f is V + E + f. Old vertices and vertices on edges have the
-//! same half-edges as in `halves`. The half-edge of a center is the twin of out(h) for the first half-edge h of its
-//! face.
+//! The vertex on edge e is V + e, and the center of face f is V + E + f. Each vertex stores one outgoing half-edge. Old
+//! vertices and vertices on edges store the same half-edges as in `halves`. The center of a face stores the twin of
+//! out(h), where h is the first half-edge of the face.
 //!
 //! In a mesh of quads the corners of face f are 4f to 4f + 3, and the corner of a half-edge follows from its position
 //! in the face. In other meshes, the corner indices are computed in advance. Only the first level can need computed

@@ -110,11 +110,11 @@ pub enum FaceVarying {
     /// Like `None`, but if only one face has a value at a vertex, this value does not change.
     CornersOnly,
     /// Like `CornersOnly`, but values also do not change at a vertex with three or more different values. At a vertex
-    /// with two different values, each value belongs to a set of faces. Both values do not change if one of these sets
-    /// has a sharp edge inside or is not contiguous.
+    /// with two different values, each value belongs to a set of faces. Neither value changes if one of these sets is
+    /// not contiguous, or if a sharp edge runs between two faces of the same set.
     CornersPlus1,
     /// Like `CornersPlus1`, but values also do not change at the ends of seams. If one value at a vertex does not
-    /// change, none of the other values at this vertex changes.
+    /// change, no value at this vertex changes.
     CornersPlus2,
     /// Values are interpolated linearly along seams and boundaries, and smoothed elsewhere.
     Boundaries,

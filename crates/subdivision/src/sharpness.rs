@@ -1,9 +1,10 @@
 //! Creases and corners: which rule applies to a vertex or an edge, and how sharpness decreases.
 //!
-//! Sharpness is a number. 0 is smooth, and 10 or more is sharp on every level. A value s between 0 and 10 is
-//! semi-sharp: the element is sharp for s levels and then smooth. If the sharpness reaches 0 within a level,
-//! the sharp and the smooth rule are blended (DeRose, Kass and Truong, "Subdivision Surfaces in Character
-//! Animation", 1998, in the form used by OpenSubdiv). The rule of a vertex depends on the sharp edges at it:
+//! Each edge and each vertex has a sharpness, which is a number. 0 is smooth, and 10 or more is sharp on every level. A
+//! value s between 0 and 10 is semi-sharp: the edge or vertex is sharp for s levels and then smooth. On the last level
+//! on which the sharpness is above 0, the sharp and the smooth rule are blended (DeRose, Kass and Truong, "Subdivision
+//! Surfaces in Character Animation", 1998, in the form used by OpenSubdiv). The rule of a vertex depends on the sharp
+//! edges at it:
 //!
 //! ```text
 //!         |                  |                  ‖                  ‖
@@ -57,7 +58,8 @@ pub(crate) struct Blend<K> {
 }
 
 impl<K: Copy> VertexRule<K> {
-    /// Returns the rule for the sharpness of the vertex and of the edges around it.
+    /// Returns the rule of a vertex. `at` is the sharpness of the vertex, and `edges` has the edges around it with
+    /// their sharpness.
     pub(crate) fn of(at: f64, edges: impl Iterator<Item = (K, f64)>) -> Self {
         if at > 0.0 {
             return Self::Corner;
@@ -72,8 +74,8 @@ impl<K: Copy> VertexRule<K> {
 }
 
 impl<K: Copy> Blend<K> {
-    /// Returns the blend for the sharpness of the vertex and of the edges around it, on this level and the
-    /// next.
+    /// Returns the blend of a vertex. `at` is the sharpness of the vertex on this level and on the next level. `edges`
+    /// has the edges around the vertex with the same two values.
     pub(crate) fn of(at: [f64; 2], edges: impl Iterator<Item = (K, [f64; 2])> + Clone) -> Self {
         let rule = |i: usize| VertexRule::of(at[i], edges.clone().map(|(k, s)| (k, s[i])));
         let now = rule(0);
@@ -125,7 +127,7 @@ impl SemiSharp {
     }
 }
 
-/// Returns the sharpness on the next level by the uniform rule.
+/// Returns the sharpness on the next level by the rule [`Creasing::Uniform`].
 pub(crate) fn decreased(s: f64) -> f64 {
     if s >= INFINITE {
         INFINITE
@@ -134,9 +136,9 @@ pub(crate) fn decreased(s: f64) -> f64 {
     }
 }
 
-/// Returns the weight of this level's rule if elements become smooth within the level. This weight is the mean
-/// sharpness of these elements, at most 1. Each pair has the sharpness of an element on this level and on the
-/// next.
+/// Returns the weight of this level's rule in the blend with the next level's rule. The weight is the mean sharpness of
+/// the elements whose sharpness falls to 0 on the next level, but at most 1. Each pair has the sharpness of an element
+/// on this level and on the next.
 pub(crate) fn fading_weight(pairs: impl Iterator<Item = [f64; 2]>) -> f64 {
     let (mut sum, mut n) = (0.0, 0_u32);
     for [now, next] in pairs {

@@ -95,8 +95,8 @@ impl Size {
         }
     }
 
-    /// Estimates how much the given levels, starting from this size, add to the [`Meter`](progress::Meter). Most
-    /// schemes add one for each new vertex, one for each old edge, and one for each new face. Levels of Sqrt3 and
+    /// Estimates how much the given levels, starting from this size, add to the progress [`Meter`](progress::Meter).
+    /// Most schemes add one for each new vertex, one for each old edge, and one for each new face. Levels of Sqrt3 and
     /// Doo-Sabin add one for each new vertex and each new edge.
     pub(crate) fn work(self, scheme: Scheme, levels: Range<u32>) -> u64 {
         let (mut size, mut sum) = (self, 0);
@@ -230,7 +230,7 @@ impl<N: Count> Size<N> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("level {levels} would have {faces} faces and {}", self.excess())]
 pub struct TooLarge {
-    /// The last of the checked levels.
+    /// The last of the checked levels. Level 0 is the mesh before subdivision, and level n is the mesh after n levels.
     pub levels: u32,
     /// The number of faces at this level.
     pub faces: u64,

@@ -199,7 +199,7 @@ impl<'a> Sqrt3<'a> {
         }
     }
 
-    /// Returns the links of the new half-edge that has the id of old half-edge `h`.
+    /// Returns the origin, the next half-edge and the face of the new half-edge that has the id of old half-edge `h`.
     #[inline]
     fn kept_half_edge(&self, h: HalfEdgeId) -> Link {
         let mesh = self.mesh;
@@ -220,7 +220,7 @@ impl<'a> Sqrt3<'a> {
         Link(origin, next, self.triangle(h))
     }
 
-    /// Returns the links of both halves of the spoke of `h`.
+    /// Returns the origin, the next half-edge and the face of both halves of the spoke of `h`.
     #[inline]
     fn edge_spoke(&self, h: HalfEdgeId) -> [Link; 2] {
         let mesh = self.mesh;
@@ -246,7 +246,8 @@ impl<'a> Sqrt3<'a> {
         [half, Link(self.end(h), next, face)]
     }
 
-    /// Returns the links of both halves of the edge from c to y. The level must cut the edge of `h`.
+    /// Returns the origin, the next half-edge and the face of both halves of the edge from c to y. The level must cut
+    /// the edge of `h`.
     #[inline]
     fn edge_second_spoke(&self, h: HalfEdgeId) -> [Link; 2] {
         let after = self.mesh.next(h);
@@ -321,9 +322,9 @@ impl Topology for Sqrt3<'_> {
         links::connectivity(self, meter)
     }
 
-    /// Returns the location of a corner. A triangle next to a flipped edge covers parts of two old faces. At its old
-    /// vertex, triangle 3f + k has the value of the corner of face f. At a face center, a new triangle has the value of
-    /// that face.
+    /// Returns the place in the old mesh from which a corner takes its value. A triangle next to a flipped edge covers
+    /// parts of two old faces. At its old vertex, triangle 3f + k takes the value from the corner of face f at this
+    /// vertex. At the center of an old face, a new triangle takes the value from this face.
     fn corner(&self, finer: &Connectivity, i: usize) -> Place {
         let mesh = self.mesh;
         let Some(face) = finer.face[i].some() else {

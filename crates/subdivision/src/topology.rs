@@ -14,8 +14,9 @@ pub(crate) trait Topology: Sync {
     /// Half-edge `i` of the next level represents a corner. Returns the location of this corner in the old mesh.
     fn corner(&self, finer: &Connectivity, i: usize) -> Place;
 
-    /// Returns the old vertex that vertex `i` of the next level comes from, if any. The default returns `i`, because
-    /// old vertices keep their ids in most schemes. If the result is not the id of an old vertex, vertex `i` is new.
+    /// Returns the id of the old vertex that vertex `i` of the next level comes from. Vertex `i` is new if the result
+    /// is `None` or is not the id of an old vertex. The default returns `i`, because old vertices keep their ids in
+    /// most schemes.
     fn vertex(&self, i: usize) -> Option<usize> {
         Some(i)
     }
@@ -45,7 +46,7 @@ pub(crate) trait Topology: Sync {
     }
 }
 
-/// The location of a corner of the next level in an old face.
+/// Where a corner of the next level lies in an old face.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Place {
     /// At the origin of this half-edge.
@@ -62,7 +63,8 @@ pub(crate) enum Place {
     Outside,
 }
 
-/// Returns the location on the edge of `h`, at 1/n of the way from its origin, in the face of `h` or of its twin.
+/// Returns the location on the edge of `h`, at 1/n of the way from the origin of `h`. The location is in the face of
+/// `h` or, if `h` has no face, in the face of its twin.
 pub(crate) fn place_near_origin(mesh: &Mesh, h: HalfEdgeId, n: u32) -> Place {
     if mesh.face(h).is_some() {
         Place::Toward([h, mesh.next(h)], n)
@@ -71,7 +73,8 @@ pub(crate) fn place_near_origin(mesh: &Mesh, h: HalfEdgeId, n: u32) -> Place {
     }
 }
 
-/// Adds the old corners, all of one face, whose weighted mean is the value of the new corner at `place`.
+/// Calls `add` with each old corner on which the value of the new corner at `place` depends, and with its weight. All
+/// these old corners belong to one face. The value is their weighted mean.
 pub(crate) fn add_linear(mesh: &Mesh, place: Place, add: &mut dyn FnMut(usize, f64)) {
     match place {
         Place::At(h) => add(h.index(), 1.0),
@@ -102,8 +105,8 @@ pub(crate) fn linear_value(mesh: &Mesh, place: Place, old: &[DVec4]) -> DVec4 {
     sum
 }
 
-/// Adds the corners of the face of `h`, each as the half-edge that starts there, with their weights in the
-/// Doo-Sabin point of the corner at the origin of `h`.
+/// Computes the Doo-Sabin point of the corner at the origin of `h`. Calls `add` for each corner of the face of `h`,
+/// with the half-edge that starts at the corner and with the weight of the corner.
 #[inline]
 pub(crate) fn add_doo_sabin(mesh: &Mesh, h: HalfEdgeId, mut add: impl FnMut(HalfEdgeId, f64)) {
     let n = mesh.loop_half_edges(h).count();

@@ -16,11 +16,11 @@ use crate::size::Size;
 ///
 /// If the old mesh has V vertices, E edges and F faces, one level changes ids as follows:
 ///
-/// - Loop, Butterfly, Catmull-Clark and Midpoint: old vertices keep their ids. The vertex on edge e is V + e,
-///   and edge e becomes edges 2e and 2e + 1. Triangle f becomes faces 4f to 4f + 3. If the scheme makes quads,
-///   each corner becomes one face, in order, and the center of face f is vertex V + E + f.
-/// - Doo-Sabin: face f keeps its id, edge e becomes face F + e and edges 2e and 2e + 1, and the faces of
-///   vertices follow.
+/// - Loop, Butterfly, Catmull-Clark and Midpoint: old vertices keep their ids. The vertex on edge e is V + e, and edge
+///   e becomes edges 2e and 2e + 1. Triangle f becomes faces 4f to 4f + 3. If the scheme makes quads, each corner
+///   becomes one face, in order of the corners, and the center of face f is vertex V + E + f.
+/// - Doo-Sabin: face f keeps its id, and edge e becomes face F + e and edges 2e and 2e + 1. The faces that replace
+///   vertices come after all other faces.
 /// - Sqrt3: old vertices keep their ids, and face f becomes faces 3f to 3f + 2.
 ///
 /// A mesh with dead (deleted) elements is compacted first, and the ids are those of the compacted mesh.

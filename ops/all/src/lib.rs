@@ -2,7 +2,7 @@
 
 use op::Registry;
 
-/// Returns a registry of all built-in operations, in the order of the reference.
+/// Returns a registry of all built-in operations. The list in `ops/README.md` has the same order.
 #[rustfmt::skip]
 pub fn registry() -> Registry {
     Registry::new()

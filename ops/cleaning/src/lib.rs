@@ -10,7 +10,7 @@ pub use reverse::Reverse;
 pub use triangulate::Triangulate;
 pub use weld::Weld;
 
-/// Adds the operations of this group, in the order of the reference.
+/// Adds the operations of this group to the registry. The list in `ops/README.md` has the same order.
 #[rustfmt::skip]
 pub fn register(registry: Registry) -> Registry {
     registry

@@ -54,8 +54,9 @@ impl MeshOperation for Triangulate {
     const NAME: &'static str = "Triangulate";
     const SUMMARY: &'static str = "Cut polygons into triangles";
     const EXAMPLE: &'static str = "Triangulate()";
-    // Since version 2, faces with more than 4096 corners are first cut into pieces. Since version 3, these pieces are
-    // monotone. In both versions, the choice between equally good diagonals can differ from the version before.
+    // Since version 2 of the operation, faces with more than 4096 corners are first cut into smaller polygons. Since
+    // version 3, these polygons are monotone. Each of these two versions can choose other diagonals than the version
+    // before, if several diagonals are equally good.
     const VERSION: u32 = 3;
     const WORDS: &'static [&'static str] = &["triangles", "ears"];
 

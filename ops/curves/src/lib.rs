@@ -14,7 +14,7 @@ pub use move_patch_point::MovePatchPoint;
 pub use sample_curve::SampleCurve;
 pub use tessellate::{Faces, Tessellate};
 
-/// Registers the operations of this group, in the order of the reference.
+/// Adds the operations of this group to the registry. The list in `ops/README.md` has the same order.
 #[rustfmt::skip]
 pub fn register(registry: Registry) -> Registry {
     registry

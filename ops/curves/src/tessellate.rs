@@ -117,8 +117,8 @@ impl Operation for Tessellate {
 }
 
 impl Tessellate {
-    /// Returns the plan of the mesh for this number of patches. Counts are upper limits, because collapsed sides and
-    /// zero-area patches give fewer elements.
+    /// Returns the plan of the mesh, which predicts its elements and attributes before the run. `patches` is the number
+    /// of patches. The counts are upper limits, because collapsed sides and zero-area patches give fewer elements.
     fn planned(&self, patches: u64) -> MeshPlan {
         let n = u64::from(self.segments.get());
         let at_most = |each| Range::at_most(patches.saturating_mul(each));
@@ -228,7 +228,7 @@ impl Tessellate {
     }
 }
 
-/// Appends the values for the copies of vertices that the builder has appended.
+/// The builder of the mesh has appended copies of some vertices. Appends the values of these copies to `values`.
 fn with_copies(mut values: Vec<DVec3>, report: &BuildReport) -> Vec<DVec3> {
     for (original, _) in &report.split_vertices {
         values.push(values[original.index()]);

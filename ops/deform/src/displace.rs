@@ -199,7 +199,7 @@ fn unreadable(path: &str, error: &render::PictureError) -> OpError {
     OpError::File(format!("{path}: {error}"))
 }
 
-/// Returns the mean height at the corners of each vertex.
+/// Returns, for each vertex, the mean of the heights at its corners.
 fn heights(mesh: &Mesh, heights: &Heights, uv: &str) -> Result<Vec<f64>, OpError> {
     let column = mesh.attributes().column(Domain::Corner, uv);
     let uvs = column

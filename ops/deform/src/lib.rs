@@ -19,7 +19,7 @@ pub use project::{Project, ProjectAlong};
 pub use taper::Taper;
 pub use twist::Twist;
 
-/// Adds the operations of this group, in the order of the reference.
+/// Adds the operations of this group to the registry. The list in `ops/README.md` has the same order.
 #[rustfmt::skip]
 pub fn register(registry: Registry) -> Registry {
     registry

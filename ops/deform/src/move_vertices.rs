@@ -118,7 +118,7 @@ fn by(
     moved(mesh, mask, MoveVertices::NAME, "by", position)
 }
 
-/// Returns the mean of the selected vertices.
+/// Returns the mean of the positions of the selected vertices.
 fn center(mesh: &Mesh, mask: &[bool]) -> Option<DVec3> {
     let n = mask.iter().filter(|&&selected| selected).count() as f64;
     let selected = mesh.positions().iter().zip(mask).filter(|p| *p.1);

@@ -5,8 +5,8 @@ use mesh::{DVec3, VertexId, parallel};
 use op::Axis;
 use op::prelude::*;
 
-/// Moves the vertices of `mask` to new positions, and removes the normals. The report counts the vertices that moved.
-/// `parameters` names the parameters that can make a coordinate too large.
+/// Moves the vertices whose entry in `mask` is true to new positions, and removes the normals. The report counts the
+/// vertices that moved. `parameters` names the parameters that can make a coordinate too large.
 pub(crate) fn moved(
     mesh: &mut Mesh,
     mask: &[bool],
@@ -45,8 +45,8 @@ pub(crate) struct Stretch {
 }
 
 impl Stretch {
-    /// Creates the part between the coordinates `from` and `to` of the axis through `about`. If a coordinate is
-    /// missing, the coordinate of the end of the mesh is used.
+    /// Creates the part between the coordinates `from` and `to` of the axis through `about`. If `from` is missing, the
+    /// lowest coordinate of the mesh along the axis is used. If `to` is missing, the highest coordinate is used.
     pub(crate) const fn new(
         axis: Axis,
         about: Vector,
@@ -76,8 +76,8 @@ impl Stretch {
         }
     }
 
-    /// Returns the coordinate frame with the unit vectors `towards`, axis × `towards`, and axis. If an end of the range
-    /// is missing, the end of the bounding box is used.
+    /// Returns the coordinate frame with the unit vectors `towards`, axis × `towards`, and axis. If `from` or `to` is
+    /// missing, the corresponding end of the bounding box is used.
     pub(crate) fn frame(&self, mesh: &Mesh, towards: Axis) -> Result<Frame, OpError> {
         let axis = unit(self.axis);
         let [min, max] = geometry::bounds(mesh).unwrap_or_default();
@@ -111,7 +111,7 @@ pub(crate) fn unit(axis: Axis) -> DVec3 {
     }
 }
 
-/// Returns the axis after this one: x, y, z, x.
+/// Returns the axis after `axis` in the order x, y, z, x.
 pub(crate) fn next(axis: Axis) -> Axis {
     match axis {
         Axis::X => Axis::Y,

@@ -16,7 +16,7 @@ pub use dissolve_edges::DissolveEdges;
 pub use flip_edges::{FlipEdges, Until};
 pub use split_edges::SplitEdges;
 
-/// Adds the operations of this group, in the order of the reference.
+/// Adds the operations of this group to the registry. The list in `ops/README.md` has the same order.
 #[rustfmt::skip]
 pub fn register(registry: Registry) -> Registry {
     registry

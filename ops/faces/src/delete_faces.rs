@@ -83,7 +83,8 @@ impl MeshOperation for DeleteFaces {
     }
 }
 
-/// Removes the faces one by one in repeated passes, until no more faces can be removed.
+/// Removes the faces one by one. Repeats this for the remaining faces, until none remain or none of them can be
+/// removed.
 fn one_by_one(mesh: &mut Mesh, faces: Vec<FaceId>, cx: &Context) -> Result<Report, OpError> {
     let total = faces.len();
     let mut refused: Vec<(FaceId, EditError)> = Vec::new();

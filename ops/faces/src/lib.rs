@@ -16,7 +16,7 @@ pub use inset_faces::InsetFaces;
 pub use poke_faces::PokeFaces;
 pub use split_faces::SplitFaces;
 
-/// Adds the operations of this group, in the order of the reference.
+/// Adds the operations of this group to the registry. The list in `ops/README.md` has the same order.
 #[rustfmt::skip]
 pub fn register(registry: Registry) -> Registry {
     registry
@@ -28,7 +28,7 @@ pub fn register(registry: Registry) -> Registry {
         .with::<BevelFaces>()
 }
 
-/// Plans a ring of quadrilaterals inside each face, where `faces` is the number of faces.
+/// Changes the plan of a mesh (the predicted counts): adds a ring of quadrilaterals inside each of `faces` faces.
 fn plan_rings(plan: &mut MeshPlan, faces: Range) {
     let corners = plan.corners_of(faces);
     plan.grow(corners, corners.by(2), corners);

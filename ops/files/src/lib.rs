@@ -9,7 +9,7 @@ use op::Registry;
 pub use load::Load;
 pub use save::Save;
 
-/// Adds the operations of this group, in the order of the reference.
+/// Adds the operations of this group to the registry. The list in `ops/README.md` has the same order.
 #[rustfmt::skip]
 pub fn register(registry: Registry) -> Registry {
     registry

@@ -204,7 +204,7 @@ fn dropped_faces(peek: &Peek, path: &Path) -> Option<Loss> {
     })
 }
 
-/// Converts a note to a loss: content of the file that was left out.
+/// Converts a note of the reader about content of the file that was left out. Returns a loss.
 fn loss(note: &Note) -> Loss {
     Loss::reading(
         &note.path.display().to_string(),
@@ -214,7 +214,7 @@ fn loss(note: &Note) -> Loss {
     )
 }
 
-/// Converts a note to a change that was made while the file was read.
+/// Converts a note of the reader about a change that it made to a mesh, such as a split vertex.
 fn change(note: &Note) -> ReadingChange {
     let vertex = |v: &VertexId| v.index() as u64;
     let elements = note.elements.as_ref().map(|elements| match elements {
@@ -234,11 +234,12 @@ fn change(note: &Note) -> ReadingChange {
     }
 }
 
-/// The plan of a mesh lists at most this number of joints, and at most this number of morph targets.
+/// The plan of a mesh, which predicts its attributes before the run, lists at most this number of joints, and at most
+/// this number of morph targets.
 const MAX_PLANNED: u64 = 1 << 12;
 
-/// Returns the plan of a mesh that is read from a file. `peek` contains the number of elements of each kind in the
-/// file.
+/// Returns the plan of a mesh that is read from a file: its predicted counts and attributes. `peek` contains the number
+/// of elements of each kind in the file.
 fn planned(object: &PeekObject, peek: &PeekMesh, policies: Policies) -> MeshPlan {
     let range = |range: RangeInclusive<u64>| Range::between(*range.start(), *range.end());
     let ranges = peek.ranges(policies);
@@ -271,7 +272,8 @@ fn planned(object: &PeekObject, peek: &PeekMesh, policies: Policies) -> MeshPlan
     provide_uncertain(peek.normals, Domain::Corner, mesh::CORNER_NORMAL.name);
     provide_uncertain(peek.colors, Domain::Vertex, mesh::COLOR.name);
     provide_uncertain(peek.materials, Domain::Face, mesh::MATERIAL.name);
-    // Morph targets can be left out, and a joint has weights only if a vertex uses the joint.
+    // These attributes are not certain: the reader can leave out morph targets, and a joint has weights only if a
+    // vertex uses the joint.
     let deformers = |n: u64, name: fn(usize) -> String| {
         let n = usize::try_from(n.min(MAX_PLANNED)).unwrap_or(0);
         (0..n).map(name)

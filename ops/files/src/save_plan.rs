@@ -1,4 +1,5 @@
-//! The losses that are known before `Save` writes a file.
+//! The losses that are known before `Save` writes a file. A loss is content of the scene that the file format cannot
+//! store.
 
 use std::path::Path;
 

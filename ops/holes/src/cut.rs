@@ -64,8 +64,8 @@ impl MeshOperation for Cut {
 }
 
 impl Cut {
-    /// Returns the edges that can be cut together. Edges that cannot be cut are an error or, with `Skip`, are counted
-    /// in the report.
+    /// Returns the edges that can be cut together. If an edge cannot be cut, returns an error. If `on_refusal` is
+    /// `Skip`, leaves out the edge instead, and counts it in the report.
     fn allowed(
         &self,
         mesh: &Mesh,

@@ -12,7 +12,7 @@ pub use cut::Cut;
 pub use fill_holes::{Cover, FillHoles};
 pub use stitch::Stitch;
 
-/// Adds the operations of this group, in the order of the reference.
+/// Adds the operations of this group to the registry. The list in `ops/README.md` has the same order.
 #[rustfmt::skip]
 pub fn register(registry: Registry) -> Registry {
     registry

@@ -72,7 +72,7 @@ impl MeshOperation for Stitch {
             return Ok(report.note("there are no pairs of coinciding boundary edges to join"));
         }
         let edit = |mesh: &mut Mesh, [h, g]: [HalfEdgeId; 2]| {
-            // The pair may already have been joined, as a result of joining neighboring pairs.
+            // It is possible that this pair is already joined, because joining neighboring pairs can join it, too.
             if is_closed(mesh, h) && is_closed(mesh, g) {
                 return Ok(());
             }

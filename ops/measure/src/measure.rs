@@ -50,7 +50,8 @@ impl Measure {
         }
     }
 
-    /// Whether a step without `on` leaves out the object.
+    /// A step without `on` leaves out the object that the quantity refers to, such as the object to which distances are
+    /// measured. Returns whether `object` is this object.
     fn leaves_out(&self, object: &str) -> bool {
         self.of.other().is_some_and(|(other, _)| other == object)
     }

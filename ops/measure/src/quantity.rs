@@ -114,7 +114,7 @@ impl MeasureOf {
         }
     }
 
-    /// Returns the elements that have values.
+    /// Returns the kind of elements for which the quantity has values.
     pub(crate) fn domain(&self) -> Domain {
         match self {
             Self::Area | Self::MinAngle | Self::AspectRatio => Domain::Face,
@@ -146,7 +146,7 @@ impl MeasureOf {
     }
 
     /// Returns the value for each vertex or face of a mesh, in order of the indices. Missing values are represented by
-    /// values that are not finite. The mesh must be dense.
+    /// values that are not finite. The mesh must not have deleted elements.
     ///
     /// # Errors
     ///
@@ -199,11 +199,11 @@ impl MeasureOf {
     }
 }
 
-/// Converts quantities of a scaled mesh to scene units.
+/// Converts quantities to scene units. `values` were computed on a scaled copy of the mesh.
 ///
 /// # Errors
 ///
-/// [`OpError::Refused`] if a quantity is outside of the range of numbers.
+/// [`OpError::Refused`] if a quantity is outside of the range of floating-point numbers.
 fn restored(scaled: &Scaled, mut values: Vec<f64>, dimension: i32) -> Result<Vec<f64>, OpError> {
     for x in &mut values {
         let restored = scaled.restored(*x, dimension);

@@ -238,7 +238,8 @@ impl Join {
         Ok((object, report))
     }
 
-    /// Returns the plan of the result. Each part is given with the number of its instances.
+    /// Returns the plan of the result, which predicts its counts and attributes. Each part is given with the number of
+    /// its instances, that is, how often nodes place it in the scene.
     fn joined_plan(&self, parts: &[(MeshPlan, u64)]) -> MeshPlan {
         let mut joined = parts[0].0.clone();
         let none = Range::exactly(0);
@@ -280,10 +281,10 @@ impl Join {
     }
 }
 
-/// Returns all instances of the parts. An instance has the name of its part. Returns `None` if no node places any of
-/// the parts. The points are in scene space or, if a skin is kept, in the space in which the skin binds points. If
-/// `keeps_morphs` is true, the morph targets are not applied to the points, because the result keeps the default
-/// weights of the targets.
+/// Returns all instances of the parts: a copy of a part for each node that places this part in the scene. An instance
+/// has the name of its part. Returns `None` if no node places any of the parts. The points are in scene space or, if a
+/// skin is kept, in the space in which the skin binds points. If `keeps_morphs` is true, the morph targets are not
+/// applied to the points, because the result keeps the default weights of the targets.
 fn placed(
     scene: &Scene,
     parts: &[&Object],

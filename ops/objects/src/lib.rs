@@ -20,7 +20,7 @@ pub use scatter::Scatter;
 pub use separate::{Separate, SeparateBy};
 pub use transform::{About, Transform};
 
-/// Adds the operations of this group, in the order of the reference.
+/// Adds the operations of this group to the registry. The list in `ops/README.md` has the same order.
 #[rustfmt::skip]
 pub fn register(registry: Registry) -> Registry {
     registry

@@ -175,11 +175,11 @@ impl Separate {
         format!("\"{}\" has no faces to separate", self.object)
     }
 
-    /// Returns the plan of each part.
+    /// Returns a plan that is valid for every part: its counts are upper limits.
     fn part_of(&self, whole: &MeshPlan) -> MeshPlan {
         let mut part = whole.clone();
-        // If several fans of faces meet at a vertex, each fan gets a copy of the vertex, so there is at most one copy
-        // for each edge.
+        // If several fans of faces meet at a vertex, each fan gets its own copy of the vertex. There is at most one
+        // copy for each edge.
         part.vertices = whole.vertices.plus(whole.edges).or_less();
         part.edges = whole.edges.or_less();
         part.faces = whole.faces.or_less();
@@ -189,7 +189,7 @@ impl Separate {
         part
     }
 
-    /// Returns the columns that were lost in at least one part.
+    /// Returns a loss for each attribute column that at least one part does not have.
     fn losses(&self, whole: &Mesh, parts: &[Mesh]) -> Vec<Loss> {
         let columns = whole
             .attributes()

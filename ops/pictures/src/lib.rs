@@ -13,7 +13,7 @@ pub use half_edge_figure::HalfEdgeFigure;
 pub use picture::{Mark, Picture, Turntable};
 pub use uv_picture::{UvFill, UvPicture};
 
-/// Adds the operations of this group, in the order of the reference.
+/// Adds the operations of this group to the registry. The list in `ops/README.md` has the same order.
 #[rustfmt::skip]
 pub fn register(registry: Registry) -> Registry {
     registry

@@ -238,9 +238,9 @@ impl Picture {
         Ok((images.map_err(op_error)?, notes))
     }
 
-    /// Returns the [`Extent`] of a scene: its view and its color range. With the joined extents of several scenes, the
-    /// scenes can be drawn one after the other in the same view, scale and colors, and need not be in memory at the
-    /// same time.
+    /// Returns the [`Extent`] of a scene: its view and its color range. If the extents of several scenes are joined,
+    /// the scenes can be drawn one after the other in the same view, scale and colors. The scenes then need not be in
+    /// memory at the same time.
     ///
     /// # Errors
     ///
@@ -266,8 +266,8 @@ impl Picture {
     }
 
     /// Prepares a scene with its highlights and quantities. Also returns notes about parts of the scene that are not
-    /// drawn. `placed` is the scene in which every instance is a separate object. Elements are selected in the space of
-    /// each object.
+    /// drawn. `placed` is the scene in which every instance is a separate object: an object that several nodes show
+    /// becomes several objects. Elements are selected in the space of each object.
     fn subject<'s>(
         &self,
         scene: &Scene,
@@ -435,7 +435,8 @@ impl Operation for Picture {
     }
 }
 
-/// Returns the scene with a separate object in scene space for every instance.
+/// An instance is an object at the place where one node shows it. Returns the scene with a separate object, in scene
+/// space, for every instance.
 fn placed<'s>(scene: &'s Scene, cx: &Context) -> Result<Cow<'s, Scene>, OpError> {
     let bytes = scene.placed_bytes();
     if !scene.graph().is_empty() && bytes > cx.budget {
@@ -449,7 +450,7 @@ fn placed<'s>(scene: &'s Scene, cx: &Context) -> Result<Cow<'s, Scene>, OpError>
     Ok(scene.placed())
 }
 
-/// Reads the image file of a material. Returns `None` if the file does not exist or is not inside the folder.
+/// Reads the image file of a material. Returns `None` if the file does not exist, or if `path` leads out of `folder`.
 fn read_image(files: &Files, folder: Option<&str>, path: &str) -> Option<Vec<u8>> {
     let is_inside = |c: Component| matches!(c, Component::Normal(_) | Component::CurDir);
     if path.contains("://") || !Path::new(path).components().all(is_inside) {

@@ -22,7 +22,7 @@ pub use tetrahedron::Tetrahedron;
 pub use torus::Torus;
 pub use uv_sphere::UvSphere;
 
-/// Adds the operations of this group, in the order of the reference.
+/// Adds the operations of this group to the registry. The list in `ops/README.md` has the same order.
 #[rustfmt::skip]
 pub fn register(registry: Registry) -> Registry {
     registry

@@ -95,7 +95,7 @@ impl Polygons {
     }
 }
 
-/// A new mesh has no materials.
+/// Changes the plan: a new mesh has no materials.
 fn without_materials(plan: MeshPlan) -> MeshPlan {
     MeshPlan {
         materials: Some(Vec::new()),

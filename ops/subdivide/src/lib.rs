@@ -18,7 +18,7 @@ pub use midpoint::Midpoint;
 pub use sqrt3::Sqrt3;
 pub use step::Until;
 
-/// Adds the operations of this group, in the order of the reference.
+/// Adds the operations of this group to the registry. The list in `ops/README.md` has the same order.
 #[rustfmt::skip]
 pub fn register(registry: Registry) -> Registry {
     registry

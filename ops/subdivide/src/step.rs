@@ -1,4 +1,5 @@
-//! The code that the operations of all subdivision schemes share: the plan, the memory budget, and the levels.
+//! The code that the operations of all subdivision schemes share: the plan (the predicted counts), the check of the
+//! memory budget, and the levels.
 
 use mesh::{CORNER_NORMAL, DVec3, Domain, EdgeId, Mesh, TANGENT, VERTEX_NORMAL, counted};
 use op::{
@@ -77,8 +78,8 @@ impl Step<'_> {
             .then(|| (SubdivisionError::NoLimit(scheme).to_string(), "until"))
     }
 
-    /// Changes `plan` in the same way as [`apply`](Self::apply) will change the mesh. Returns the problems. `name` is
-    /// the name of the operation.
+    /// Changes `plan`, which predicts the mesh, in the same way as [`apply`](Self::apply) will change the mesh. Returns
+    /// the problems that it finds. `name` is the name of the operation.
     pub(crate) fn plan(&self, name: &str, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem> {
         let mut problems = Vec::new();
         if let Some((message, field)) = self.problem() {
@@ -118,8 +119,8 @@ impl Step<'_> {
                     .at(["levels"])
                     .help(too_large.help()),
             );
-            // The plan continues with the largest number of levels that is possible, so that later steps do not report
-            // the same problem.
+            // The problem is already reported. For the rest of the plan, the step has the largest possible number of
+            // levels, so that later steps do not report the same problem again.
             levels = too_large.fits.unwrap_or(0);
         }
         let end = (0..levels).fold(start, |size, level| size.after(scheme, level));
@@ -297,7 +298,7 @@ fn degrees_after(scheme: Scheme, degrees: Range) -> Range {
     }
 }
 
-/// Returns notes about lost values, for schemes whose new faces lie across old edges.
+/// Returns notes about attribute values that are mixed or lost, because new faces of the scheme lie across old edges.
 fn loss_notes(mesh: &Mesh, scheme: Scheme) -> Vec<String> {
     let mut notes = Vec::new();
     if matches!(scheme, Scheme::Sqrt3 | Scheme::DooSabin) {

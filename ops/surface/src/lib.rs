@@ -14,7 +14,7 @@ pub use simplify::{Intersections, Simplify};
 pub use smooth::{Smooth, SmoothBoundary, SmoothBy, SmoothWeights};
 pub use transfer::Transfer;
 
-/// Adds the operations of this group, in the order of the reference.
+/// Adds the operations of this group to the registry. The list in `ops/README.md` has the same order.
 #[rustfmt::skip]
 pub fn register(registry: Registry) -> Registry {
     registry

@@ -160,8 +160,8 @@ impl MeshOperation for Remesh {
         problems.extend(self.target().err().map(|message| {
             Problem::error(message).help("write, for example, `Remesh(length: 0.02)`")
         }));
-        // The area of the mesh is not known yet, so only the budget limits the number of faces. A mesh without faces
-        // gets no faces. Isolated vertices stay.
+        // Before the run, the area of the mesh is not known, so only the memory budget limits the predicted number of
+        // faces. A mesh without faces gets no faces. Isolated vertices stay.
         let most = match plan.faces.max {
             0 => 0,
             _ => (cx.budget / BYTES).min(MAX_FACES as u64),

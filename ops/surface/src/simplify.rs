@@ -111,7 +111,8 @@ pub(crate) fn part(n_faces: u64, ratio: Fraction) -> u64 {
     (n_faces as f64 * ratio.get()).ceil() as u64
 }
 
-/// Records in the plan that the mesh is reduced to a number of faces between `goal.min` and `goal.max`.
+/// Records in the plan that the mesh is reduced to the number of faces in `goal`. A collapse can remove two faces, so
+/// the result can have one face fewer than `goal.min`.
 pub(crate) fn plan_goal(plan: &mut MeshPlan, goal: Range, is_certain: bool) {
     let least = goal.min.saturating_sub(1).min(plan.faces.min);
     let most = if is_certain {
@@ -149,7 +150,7 @@ pub(crate) fn error(error: &SimplifyError) -> OpError {
     }
 }
 
-/// Returns the refusal of a mesh that could not be reduced to `goal` faces.
+/// Returns the error for a mesh that could not be reduced to `goal` faces.
 pub(crate) fn unreached(n_faces: usize, goal: u64, blocked: &[(Blocked, usize)]) -> OpError {
     let reasons: Vec<String> = blocked
         .iter()

@@ -93,7 +93,8 @@ impl MeshOperation for Transfer {
     }
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        // The domains of the attributes are known only if the other object is known.
+        // The attributes come from another object, which is not known here. So their domains (vertices, corners or
+        // faces) are not known either.
         plan.has_unlisted_attributes = true;
         let problem = |message| Problem::error(message).at(["attributes"]);
         self.problem().map(problem).into_iter().collect()

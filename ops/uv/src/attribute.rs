@@ -1,4 +1,5 @@
-//! The code that the operations on texture coordinates share: the attribute, the page and the errors.
+//! The code that the operations on texture coordinates share: the attribute, the page into which charts are packed, and
+//! the errors.
 
 use geometry::uv::{Page, UvError};
 use mesh::{CORNER_TANGENT, Column, DVec2, Domain, UV, Value, morph_value_of};
@@ -37,19 +38,20 @@ pub(crate) fn padding_problem(page: Page) -> Option<Problem> {
     })
 }
 
-/// Plans new values of the attribute `uv`.
+/// Adds the attribute `uv` to the plan, and removes the attributes that depend on its old values.
 pub(crate) fn plan(plan: &mut MeshPlan, uv: &str) {
     plan.provide(Domain::Corner, uv);
     plan.drop_attribute(Domain::Corner, CORNER_TANGENT.name);
     (plan.attributes).retain(|attribute| !changes(&attribute.name, uv));
 }
 
-/// Whether the attribute `name` has the changes that a morph target makes to the attribute `uv`.
+/// Whether the attribute `name` stores how a morph target changes the attribute `uv`.
 fn changes(name: &str, uv: &str) -> bool {
     morph_value_of(name).is_some_and(|(changed, _)| changed == uv)
 }
 
-/// Sets the attribute `uv`, and removes tangents and changes by morph targets, which depend on it.
+/// Sets the attribute `uv`. Removes the tangents of corners and the attributes that store how morph targets change
+/// `uv`, because they depend on the old values.
 pub(crate) fn set(mesh: &mut Mesh, uv: &str, uvs: Vec<DVec2>, report: &mut Report) {
     let values = DVec2::wrap(uvs);
     let column = Column {

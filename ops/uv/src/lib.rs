@@ -9,7 +9,7 @@ use op::Registry;
 pub use pack_uvs::PackUvs;
 pub use unwrap::Unwrap;
 
-/// Adds the operations of this group, in the order of the reference.
+/// Adds the operations of this group to the registry. The list in `ops/README.md` has the same order.
 #[rustfmt::skip]
 pub fn register(registry: Registry) -> Registry {
     registry

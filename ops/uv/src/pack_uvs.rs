@@ -1,4 +1,5 @@
-//! Pack UVs: moves existing charts to one page, with one scale.
+//! Pack UVs: moves existing charts into one page, and scales them so that areas in the texture are proportional to
+//! areas on the surface.
 //!
 //! ```text
 //!    +--+  +-----+           +-----+--+

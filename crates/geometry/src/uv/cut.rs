@@ -43,8 +43,8 @@ struct Allowed {
     /// total area is at most the fraction `except` of the area of the chart.
     aspect: f64,
     except: f64,
-    /// The largest allowed mean, weighted by area, of the ratio between the area scale of a triangle and that of the
-    /// chart.
+    /// The largest allowed mean ratio between the area scale of a triangle and that of the chart, the larger scale
+    /// divided by the smaller one. In the mean, each triangle counts by its area.
     spread: f64,
 }
 

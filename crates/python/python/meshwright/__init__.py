@@ -16,13 +16,13 @@ Operations are methods, and return a new mesh. `help(mw.Mesh)` lists them, and `
 
 >>> m = m.weld(distance=1e-6).loop_subdivide(levels=2)
 
-Selections are words such as "Boundary", or values of the module `sel`. A mask of Booleans becomes a tag:
+Selections are words such as "Boundary", or values of the module `sel`. To select by a Boolean mask, make a tag of it:
 
 >>> m = m.with_attribute("top", m.vertices[:, 1] > 0.5, "vertex")
 >>> m.delete_faces(faces=sel.FacesAround(sel.Tagged("top"))).is_closed
 False
 
-Other parameters with several forms are words, or values of the module `choice`:
+The values of other parameters with several variants are words, or values of the module `choice`:
 
 >>> m = m.smooth(by=choice.Taubin(), passes=5)
 
@@ -33,7 +33,7 @@ Measures are properties, or attributes with a value for each vertex or face. `m.
 >>> m.measure(of="MeanCurvature", name="curvature").attributes["curvature"].shape
 (162,)
 
-Pictures and interactive views of notebooks; saved files, with a `LossWarning` if data are lost:
+A mesh can be drawn, shown in a notebook, and saved. A `LossWarning` lists the data that a file format cannot store:
 
     m.picture("ball.png", color_by="Area");  m.view(color_by="Area");  m.save("ball.glb")
 
@@ -58,7 +58,7 @@ The steps that made a mesh or a scene are a recipe. The program `meshwright` run
     ],
 )
 
-Recipes can also be built without running them, and have parameters. They have the same methods:
+A recipe can also be built without running it. A recipe has the same methods as a scene, and can have parameters:
 
 >>> r = mw.recipe().icosahedron(name="ball").loop_subdivide(levels=mw.arg("levels", int, default=1))
 >>> r.run(levels=2).mesh().n_faces

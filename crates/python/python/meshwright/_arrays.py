@@ -1,4 +1,4 @@
-"""Conversions between NumPy arrays and the compiled part."""
+"""Conversions between NumPy arrays and the arrays of the compiled module `_core`."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ def view(array: _core.Array) -> NDArray[Any]:
 
 
 def frozen(array: NDArray[np.float64]) -> NDArray[np.float64]:
-    """A read-only view of an array, which cannot become writeable again."""
+    """A read-only copy of an array. NumPy cannot make the copy writeable again."""
     return np.frombuffer(array.tobytes()).reshape(array.shape)
 
 
 def numeric(values: ArrayLike, what: str) -> NDArray[Any]:
-    """An array of numbers, or an error that says what is wrong."""
+    """Converts values to an array of numbers. Raises a `TypeError` if they are not numbers."""
     array = np.asarray(values)
     if array.dtype.kind not in "biuf":
         raise TypeError(f"{what} have the type {array.dtype}, expected numbers")

@@ -46,7 +46,7 @@ class Row:
     faces: int | None
     #: The digest of the scene.
     digest: str | None
-    #: What was lost.
+    #: The data that were lost, for example because a file format cannot store them.
     losses: list[str]
     #: The files that were written, with their sizes: ``{"path": "out/cow.glb", "bytes": 1200}``.
     outputs: list[dict[str, Any]]
@@ -252,9 +252,9 @@ class Counter:
 class Task:
     """A part of a batch."""
 
-    #: The arguments of the program. The last one is the report.
+    #: The arguments of the program. The last argument is the path of the report.
     arguments: list[str]
-    #: The number of its files, each counted once for each parameter set.
+    #: The number of files in this part, each counted once for each parameter set.
     runs: int
     #: The estimated memory of its process, in bytes.
     bytes: int
@@ -359,7 +359,7 @@ def memory_of_workers(client: Any) -> list[float | None]:
 
 
 def needed(name: str) -> Any:
-    """Imports a package, or says how to install it."""
+    """Imports a package. If the package is missing, the error says how to install it."""
     import importlib
 
     try:

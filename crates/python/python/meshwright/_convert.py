@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def module(name: str) -> Any:
-    """Imports a package, or says how to install it."""
+    """Imports a package. If the package is missing, the error says how to install it."""
     try:
         return importlib.import_module(name)
     except ModuleNotFoundError as error:
@@ -30,12 +30,12 @@ def module(name: str) -> Any:
 
 
 def plain(values: NDArray[Any]) -> NDArray[Any]:
-    """Values that other packages can hold: flags become bytes."""
+    """Converts values for other packages, which cannot hold Booleans: Booleans become bytes."""
     return values.astype(np.uint8) if values.dtype == np.bool_ else np.array(values)
 
 
 def kept(values: Any) -> NDArray[Any] | None:
-    """Values that an attribute can hold: numbers, or rows of 2 to 4 numbers. `None` for others."""
+    """The values as an array that an attribute can hold (numbers, or rows of at most 4 numbers), or `None`."""
     array = np.asarray(values)
     if array.dtype.kind not in "biuf" or array.ndim not in (1, 2) or array.ndim == 2 and not 1 <= array.shape[1] <= 4:
         return None
@@ -77,7 +77,7 @@ class MeshConversions:
         of_faces: Iterable[tuple[str, Any]],
         uv: NDArray[Any] | None = None,
     ) -> Any:
-        """The mesh of another package, with its columns of values, and one texture coordinate for each vertex.
+        """Makes a mesh from data of another package: points, faces, columns of values, and one `uv` for each vertex.
 
         If a repair drops a face or splits a vertex, the remaining elements keep their values."""
         this: Any = cls

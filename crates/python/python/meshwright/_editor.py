@@ -33,7 +33,7 @@ class Editor:
 
     @property
     def mesh(self) -> Mesh:
-        """The edited mesh, after the end of the `with` block; inside it, the mesh as edited so far."""
+        """After the `with` block: the edited mesh. Inside the block: the mesh with the edits made so far."""
         return self._mesh or self._original._with_core(self._core.mesh(), "edit()")
 
     def edge(self, v: int, w: int) -> int:

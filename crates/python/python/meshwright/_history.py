@@ -34,7 +34,7 @@ class History:
         return self if self._reason else History(self, step)
 
     def lost(self, change: str, advice: str = SAVE) -> History:
-        """The history after a change that no recipe can make: "repeat `edit()`". The first of these changes is kept."""
+        """The history after a `change`, such as "repeat `edit()`", that no recipe can make. Keeps only the first."""
         if self._reason:
             return self
         step = self._step if len(self._step) <= 80 else f"{self._step[:77]}..."

@@ -148,7 +148,7 @@ class Mesh(MeshConversions, MeshOperations):
     >>> m.loop_subdivide(levels=2).n_faces
     16
 
-    Every operation on one mesh is a method, such as :meth:`smooth` or :meth:`simplify`. In a method that has them,
+    Every operation on one mesh is a method, such as :meth:`smooth`. If a method has one of these parameters,
 
     - a parameter such as `faces` is a word such as ``"Boundary"``, or a value of :mod:`meshwright.sel`;
     - `id` is any text. A different text gives different random choices, for example of ``sel.Random``. Defaults to the
@@ -605,7 +605,7 @@ class Mesh(MeshConversions, MeshOperations):
         return type(self)(result, names[0], done.notes, done._history)
 
     def _named(self, value: Any, others: dict[int, tuple[str, Mesh]]) -> Any:
-        """Replaces meshes in the values of parameters by names of objects."""
+        """Replaces each mesh in the values of parameters with the name of an object."""
         if isinstance(value, Mesh):
             name = value.name if value.name != self._name else f"{value.name} (other)"
             taken = {n for key, (n, _) in others.items() if key != id(value)}

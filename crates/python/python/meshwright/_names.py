@@ -49,12 +49,12 @@ def in_python(code: str) -> str | None:
 
 
 def code_in_python(text: str, quotes: str = "`") -> str:
-    """A text about recipes, with the values between backquotes as in Python."""
+    """Rewrites a text about recipes: the values between backquotes are written as in Python."""
     return re.sub(r"`([^`]+)`", lambda code: f"{quotes}{in_python(code[1]) or code[1]}{quotes}", text)
 
 
 def without_steps(text: str) -> str:
-    """A text about the steps of a recipe, as a text about operations."""
+    """Rewrites a text about the steps of a recipe: it then speaks of operations."""
     text = re.sub(r"\b([Aa]) step\b", r"\1n operation", text)
     before = "[Tt]he|[Tt]his|[Ii]n the same|[Ll]ater|earlier|refused|[Oo]ne|two|any"
     text = re.sub(rf"\b({before}) step(s?)\b", r"\1 operation\2", text)

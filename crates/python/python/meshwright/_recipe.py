@@ -47,7 +47,7 @@ class Outcome(Mapping[str, Mesh]):
     def __init__(self, scene: Scene, about: dict[str, Any]) -> None:
         #: The scene at the end.
         self.scene = scene
-        #: The digest of the scene, equal to the one that the program prints.
+        #: The digest of the scene. The program prints the same digest.
         self.digest: str = about["digest"]
         #: The steps.
         self.steps: tuple[Step, ...] = tuple(
@@ -187,8 +187,8 @@ class Recipe(SceneOperations):
     ) -> Self:
         """Adds expectations: words such as ``"Manifold"``, or values of :mod:`meshwright.expect`.
 
-        :param after: The id of the step after which they must hold. If omitted, they must hold at the end.
-        :param on: The names of the objects that they are about. If omitted, all objects.
+        :param after: The id of the step after which the expectations must hold. If omitted, they must hold at the end.
+        :param on: The names of the objects to which the expectations apply. If omitted, they apply to all objects.
         """
         made = self._copy()
         schema = _ron.definition("Expectation")
@@ -278,7 +278,7 @@ class Recipe(SceneOperations):
         budget: int | None = None,
         **more: Any,
     ) -> tuple[Problem, ...]:
-        """Checks the recipe without running a step: types, ranges, files, memory. Returns the warnings.
+        """Checks types, ranges, files and memory of the recipe without running a step. Returns the warnings.
 
         >>> import meshwright as mw
         >>> r = mw.recipe().icosahedron().loop_subdivide(levels=mw.arg("levels", int, default=1))
@@ -320,7 +320,7 @@ class Recipe(SceneOperations):
         :param preset: The name of a preset of the recipe.
         :param out: The output folder, which is created if necessary. It is relative to the working directory, and
             defaults to the folder ``out`` there: ``save("a.glb")`` writes ``out/a.glb``.
-        :param keep_outputs: Whether files are kept after the run.
+        :param keep_outputs: Whether the files that the steps write are kept after the run.
         :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
             `True` for a bar of tqdm. An exception cancels the run.
         :param budget: The memory budget for meshes, in bytes. Defaults to 8 GiB.

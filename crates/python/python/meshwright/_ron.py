@@ -78,7 +78,7 @@ def definition(name: str) -> Schema:
 
 
 def resolve(schema: Schema) -> Schema:
-    """Follows references."""
+    """The schema to which a reference refers. Returns a schema without a reference unchanged."""
     while "$ref" in schema:
         schema = definition(schema["$ref"].rsplit("/", 1)[1])
     return schema
@@ -186,7 +186,7 @@ def ids_of(schema: Schema) -> str | None:
 
 
 def check_list(items: Sequence[Any], schema: Schema) -> None:
-    """Raises `TypeError` for a mask in place of ids, and for ids without their selection."""
+    """Raises `TypeError` for a mask in place of a list of ids, and for a list of ids in place of a selection."""
     lists = [o for o in options(schema) if o.get("type") == "array"]
     takes_integers = any(resolve(o.get("items", {})).get("type") == "integer" for o in lists)
     selection = None if lists else ids_of(schema)

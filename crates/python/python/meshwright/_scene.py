@@ -282,7 +282,7 @@ def line_of_loss(loss: Mapping[str, str]) -> str:
 
 
 def warn_of_losses(path: str, reports: Sequence[Mapping[str, Any]]) -> None:
-    """Issues one warning that lists what a file lacks. Rounded positions are not lost."""
+    """Issues one warning that lists what a file lacks. Rounded positions do not count as a loss."""
     losses = [loss for report in reports for loss in report["losses"] if loss["name"] != "position"]
     if losses:
         warn(f"{path}: {'; '.join(map(line_of_loss, losses))}. An .mws file stores everything; see help(meshwright.LossWarning)")

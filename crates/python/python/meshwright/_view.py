@@ -38,7 +38,7 @@ def encoded(array: NDArray[Any], dtype: str) -> str:
     return base64.b64encode(np.ascontiguousarray(array, dtype)).decode("ascii")
 
 
-#: The name of the attribute that holds the shown values for a moment.
+#: The name of a temporary attribute, which holds the values that the view shows.
 SHOWN = "values of the view"
 Values = tuple[Literal["vertex", "face"], NDArray[Any]]
 
@@ -76,7 +76,7 @@ def colors_of(numbers: NDArray[Any], span: tuple[float, float] | None = None) ->
 
 
 class View:
-    """An interactive view of a mesh. A notebook shows it at the end of a cell; :meth:`save` writes it as a page. The page
+    """An interactive view of a mesh. A notebook shows it as the result of a cell; :meth:`save` writes a page. The page
     contains the mesh and three.js, and needs no network."""
 
     def __init__(self, mesh: Mesh, shown: str | Choice | Mapping[str, Any] | None, wireframe: bool | None, height: int) -> None:

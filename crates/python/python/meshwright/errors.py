@@ -1,4 +1,4 @@
-"""The exceptions and the warning of the package, which are also names of the package: `meshwright.RecipeError`."""
+"""The exceptions and the warning of the package. The package exports them, too: `meshwright.RecipeError`."""
 
 from __future__ import annotations
 

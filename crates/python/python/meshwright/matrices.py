@@ -59,7 +59,7 @@ def subdivision(
     refined positions are ``subdivision(mesh) @ mesh.vertices``.
 
     :param mesh: The mesh.
-    :param scheme: The scheme.
+    :param scheme: The subdivision scheme.
     :param levels: The number of levels.
     """
     if levels < 0 or levels > 16:

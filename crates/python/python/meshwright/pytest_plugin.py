@@ -13,7 +13,7 @@ TESTED = pytest.StashKey[set[Path]]()
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """Adds the option."""
+    """Adds the option `--recipes`."""
     parser.getgroup("meshwright").addoption("--recipes", action="store_true", help="collect recipes (*.ron) as tests")
 
 

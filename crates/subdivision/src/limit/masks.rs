@@ -1,4 +1,5 @@
-//! The limit masks of a settled star, which has no semi-sharp elements.
+//! The limit masks of a settled star. A star is a vertex and its neighborhood. A star is settled if it has no
+//! semi-sharp elements, whose sharpness would change from level to level.
 
 use std::f64::consts::{PI, TAU};
 
@@ -17,7 +18,7 @@ const LEVELS_TO_CONVERGE: usize = 96;
 pub(crate) struct Sector {
     first: usize,
     n_faces: usize,
-    /// Whether the sector goes all the way around, so that its first spoke is also its last.
+    /// Whether the sector goes all the way around the vertex, so that its first spoke is also its last spoke.
     is_closed: bool,
 }
 
@@ -118,12 +119,13 @@ impl Star {
         tangents
     }
 
-    /// Returns a tangent along the crease, and a tangent across it into the k faces of the sector. With θ = π/k, the
-    /// second tangent is a left eigenvector. Its weight is sin(iθ) at inner spoke i, and m (sin(iθ) + sin((i+1)θ)) at
-    /// the opposite corner between spokes i and i + 1. The factor m depends on the scheme and on θ. The weights at the
-    /// ends of the crease and at the center follow from the other weights. (The literature gives the eigenvector for k
-    /// ≤ 3 and for other crease rules.) If the sector has six or more triangles, the surface has no tangent plane in
-    /// the sector. In this case, the returned plane contains the tangent of the crease.
+    /// Returns a tangent along the crease, and a tangent across it into the k faces of the sector. The weights of the
+    /// second tangent are a left eigenvector of the subdivision matrix. With θ = π/k, the weight of inner spoke i is
+    /// sin(iθ), and the weight of the opposite corner between spokes i and i + 1 is m (sin(iθ) + sin((i+1)θ)). The
+    /// factor m depends on the scheme and on θ. The weights at the ends of the crease and at the center follow from the
+    /// other weights. (The literature gives the eigenvector for k ≤ 3 and for other crease rules.) If the sector has
+    /// six or more triangles, the surface has no tangent plane in the sector. In this case, the returned plane contains
+    /// the tangent of the crease.
     fn crease_tangents(&self, sector: Sector) -> [DVec3; 2] {
         let k = sector.n_faces;
         let [first, last] = [0, k].map(|i| self.spoke(sector, i));
@@ -157,9 +159,9 @@ impl Star {
         [along, across]
     }
 
-    /// Returns the directions of the first and the last spoke, which at a corner are tangents of the crease curves. The
-    /// directions are swapped if the corner is concave. If the directions do not span a plane, or if the sector goes
-    /// all the way around (a cone), returns a plane whose normal is the mean of the face normals.
+    /// Returns the directions of the first and the last spoke of a sector at a corner. These directions are tangents of
+    /// the crease curves. They are swapped if the corner is concave. If the directions do not span a plane, or if the
+    /// sector goes all the way around (a cone), returns a plane whose normal is the mean of the face normals.
     fn corner_tangents(&self, sector: Sector) -> [DVec3; 2] {
         let arm = |i: usize| self.spoke(sector, i) - self.center;
         let faces = 0..sector.n_faces;
@@ -182,7 +184,8 @@ impl Star {
         }
     }
 
-    /// Returns two vectors that span the plane to which the one-ring of a dart converges.
+    /// Returns two vectors that span the plane to which the one-ring of a dart (the end of a single sharp edge)
+    /// converges.
     fn dart_tangents(&self) -> [DVec3; 2] {
         let sector = Sector::of_face(self, 0);
         let [along, across] = self.corner_tangents(sector);

@@ -124,7 +124,7 @@ struct VertexLimit {
     is_sharp: bool,
 }
 
-/// A mesh with its rules, checked for the computation of limits.
+/// A mesh and the subdivision rules. The constructor checks that limits can be computed.
 struct LimitContext<'a> {
     mesh: &'a Mesh,
     rules: Rules,
@@ -165,8 +165,8 @@ impl<'a> LimitContext<'a> {
         })
     }
 
-    /// Reads the star of `v`, and refines the star until no element is semi-sharp. Returns `false` for an
-    /// isolated vertex.
+    /// Reads the star of `v` (the vertex and its neighborhood), and refines the star until no element is semi-sharp.
+    /// Returns `false` for an isolated vertex.
     fn read_settled(&self, star: &mut Star, v: VertexId) -> bool {
         let Some(start) = self.mesh.vertex_half_edge(v) else {
             return false;
@@ -211,7 +211,8 @@ impl<'a> LimitContext<'a> {
             }
             let mut star = Star::default();
             self.read_settled(&mut star, v);
-            // Stars are counter-clockwise, but `vertex_half_edges` is clockwise.
+            // A star lists its spokes (the edges around the vertex) counter-clockwise, but `vertex_half_edges` lists
+            // them clockwise.
             let spoke = self.mesh.vertex_half_edges(v).position(|other| other == h);
             let spoke = star.spokes.len()
                 - 1

@@ -102,9 +102,9 @@ impl Star {
         )
     }
 
-    /// Replaces this star by the star of the next level. (Chaikin's rule can need the sharpness of the edges at
-    /// the other end of an edge whose sharpness is below 1. The edges at the other end are assumed to have the
-    /// same sharpness as those at this end.)
+    /// Replaces this star by the star of the next level. (If an edge of the star has a sharpness below 1, Chaikin's
+    /// rule can also need the sharpness of the edges at the far end of that edge. The star does not have these edges;
+    /// they are assumed to be as sharp as the edges at the center.)
     pub(crate) fn refine(&mut self) {
         self.face_points.clear();
         if self.loop_weights.is_none() {
@@ -117,7 +117,8 @@ impl Star {
         self.shrink();
     }
 
-    /// Replaces this star by the star of the next level, whose face points are in `face_points`.
+    /// Replaces this star by the star of the next level. Before the call, `face_points` must contain the face points of
+    /// the next level.
     fn shrink(&mut self) {
         let semi_sharp = SemiSharp::of(self.creasing, self.spoke_sharpness.iter().copied());
         let center = self.next_center(semi_sharp);

@@ -31,8 +31,8 @@ impl<'a> ConnectivityBuilder<'a> {
                 last = pieces.second(h);
                 let m = pieces.on_edge(h.edge());
                 new.origin[last.index()] = m;
-                // The new vertex on the edge is m. Its stored half-edge is the second part of one of the two half-edges
-                // of the edge: of the second half-edge if that half-edge has no face, otherwise of the first half-edge.
+                // The new vertex m on the edge stores the second part of one of the two half-edges of the edge. This is
+                // the second half-edge of the edge if that half-edge has no face, and otherwise the first half-edge.
                 if h.index().is_multiple_of(2) || mesh.face(h).is_none() {
                     new.vertex_half_edge[m.index()] = last;
                 }
@@ -111,7 +111,7 @@ impl<'a> ConnectivityBuilder<'a> {
             self.ring.push(across);
             pieces.push_ring_from_middle(before, &mut self.ring);
             // If the ring of half-edges has two parts of the same half-edge, a hanging vertex lies between these parts.
-            // In this case, the face starts at the hanging vertex.
+            // In this case, the first half-edge of the face starts at the hanging vertex.
             let start = match (n_to, self.ring.len() - n_to) {
                 (2, _) => 1,
                 (_, 3) => 3,

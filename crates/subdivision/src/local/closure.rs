@@ -48,7 +48,7 @@ impl Cuts {
     /// second hanging vertex, the level cuts that triangle into four, too. The result does not depend on the order in
     /// which triangles are visited.
     ///
-    /// A face with four corners is a triangle with a hanging vertex.
+    /// In `mesh`, a face with four corners stands for a triangle with a hanging vertex.
     pub(super) fn of_triangles(
         mesh: &Mesh,
         chosen: &[bool],

@@ -1,4 +1,4 @@
-//! Smoothing in local refinement: the masks of the elements.
+//! Smoothing in local refinement: the weights of the old vertices in each new vertex (the masks).
 
 use mesh::DVec3;
 use progress::{Cancelled, Meter};
@@ -49,8 +49,8 @@ impl AnyMasks for LocalMasks<'_> {
     }
 
     fn values(&self, n: usize, old: &[DVec3], meter: &Meter) -> Result<Vec<DVec3>, Cancelled> {
-        // Computes all values at once if there are centers. If the values were computed one by one, each vertex
-        // of a large face would sum all corners of that face again.
+        // If faces get new vertices at their centers, computes the values of the whole level at once. If the values
+        // were computed one by one, each vertex of a large face would sum all corners of that face again.
         let full_level = if self.pieces.centers.len() == 0 {
             Vec::new()
         } else {

@@ -25,8 +25,8 @@
 //! two cited papers leave three cases open:
 //!
 //! - If a vertex with weight -1/16 would lie beyond a boundary edge, this vertex is missing. It is replaced by the
-//!   corner opposite that edge, reflected through the middle of the edge. In this way, flat regular parts stay on their
-//!   grid up to the boundary.
+//!   corner opposite that edge, reflected through the middle of the edge. In this way, the new vertices of a flat
+//!   regular grid lie on the refined grid, up to the boundary.
 //! - Boundary vertices are never extraordinary.
 //! - For n = 2, the neighbors have the weights 3/8 and -1/8. These are the weights for n = 4 without the two
 //!   zeros.
@@ -79,7 +79,7 @@ impl ButterflyMasks<'_> {
         (n != 6 && !self.0.is_boundary_vertex(v)).then_some(n)
     }
 
-    /// The regular mask has one half for each half-edge of the edge. Adds the half of the mask that belongs to `h`: the
+    /// The regular mask has one half for each half-edge of the edge. Calls `add` for the half that belongs to `h`: the
     /// origin of `h`, and the vertices on the same side of the edge as the triangle of `h`.
     #[inline]
     fn regular_half(&self, h: HalfEdgeId, add: &mut impl FnMut(usize, f64)) {
@@ -100,7 +100,8 @@ impl ButterflyMasks<'_> {
         }
     }
 
-    /// Adds the mask around the origin of `h`, an extraordinary vertex of valence `n`, scaled by `scale`.
+    /// The origin of `h` is an extraordinary vertex of valence `n`. Calls `add` with the weights of this vertex and its
+    /// neighbors, multiplied by `scale`.
     fn at_extraordinary(
         &self,
         h: HalfEdgeId,
@@ -116,7 +117,8 @@ impl ButterflyMasks<'_> {
         }
     }
 
-    /// Adds the mask of the new vertex on a boundary edge. `h` is the half-edge without a face.
+    /// Calls `add` with the weights of old vertices in the new vertex on a boundary edge. `h` is the half-edge of this
+    /// edge without a face.
     fn on_boundary(&self, h: HalfEdgeId, add: &mut impl FnMut(usize, f64)) {
         let mesh = self.0;
         add(mesh.origin(mesh.prev(h)).index(), -0.0625);

@@ -75,8 +75,8 @@ impl Masks for CatmullClarkMasks<'_> {
 }
 
 impl CatmullClarkMasks<'_> {
-    /// Adds the mask of an old vertex or of a new vertex on an edge, as a sum over old vertices and face
-    /// centers.
+    /// Vertex `i` is an old vertex or a new vertex on an edge. Calls `add` with the weights of old vertices and face
+    /// centers in this vertex.
     #[inline]
     fn over_centers(&self, i: usize, add: &mut impl FnMut(Source, f64)) {
         let n_vertices = self.mesh.n_vertices();

@@ -10,10 +10,10 @@
 //!      in a quad               in a triangle          on the boundary
 //! ```
 //!
-//! In a face with n corners, the point of a corner has the weight (n + 5)/(4n) at that corner and (3 + 2
-//! cos(2πj/n))/(4n) at the j-th corner after that corner. Source: Doo and Sabin, "Behaviour of recursive
-//! division surfaces near extraordinary points", 1978. The mask on the boundary is from Chaikin, "An algorithm
-//! for high-speed curve generation", 1974.
+//! In a face with n corners, the new vertex of a corner is a weighted mean of all corners of the face. The corner
+//! itself has the weight (n + 5)/(4n), and the j-th corner after it has the weight (3 + 2 cos(2πj/n))/(4n). Source: Doo
+//! and Sabin, "Behaviour of recursive division surfaces near extraordinary points", 1978. The mask on the boundary is
+//! from Chaikin, "An algorithm for high-speed curve generation", 1974.
 
 use mesh::DVec3;
 use progress::{Cancelled, Meter};

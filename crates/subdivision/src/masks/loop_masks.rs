@@ -62,7 +62,7 @@ impl Masks for LoopMasks<'_> {
 }
 
 impl LoopMasks<'_> {
-    /// Adds the mask of the new vertex on an edge.
+    /// Calls `add` with the weights of old vertices in the new vertex on an edge.
     #[inline]
     fn on_edge(&self, e: EdgeId, add: &mut impl FnMut(usize, f64)) {
         let [h, twin] = e.half_edges();

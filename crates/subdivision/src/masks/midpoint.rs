@@ -25,7 +25,7 @@ impl Masks for MidpointMasks<'_> {
     }
 }
 
-/// Adds the mean of the corners of a face, scaled by `weight`.
+/// Calls `add` with each corner of a face. The corners have equal weights with the sum `weight`.
 #[inline]
 pub(crate) fn center(mesh: &Mesh, f: FaceId, weight: f64, add: &mut impl FnMut(usize, f64)) {
     let part = weight / mesh.degree(f) as f64;

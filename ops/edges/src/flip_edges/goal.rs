@@ -22,8 +22,8 @@
 //! defined for surfaces in space.
 //!
 //! A flip that reduces the number of zero-area triangles is an improvement. If all four corners are collinear, both
-//! diagonals give zero-area triangles, and the shorter diagonal is better. This rule lets flips resolve groups of
-//! zero-area triangles.
+//! diagonals give zero-area triangles, and the shorter diagonal is better. Together, these two rules let flips resolve
+//! groups of zero-area triangles.
 //!
 //! **Valence.** A flip is an improvement if it reduces the sum over all vertices of (valence - target)², where the
 //! target is 6 inside and 4 on the boundary. Source: Botsch and Kobbelt, "A Remeshing Approach to Multiresolution

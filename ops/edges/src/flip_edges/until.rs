@@ -3,8 +3,8 @@
 //! A pass checks edges in order of their ids. The first pass checks all edges. Each later pass checks only edges near
 //! vertices whose edges changed. At all other edges, the check would have the same result as in the previous pass. (A
 //! flip is refused if an edge already joins the two opposite corners. If this joining edge is flipped, both of its
-//! former ends count as changed vertices.) A pass without a flip is the last one. Refused edges are checked again in
-//! every pass, so the refusals of the last pass are complete.
+//! former ends count as changed vertices.) A pass without a flip is the last one. Every pass checks all refused edges
+//! again, so the last pass finds all edges that are still refused.
 
 use mesh::{EdgeId, EditError, FaceId, Mesh, VertexId};
 use op::{Context, OpError, Report};
@@ -15,7 +15,7 @@ use crate::flip_edges::goal::{Goal, Quad};
 ///
 /// # Errors
 ///
-/// [`OpError::Cancelled`]. After this error, some edges may already be flipped.
+/// [`OpError::Cancelled`]. After this error, it is possible that some edges are already flipped.
 pub(crate) fn flip_until(
     mesh: &mut Mesh,
     edges: &[EdgeId],

@@ -42,8 +42,8 @@ impl Pairs {
         cx.advance("find coinciding edges", 0, total)?;
         let mut matches = vec![Matches::None; rims.len()];
         // The cells around an edge form nine rows of three cells. `begins` has the positions in `rims` at which these
-        // rows begin. From edge to edge, these positions only increase, because the edges are visited in the order of
-        // their cells.
+        // rows begin. From one edge to the next, these positions never decrease, because the edges are visited in the
+        // order of their cells.
         let mut begins = [0; 9];
         for (i, rim) in rims.iter().enumerate() {
             matches[rim.number] = matches_of(&rims, rim, &mut begins, distance);

@@ -23,8 +23,8 @@ pub(crate) fn merged_materials(parts: &[&Object]) -> (Vec<Material>, Vec<Vec<i32
     (merged, numbers)
 }
 
-/// Returns the concatenated columns of all parts. `numbers` comes from [`merged_materials`]. Adds dropped columns to
-/// `report.losses`, and parts that get zero values to `report.notes`.
+/// Returns the attribute columns of the joined mesh: the concatenated columns of all parts. `numbers` comes from
+/// [`merged_materials`]. Adds dropped columns to `report.losses`, and parts that get zero values to `report.notes`.
 pub(crate) fn appended(parts: &[&Object], numbers: &[Vec<i32>], report: &mut Report) -> Attributes {
     let meshes = || {
         let parts = parts.iter();

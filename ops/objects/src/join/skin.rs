@@ -2,8 +2,8 @@
 //!
 //! If all skinned parts have the same skin and a single node each, the joined mesh keeps this skin. The parts without a
 //! skin follow the first joint of this skin. The points of the parts without a skin are mapped by the inverse of the
-//! map of the first joint, so that they do not move in the scene. Otherwise the parts are joined in the pose of their
-//! joints, and the skins are lost.
+//! map of the first joint, so that they do not move in the scene. In all other cases, the parts are joined in the pose
+//! of their joints, and the skins are lost.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! The affine map of the parameters, for points and normals.
+//! The affine map that the parameters of `Transform` define, for points and normals.
 
 use glam::{DAffine3, DMat3, DVec3};
 use op::Turn;
@@ -14,7 +14,7 @@ pub(crate) struct Map {
 }
 
 impl Map {
-    /// Creates the map of the parameters.
+    /// Creates the map that the parameters define.
     pub(crate) fn new(transform: &Transform) -> Self {
         let scale = transform.scale.get();
         let turns = Turn::all(&transform.rotate);

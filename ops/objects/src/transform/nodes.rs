@@ -1,4 +1,5 @@
-//! Moving objects by changing the placements of their nodes.
+//! Moves objects by changing the placements of their nodes. The placement of a node is its transform relative to its
+//! parent.
 //!
 //! ```text
 //!   scene <-- P -- parent <-- L -- node <-- points of the object
@@ -16,8 +17,8 @@ use super::{About, Space, Transform};
 use crate::transform::map::Map;
 
 impl Transform {
-    /// Moves the objects that nodes place, and removes them from `names`. The report counts the points of these
-    /// objects.
+    /// Moves the objects that nodes place, and removes the names of these objects from `names`. The report counts the
+    /// points of these objects.
     pub(super) fn move_nodes(
         &self,
         scene: &mut Scene,
@@ -75,7 +76,8 @@ impl Transform {
         Ok(Report::changed(n_points).count(what, n_inserted))
     }
 
-    /// Moves the nodes of a plan. Returns a problem if a node certainly cannot store its new placement.
+    /// Moves the nodes of a plan, which predicts the scene before the run. Returns a problem if a node certainly cannot
+    /// store its new placement.
     pub(super) fn plan_nodes(&self, plan: &mut Plan, cx: &PlanContext) -> Option<Problem> {
         let graph = plan.graph();
         if self.space == Space::Object || plan.incomplete || graph.nodes().is_empty() {
@@ -116,7 +118,7 @@ impl Transform {
     }
 }
 
-/// Moves the roots by a map.
+/// Gives the roots of the graph (the nodes without a parent) the map `affine`.
 fn move_roots(graph: &Graph, maps: &mut [Option<DAffine3>], affine: &DAffine3) {
     for (map, node) in maps.iter_mut().zip(graph.nodes()) {
         if node.parent.is_none() {

@@ -6,7 +6,8 @@ use op::prelude::*;
 
 use super::charts::Charts;
 
-/// The elements of the source from which an element of the target takes its value, each with its weight.
+/// The elements of the source from which an element of the target takes its value, each with its weight. `None` if the
+/// source is too far away.
 pub(super) type Origin = Option<[(usize, f64); 3]>;
 
 /// The mesh with the attributes.

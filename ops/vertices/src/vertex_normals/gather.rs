@@ -4,8 +4,8 @@ use mesh::{DVec3, FaceId, Mesh, VertexId, angle_between, area_vector, parallel};
 
 use crate::vertex_normals::Weight;
 
-/// A sum of face vectors counts as zero if it is shorter than this fraction of the sum of the magnitudes of its parts.
-/// Such a short sum is only rounding error.
+/// A sum of face vectors counts as zero if it is shorter than this fraction of the sum of the magnitudes of the added
+/// vectors. Such a short sum is only rounding error.
 const CANCELLED: f64 = 1e-14;
 
 /// Returns the unit normal of every vertex of a dense mesh, and the number of vertices without a normal. Vertices
@@ -34,7 +34,8 @@ pub fn normals(mesh: &Mesh, weight: Weight) -> (Vec<DVec3>, usize) {
     (normals, without)
 }
 
-/// A sum of vectors, and the sum of the magnitudes of their coordinates, which bounds the rounding error.
+/// A sum of vectors, and the sum of the magnitudes of their coordinates. The second sum limits the rounding error of
+/// the first.
 #[derive(Clone, Copy, Default)]
 struct Sum {
     sum: DVec3,

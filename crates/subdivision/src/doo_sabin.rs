@@ -101,7 +101,8 @@ impl<'a> DooSabin<'a> {
                 Source::Near(h)
             }
         } else if i < corners + ends {
-            // The point near the target of a half-edge is the same point as the one near the origin of its twin.
+            // A boundary edge has one new point near each end, so the point near the target of a half-edge is also the
+            // point near the origin of its twin.
             Source::Near(HalfEdgeId::new(self.outer.nth(i - corners)).twin())
         } else {
             Source::Isolated(VertexId::new(self.isolated.nth(i - corners - ends)))

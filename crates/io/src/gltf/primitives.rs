@@ -22,8 +22,9 @@ use crate::fault::Fault;
 use crate::note::Notes;
 use mesh::parallel;
 
-/// For each attribute that a primitive lacks, this number of bytes is taken from the memory budget, in addition to the
-/// bytes of its values. This charge limits the time for files with many primitives and attributes.
+/// If a primitive lacks an attribute that another primitive of the mesh has, default values are stored for it. For each
+/// such attribute, this number of bytes is taken from the memory budget, in addition to the bytes of the default
+/// values. This charge limits the time for files with many primitives and attributes.
 const MISSING_ATTRIBUTE_CHARGE: u64 = 16;
 
 /// All primitives of a mesh. A vertex on a seam is stored once for each side of the seam, as in glTF.

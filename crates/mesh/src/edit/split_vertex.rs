@@ -232,7 +232,8 @@ mod tests {
         }
         let mut x = first;
         let mut y = mesh.next(last.twin());
-        // A triangle can be restored on either side of its merged edge, but not in a hole.
+        // The collapse merged two edges of a triangle into one edge. The triangle can be restored on either side of
+        // this edge, unless this side is a hole.
         let keep_left = triangles[0] && (mesh.face(x).is_none() || x == y);
         if keep_left {
             x = mesh.next(x.twin());

@@ -91,7 +91,7 @@ fn store_bytes(folder: &Folder, blob: BlobRef, bytes: &[u8]) -> bool {
         })
 }
 
-/// Whether a blob is already stored. A stored blob is marked as used. Its content is checked only when the blob is
+/// Whether a blob is already stored. If so, also marks the blob as used. Its content is checked only when the blob is
 /// read.
 fn is_stored(folder: &Folder, blob: &BlobRef) -> bool {
     let exists = exists(folder, blob);
@@ -130,16 +130,16 @@ pub(crate) fn exists(folder: &Folder, blob: &BlobRef) -> bool {
     fs::symlink_metadata(path).is_ok_and(|meta| meta.is_file() && meta.len() == blob.len)
 }
 
-/// Writes a blob to a file. If writing fails or the blob is damaged, the file is removed.
+/// Writes a blob to a file. If writing fails or the blob is damaged, the written file is removed.
 pub(crate) fn restore_file(folder: &Folder, blob: &BlobRef, to: &Path) -> Result<(), Unusable> {
     let path = folder.path(Kind::Blob, &blob.hash);
     let mut file = open_blob(&path, blob)?;
     let written = |error: io::Error| Unusable::Damaged(format!("{}: {error}", to.display()));
     let mut out = File::create(to).map_err(written)?;
     let mut failed = None;
-    // At most the stored number of bytes is copied, even if another process extends the file.
+    // At most the recorded length of the blob is copied, even if another process extends the file.
     let copied = copy_hashed(&mut (&mut file).take(blob.len), |piece| {
-        // A failure to write must not count as a damaged blob.
+        // A failure to write the output file must not count as a damaged blob.
         let done = out.write_all(piece);
         done.inspect_err(|error| failed = Some(error.to_string()))
     });

@@ -1,4 +1,4 @@
-//! Measures the size of a cache and keeps it below its limit.
+//! Measures the size of a cache, and keeps the size below its limit.
 
 use std::fs::{self, DirEntry, Metadata, OpenOptions};
 use std::io::{self, Write};
@@ -101,14 +101,14 @@ fn remove(path: &Path) -> io::Result<()> {
     }
 }
 
-/// Returns the path of the file `sizes`. Each run appends the number of bytes that it stored, as 8 bytes. If a run
-/// lists all files, it replaces the content of `sizes` by the total size of these files instead.
+/// Returns the path of the file `sizes`. Each run appends the number of bytes that it stored, as an integer of 8 bytes.
+/// If a run lists all files, it replaces the content of `sizes` by the total size of these files instead.
 fn sizes(folder: &Folder) -> PathBuf {
     folder.root().join("sizes")
 }
 
-/// Keeps the cache below its limit, if something was stored since the last call. If an error occurs, it is ignored,
-/// because the next run tries again to keep the limit.
+/// If something was stored since the last call, keeps the cache below its size limit. Errors are ignored, because the
+/// next run tries again to keep the limit.
 pub(crate) fn after_run(folder: &Folder, limit: u64) {
     let added = folder.take_written();
     if added > 0 {
@@ -130,7 +130,7 @@ fn add_to_total(folder: &Folder, added: u64, limit: u64) -> io::Result<()> {
         runs.fold(added, u64::saturating_add)
     });
     if total.is_some_and(|total| total <= limit) {
-        // An append of 8 bytes is atomic.
+        // An append of 8 bytes is atomic, so concurrent runs do not damage the numbers of each other.
         let mut file = OpenOptions::new().append(true).create(true).open(&path)?;
         file.write_all(&added.to_le_bytes())?;
     } else {

@@ -1,4 +1,5 @@
-//! Expectations that are known to hold for a scene, so that they need not be checked again.
+//! Expectations (statements in a recipe about the scene) that are known to hold for a scene, so that they need not be
+//! checked again.
 
 use op::{FileUse, Files};
 use serde::{Deserialize, Serialize};
@@ -13,7 +14,7 @@ use recipe::RecipeExpectation;
 pub(crate) struct MetExpectation {
     /// The digest of the text of the expectation and of the objects in its field `on`.
     id: Hash,
-    /// The files that the expectation compares with.
+    /// The files with which the expectation compares the scene.
     inputs: Inputs,
 }
 

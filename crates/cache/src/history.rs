@@ -53,7 +53,8 @@ impl History {
         });
     }
 
-    /// Stores the steps of this run. If the last run had more steps than this run, its further steps are kept.
+    /// Stores the steps of this run. If the last run had more steps than this run, the steps of the last run that this
+    /// run did not reach are kept.
     pub(crate) fn store(&mut self, folder: &Folder) {
         let Some(id) = self.id else { return };
         let n = self.this_run.len();
@@ -77,7 +78,8 @@ impl History {
         };
         let past = self.last_run.get(index).filter(is_same_step);
         let past = past.or_else(|| self.last_run.iter().find(is_same_step));
-        // The id of the step may have changed.
+        // The label of the step can differ between the runs, so a step with the same operation at the same index is
+        // also accepted.
         let is_same_operation = |past: &&PastStep| past.ingredients.operation == now.operation;
         let past = past.or_else(|| self.last_run.get(index).filter(is_same_operation));
         let Some(past) = past else {
@@ -142,7 +144,8 @@ fn parameter_changes(from: &str, to: &str) -> String {
         if from == to {
             None
         } else if from_short == to_short {
-            // The old and the new value are equal after shortening, so only the name is given.
+            // The old and the new value of the parameter are equal after they are shortened, so only the name of the
+            // parameter is given.
             Some(name.clone())
         } else {
             Some(format!("{name} {from_short} -> {to_short}"))

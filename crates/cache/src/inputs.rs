@@ -17,7 +17,7 @@ pub(crate) enum PathState {
     Content(Hash),
     /// A regular file whose content does not matter.
     Exists,
-    /// Not a regular file.
+    /// There is no regular file at the path.
     Missing,
 }
 
@@ -114,7 +114,7 @@ impl FileChecker {
         }
         let mut files = Vec::new();
         for path in &read {
-            // The file may have changed since its digest was computed.
+            // It is possible that the file has changed since its digest was computed, so the digest is computed again.
             self.known.remove(*path);
             let state = match self.content(path) {
                 Some(PathState::Content(_)) if self.is_new(path) => {
@@ -138,8 +138,8 @@ impl FileChecker {
         Ok(Inputs { requested, files })
     }
 
-    /// Whether a file was modified after the run started. If the file was modified after the start of the run, it is
-    /// not known which version of the file the step has read.
+    /// Whether a file was modified after the run started. If so, it is not known which version of the file the step has
+    /// read.
     fn is_new(&self, path: &Path) -> bool {
         let modified = std::fs::metadata(path).and_then(|meta| meta.modified());
         modified.is_ok_and(|at| at > self.run_start)

@@ -1,4 +1,4 @@
-//! The key of a step, the ingredients from which the key is computed, and the state of a scene.
+//! The key of a step, the ingredients (the data from which the key is computed), and the state of a scene.
 
 use op::Refusal;
 use serde::{Deserialize, Serialize};
@@ -37,7 +37,7 @@ pub(crate) struct Key(pub(crate) Hash);
 pub(crate) struct State(pub(crate) Hash);
 
 impl Ingredients {
-    /// Returns the ingredients of a step. Returns `None` if the step could not be read.
+    /// Returns the ingredients of a step, from which its key is computed. Returns `None` if the step could not be read.
     pub(crate) fn of(step: &RecipeStep, program: &str, budget: u64, before: State) -> Option<Self> {
         let operation = step.step.as_ref()?;
         Some(Self {

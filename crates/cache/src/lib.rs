@@ -11,10 +11,11 @@
 //!
 //! **Keys.** The key of a step is the digest of the data that determine its result and that are known before the step
 //! runs. The key depends on the program, the operation with its version and parameters, and the objects in `on`. The
-//! key also depends on the label that seeds random choices, the expected refusal, the memory budget, and the state
-//! before the step. The state after a step is the digest of its key and of the files that it read or looked for. The
-//! files that a step reads are known only after the step has run. Before a cached result is used, the digests of the
-//! current contents of these files are compared with the recorded digests. Modification times are not compared.
+//! key also depends on the label that seeds random choices, the memory budget, and the state before the step. If the
+//! recipe expects that the step is refused, the key depends on the expected reason, too. The state after a step is the
+//! digest of its key and of the files that it read or looked for. The files that a step reads are known only after the
+//! step has run. Before a cached result is used, the digests of the current contents of these files are compared with
+//! the recorded digests. Modification times are not compared.
 //!
 //! **Integrity.** Only regular files are read, not links, and only up to a maximum length. Every blob must match the
 //! digest in its name. Every record must match its digest, which depends on the secret key of the cache. Only the user
@@ -67,12 +68,12 @@ pub const DEFAULT_LIMIT: u64 = 4 << 30;
 #[derive(Debug)]
 pub struct Cache {
     folder: Folder,
-    /// In bytes.
+    /// The size limit in bytes.
     limit: u64,
     program: String,
 }
 
-/// How a run uses a cache.
+/// How a run of a recipe uses a cache.
 #[derive(Clone, Copy, Debug)]
 pub struct Caching<'a> {
     /// The cache.

@@ -40,7 +40,8 @@ pub(crate) struct Record {
 /// The output files of a step.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
 pub(crate) struct Outputs {
-    /// The provenance of the run. Steps can write the provenance into the output files.
+    /// The provenance of the run. The provenance is a text about the origin of the files, and steps can write it into
+    /// the output files.
     pub(crate) provenance: Option<String>,
     /// The requested paths: each path as written in the recipe, and the same path relative to the output folder.
     pub(crate) requested: Vec<(String, PathBuf)>,

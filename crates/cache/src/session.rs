@@ -22,7 +22,7 @@ use crate::record::{OutputFile, Outputs, Record, load, store};
 struct Position {
     /// The identity of the scene, if it is known.
     state: Option<State>,
-    /// The key and the record of the step that leads to this position.
+    /// The key and the record of the step that leads to this point of the run.
     step: Option<(Key, Record)>,
     /// Whether the record has changes that are not stored yet.
     is_dirty: bool,
@@ -39,7 +39,8 @@ pub(crate) struct Session<'a> {
     history: History,
     /// One position for the start of the run, and one for each step that is done.
     positions: Vec<Position>,
-    /// The ingredients of the step that was looked up last, if that step must run.
+    /// The ingredients (the data from which the key is computed) of the step that was looked up last, if that step must
+    /// run.
     ingredients: Option<Ingredients>,
     /// The computing time since the last stored scene.
     unstored_time: Duration,
@@ -303,9 +304,9 @@ impl<'a> Session<'a> {
         Err(first.unwrap_or(RerunReason::Gone))
     }
 
-    /// Checks that a step would still give its recorded result if it ran now. If the recorded result is still right and
-    /// a stage is given, restores the output files of the step into the stage. The stage is the folder that collects
-    /// output files until the run succeeds.
+    /// Checks that running a step now would still give its recorded result. If so, and if a stage is given, restores
+    /// the output files of the step into the stage. The stage is the folder that collects output files until the run
+    /// succeeds.
     fn use_record(
         &mut self,
         record: &Record,
@@ -321,8 +322,8 @@ impl<'a> Session<'a> {
         let Some(outputs) = &record.outputs else {
             return Ok(());
         };
-        // Without a stage, the run does not need the output files. A different provenance in the cached files then does
-        // not matter.
+        // Without a stage (a folder that collects the output files), the run does not need the output files. A
+        // different provenance in the cached files then does not matter.
         if stage.is_some() && outputs.provenance != files.provenance {
             return Err(RerunReason::Provenance);
         }
@@ -337,7 +338,7 @@ impl<'a> Session<'a> {
         let Some(stage) = stage else { return Ok(()) };
         let written = outputs.files.as_ref().ok_or(RerunReason::NotKept)?;
         // All files are first restored under temporary names. If one of the cached files is damaged, the files in the
-        // stage stay unchanged.
+        // stage (the folder that collects output files) stay unchanged.
         let part = |i: usize| stage.join(format!(".part-{i}"));
         let mut restored = written.iter().enumerate().try_for_each(|(i, file)| {
             if !is_below(&file.path) {
@@ -356,8 +357,8 @@ impl<'a> Session<'a> {
         restored
     }
 
-    /// Stores the scene after a step, if the scene can be restored exactly, and if it is small or takes at most as long
-    /// to store as to compute again.
+    /// Stores the scene after a step, if the scene can be restored exactly and storing is worthwhile: the scene is
+    /// small, or takes at most as long to store as to compute again.
     fn store_scene(&mut self, scene: &Scene, number: usize, label: &str) -> Option<SceneRef> {
         let bytes = estimated_bytes(scene);
         let why = if !is_dense(scene) {

@@ -28,7 +28,8 @@ pub(crate) fn inside(name: &str) -> Result<PathBuf, &'static str> {
                     return Err("leads out of the folder of the file");
                 }
             }
-            // A colon can belong to a drive (`C:`), a scheme (`file:`), or a named stream of a file on Windows.
+            // A part with a colon is refused. The colon can belong to a drive (`C:`), a scheme (`file:`), or a named
+            // stream of a file on Windows.
             _ if part.contains(':') => return Err("names a drive or a scheme"),
             _ if part.contains(char::is_control) => return Err("has control characters"),
             _ => parts.push(part),
@@ -57,7 +58,7 @@ pub(crate) fn inside_uri(uri: &str) -> Result<PathBuf, &'static str> {
     let mut decoded = Vec::new();
     for segment in uri.split('/') {
         let part = percent_decoded(segment).ok_or("has an invalid percent-encoding")?;
-        // Each segment is decoded after splitting, so an encoded separator does not split the path.
+        // The path is split at `/` before its segments are decoded, so an encoded `/` does not split the path.
         if part.contains(['/', '\\']) || (part != segment && (part == "." || part == "..")) {
             return Err("has a percent-encoded separator or dot segment");
         }
@@ -102,23 +103,25 @@ pub(crate) fn percent_encoded(name: &str) -> String {
     name.bytes().map(encode).collect()
 }
 
-/// A file that the result of reading depends on.
+/// A file on which the result of reading a model depends.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct FileDependency {
     /// The path of the file.
     pub path: PathBuf,
     /// True if the program read the file or tried to read it, false if the program only checked whether the file
-    /// exists. A file that the program tried to read is possibly missing.
+    /// exists. If the value is true, the file can still be missing, because a failed attempt to read the file also
+    /// counts.
     pub is_read: bool,
 }
 
-/// Gives access to the files that the requested file refers to, and records which files were accessed.
+/// Gives access to the files to which the requested file (the model that is read or written) refers, and records which
+/// files were accessed.
 pub(crate) struct Assets<'a> {
     store: &'a dyn Store,
-    /// The requested file.
+    /// The path of the requested file.
     pub(crate) path: &'a Path,
-    /// Folders in which images are searched first, before the folder of the requested file. These folders are relative
-    /// to the folder of the requested file.
+    /// Folders that are searched for images before the folder of the requested file is searched. Their paths are
+    /// relative to the folder of the requested file.
     pub(crate) image_folders: Vec<PathBuf>,
     seen: BTreeSet<FileDependency>,
 }
@@ -133,7 +136,8 @@ impl<'a> Assets<'a> {
         }
     }
 
-    /// The full path of a file, from a path that [`inside`] or [`inside_uri`] returned.
+    /// Converts a path that [`inside`] or [`inside_uri`] returned to a path that includes the folder of the requested
+    /// file.
     pub(crate) fn place(&self, name: &Path) -> PathBuf {
         folder_of(self.path).join(name)
     }
@@ -175,7 +179,7 @@ impl<'a> Assets<'a> {
         self.store.read_up_to(&real, limit).map_err(because)
     }
 
-    /// The files that were accessed, sorted.
+    /// The files that were accessed, sorted by path.
     pub(crate) fn into_files(self) -> Vec<FileDependency> {
         self.seen.into_iter().collect()
     }

@@ -9,7 +9,7 @@
 //! ```
 //!
 //! A `.bzc` file contains the number of control points, followed by the coordinates `x y` of each point. Numbers are
-//! separated by any number of blanks and line ends. There are no comments.
+//! separated by one or more blanks or line ends. There are no comments.
 
 use bezier::{Curve, Patch};
 use glam::{DVec2, DVec3};
@@ -155,8 +155,8 @@ fn push_line(out: &mut Vec<u8>, numbers: &[f64]) {
     out.push(b'\n');
 }
 
-/// Reads the number of items at the beginning of a file, and checks that the rest of the file is long enough for these
-/// items.
+/// Reads the number of items (patches or control points) at the beginning of a file, and checks that the rest of the
+/// file is long enough for these items.
 fn count(cursor: &mut Cursor, what: &str, numbers_each: usize) -> Result<usize, Fault> {
     let (place, word) = cursor.next_word();
     let n = parsed(word)

@@ -1,4 +1,5 @@
-//! Defines what each format can store. Both the writers and the checks of recipes before a run use these definitions.
+//! Defines what each format can store. The writers use these definitions. The program also uses them to check a recipe
+//! before the recipe runs.
 
 use mesh::{COLOR, CORNER_NORMAL, Domain, MATERIAL, SMOOTHING, UV, VERTEX_NORMAL, Values, counted};
 
@@ -17,14 +18,14 @@ pub enum Storage {
     Kept,
 }
 
-/// Determines which attributes of a mesh a file of a format stores.
+/// Determines which attributes of a mesh are stored in a file of a certain format.
 #[derive(Clone, Copy)]
 pub struct Stored<'a> {
     /// The format.
     pub format: Format,
-    /// The elements that the rows of a `.csv` file list.
+    /// For `.csv` files, the kind of elements that the file lists, one element in each row.
     pub rows: Rows,
-    /// Whether the mesh has an attribute with this name.
+    /// Whether the mesh has an attribute with this domain and name.
     pub has: &'a dyn Fn(Domain, &str) -> bool,
 }
 
@@ -39,8 +40,8 @@ impl Stored<'_> {
     }
 
     /// Returns how much of an attribute is stored. Only the type of `values` is used. If `values` is `None`, the
-    /// attribute is assumed to have the usual type of attributes with this name. Returns [`Storage::Partial`] if
-    /// attributes with this name have no usual type, and the result depends on the type.
+    /// attribute is assumed to have the usual type of attributes with this name. If there is no usual type, and
+    /// different types would give different results, returns [`Storage::Partial`].
     pub fn storage(&self, domain: Domain, name: &str, values: Option<&Values>) -> Storage {
         let of_type = |values: &Values| self.storage_of(domain, name, values);
         if let Some(values) = values {
@@ -74,7 +75,8 @@ impl Stored<'_> {
                 (Domain::Vertex, "normal", Values::Vec3(_)) => {
                     kept_if(!has(Domain::Corner, CORNER_NORMAL.name))
                 }
-                // Alpha is lost. A tag that no face has is lost, and the names of tags can change.
+                // The alpha of a color is lost. A tag (a named set of faces) is lost if no face has it, and the names
+                // of tags can change.
                 (Domain::Vertex, "color", Values::Vec4(_)) | (Domain::Face, _, Values::Tag(_)) => {
                     Partial
                 }
@@ -173,8 +175,8 @@ impl Format {
         matches!(self, Self::Gltf | Self::Glb | Self::Stl)
     }
 
-    /// Whether files of this format store the names of several objects. In some of the other formats, faces get tags
-    /// with these names.
+    /// Whether files of this format store the names of several objects. Files of the format `.ply` do not store these
+    /// names, but when several objects are written, each face gets a tag with the name of its object.
     pub const fn keeps_names(self) -> bool {
         !matches!(
             self,

@@ -1,4 +1,5 @@
-//! Assigns numbers to the distinct values on the corners around each vertex, for writers.
+//! Assigns numbers to the distinct values on the corners around each vertex. Writers use these numbers, for example, as
+//! indices of normals in OBJ files.
 
 use std::sync::atomic::AtomicU32;
 use std::sync::atomic::Ordering::Relaxed;
@@ -9,16 +10,16 @@ use mesh::{FaceId, HalfEdgeId, Mesh, Values, VertexId};
 /// The maximum number of distinct values at a vertex that a corner is compared with.
 const MAX_COMPARED: usize = 64;
 
-/// A number for each distinct value on the corners of each vertex of a mesh. The numbers increase in the order of the
-/// faces and their corners, and are unique in the whole mesh.
+/// Numbers for the distinct values at the corners of each vertex of a mesh. Corners of one vertex with the same value
+/// share a number. The numbers are assigned in the order of the faces and their corners, and are unique in the whole
+/// mesh.
 #[derive(Debug)]
 pub(crate) struct CornerNumbers {
     /// For each half-edge of a face, the first half-edge that starts at the same vertex and has the same value.
     same: Vec<AtomicU32>,
-    /// For each half-edge that is the first one at its vertex with its value, the number of this value. Numbers start
-    /// at 0.
+    /// The number of each value, stored at the first half-edge that has this value at its vertex. Numbers start at 0.
     numbers: Vec<AtomicU32>,
-    /// For each value, in the order of the numbers, the first half-edge with that value.
+    /// The first half-edge with each value. The values are in the order of their numbers.
     firsts: Vec<HalfEdgeId>,
 }
 
@@ -29,7 +30,8 @@ impl CornerNumbers {
     /// number.
     pub(crate) fn new(mesh: &Mesh, equal: impl Fn(HalfEdgeId, HalfEdgeId) -> bool + Sync) -> Self {
         // Each entry of `same` is written by only one task: the task that handles the origin of the half-edge. Each
-        // entry of `numbers` is also written by only one task: the task that handles the number.
+        // entry of `numbers` is also written by only one task: the task whose block of numbers contains the value of
+        // the entry.
         let unset = || -> Vec<AtomicU32> { mesh::zeroed(mesh.n_half_edges()) };
         let (same, numbers) = (unset(), unset());
         let number_of = |i: usize| u32::try_from(i).unwrap_or(u32::MAX);
@@ -70,14 +72,14 @@ impl CornerNumbers {
         }
     }
 
-    /// The number of the value at a corner, from 0.
+    /// The number that was assigned to the value at a corner. Numbers start at 0.
     #[inline]
     pub(crate) fn number(&self, h: HalfEdgeId) -> usize {
         let first = self.same[h.index()].load(Relaxed);
         self.numbers[first as usize].load(Relaxed) as usize
     }
 
-    /// For each value, in the order of the numbers, a corner with that value.
+    /// Returns a corner for each value. The values are in the order of their numbers.
     pub(crate) fn firsts(&self) -> &[HalfEdgeId] {
         &self.firsts
     }

@@ -9,9 +9,10 @@
 //! | name of an attribute | a number; for a tag, 1 if the element has the tag, otherwise 0 |
 //! | `name[0]`, `name[1]`, ... | the components of a vector |
 //!
-//! Lines end with a line feed, and fields with commas, quotes or line breaks are quoted (RFC 4180). Numbers have the
-//! fewest digits that restore the same 64-bit number. Numbers that are not finite are written as `nan`, `inf` and
-//! `-inf`. If the name of an attribute is already the name of another column, a number is appended to it.
+//! Lines end with a line feed, and fields with commas, quotes or line breaks are quoted (RFC 4180). Each number has the
+//! fewest digits from which a reader restores exactly the same 64-bit number. Numbers that are not finite are written
+//! as `nan`, `inf` and `-inf`. If the name of an attribute is already the name of another column, a number is appended
+//! to it.
 
 use mesh::{Domain, FaceId, HalfEdgeId, Mesh};
 use scene::{Geometry, Object, Scene};
@@ -80,7 +81,7 @@ struct Part {
     faces: usize,
 }
 
-/// The objects, in their order.
+/// The objects in the order of the scene.
 struct Parts(Vec<Part>);
 
 impl Parts {
@@ -101,8 +102,8 @@ impl Parts {
         Self(scene.objects().iter().map(part).collect())
     }
 
-    /// Returns the part that contains the current row, which is the last part for which `has_started` is true. If there
-    /// are several parts, also appends the name of this part to the row.
+    /// Returns the part (object) to which the current row belongs. This is the last part for which `has_started` is
+    /// true. If there are several parts, also appends the name of this part to the row.
     fn push(&self, out: &mut Vec<u8>, has_started: impl Fn(&Part) -> bool) -> &Part {
         let part = &self.0[self.0.partition_point(has_started) - 1];
         if self.0.len() > 1 {
@@ -186,7 +187,7 @@ fn quoted(name: &str) -> String {
     }
 }
 
-/// Returns the name if it is unused. If the name is used, appends the smallest number from 2 that makes the name
+/// Returns the name if it is unused. If the name is used, appends the smallest number (2 or more) that makes the name
 /// unused.
 pub(crate) fn unused(name: String, is_used: impl Fn(&str) -> bool) -> String {
     if !is_used(&name) {

@@ -21,14 +21,14 @@ pub(crate) fn leading_number(text: &[u8]) -> Option<(f64, usize)> {
 #[inline]
 pub(crate) fn up_to_eight_digits(text: &[u8], at: usize) -> (u64, usize) {
     let word = eight_bytes(text, at) ^ 0x3030_3030_3030_3030;
-    // In the lowest byte that is not a digit, the high bit is set. In all bytes below that byte, the high bit is 0. In
-    // the bytes above it, the high bits can be wrong, so only the lowest set bit is used.
+    // In `non_digits`, a set high bit marks a byte that is not a digit. The bits are right up to the lowest byte that
+    // is not a digit, and can be wrong in the bytes above it. Therefore, only the lowest set bit is used.
     let non_digits = (word.wrapping_add(0x7676_7676_7676_7676) | word) & 0x8080_8080_8080_8080;
     let count = non_digits.trailing_zeros() / 8;
     if count == 0 {
         return (0, 0);
     }
-    // Shifts the digits to the end of the word, so that zeros precede them.
+    // Shifts the digits to the highest bytes of the word. The bytes below them become 0 and act as leading zeros.
     let digits = word << (64 - 8 * count);
     let pairs = digits.wrapping_mul(10).wrapping_add(digits >> 8);
     let low = (pairs & 0x0000_00ff_0000_00ff).wrapping_mul(0x000f_4240_0000_0064);
@@ -85,7 +85,7 @@ fn push_short(out: &mut Vec<u8>, text: &[u8]) {
     }
 }
 
-/// Appends the lowest `n` bytes of a word.
+/// Appends the lowest `n` bytes of a 64-bit word, beginning with the lowest byte.
 #[inline]
 fn push_bytes(out: &mut Vec<u8>, word: u64, n: usize) {
     let end = out.len() + n;
@@ -93,7 +93,7 @@ fn push_bytes(out: &mut Vec<u8>, word: u64, n: usize) {
     out.truncate(end);
 }
 
-/// Appends an integer.
+/// Appends an integer in decimal.
 #[inline]
 pub(crate) fn push_whole(out: &mut Vec<u8>, value: usize) {
     match u64::try_from(value) {

@@ -35,7 +35,7 @@ pub enum ReadError {
         path: PathBuf,
         /// The line, from 1.
         line: usize,
-        /// The byte in the line, from 1.
+        /// The position within the line, in bytes, counted from 1.
         column: usize,
         /// What was expected and what was found.
         message: String,
@@ -111,8 +111,8 @@ impl ReadError {
     }
 }
 
-/// The reason why a scene could not be written. No file was changed, unless the system failed to rename one of several
-/// files.
+/// The reason why a scene could not be written. No file was changed, with one exception: if several files are written
+/// and the system fails to rename one of them, the files that were renamed before it are already replaced.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum WriteError {

@@ -16,11 +16,11 @@ pub(crate) struct Fault {
 /// A position in a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Location {
-    /// In a text file.
+    /// A position in a text file, as line and column.
     Text(TextPosition),
-    /// In a JSON document, as a JSON pointer.
+    /// A position in a JSON document, as a JSON pointer.
     Json(String),
-    /// In a binary file, as the offset in bytes from the beginning.
+    /// A position in a binary file, as the offset in bytes from the beginning.
     Byte(usize),
 }
 
@@ -68,7 +68,7 @@ impl Fault {
 pub(crate) struct TextPosition {
     /// The line, from 1.
     pub(crate) line: usize,
-    /// The byte in the line, from 1.
+    /// The position within the line, in bytes, counted from 1.
     pub(crate) column: usize,
 }
 

@@ -1,4 +1,5 @@
-//! The vertices of a file, without the copies of split vertices.
+//! The vertices of a file, without the copies of split vertices. When a mesh is not a manifold, a reader splits some
+//! vertices into an original and copies.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -14,8 +15,8 @@ pub(crate) const COPY_DISTANCE: &str = "distance to the original vertex";
 /// The vertices of a mesh without the copies of split vertices. These are the vertices of the file that the mesh was
 /// read from.
 pub(crate) struct FileVertices {
-    /// The vertices to write, and for each vertex of the mesh, the index with which it is written. `None` if the mesh
-    /// has no copies.
+    /// Two lists. The first contains the vertices to write. The second contains, for each vertex of the mesh, the index
+    /// with which the vertex is written. `None` if the mesh has no copies.
     originals: Option<(Vec<u32>, Vec<u32>)>,
     /// For each copy, a pair of the index with which it is written, and the index of the copy in the mesh. The pairs
     /// are sorted.

@@ -44,7 +44,7 @@ pub(crate) fn unpacked(path: &Path, bytes: Vec<u8>, most: u64) -> Result<Vec<u8>
         message,
     };
     let mut out = Vec::new();
-    // Memory is allocated only for content that was decompressed, so a wrong size in the file has no effect.
+    // Memory is allocated only for content that was decompressed, so a wrong size that the file declares has no effect.
     let mut decoder = MultiGzDecoder::new(&bytes[..]).take(most.saturating_add(1));
     let read = decoder.read_to_end(&mut out);
     read.map_err(|why| error(format!("the compressed content is damaged: {why}")))?;
@@ -58,7 +58,8 @@ pub(crate) fn unpacked(path: &Path, bytes: Vec<u8>, most: u64) -> Result<Vec<u8>
     Ok(out)
 }
 
-/// Reads at most `most` bytes from the beginning of the content of a file.
+/// Returns at most `most` bytes from the beginning of the content of a file. The content of a `.gz` file is
+/// decompressed.
 ///
 /// # Errors
 ///

@@ -41,7 +41,7 @@ pub enum Images {
 const MAX_IMAGES: usize = 4096;
 
 /// Loads the image files that the materials refer to. If an image cannot be read, its path is kept, and a note is
-/// added. `most` is the maximum total size in bytes.
+/// added. `most` is the maximum total size of the images in bytes.
 pub(crate) fn load(objects: &mut [Object], assets: &mut Assets, most: u64, notes: &mut Notes) {
     let mut known: BTreeMap<String, Option<Image>> = BTreeMap::new();
     let (mut room, mut n_further) = (most, 0);
@@ -144,7 +144,8 @@ fn slashed(path: &Path) -> String {
     parts.collect::<Vec<_>>().join("/")
 }
 
-/// Extensions of image files with their media types. New files get the first extension of their type.
+/// Extensions of image files with their media types. New image files get the first extension that is listed for their
+/// media type.
 const KINDS: [(&str, &str); 16] = [
     ("png", "image/png"),
     ("jpg", "image/jpeg"),
@@ -164,9 +165,9 @@ const KINDS: [(&str, &str); 16] = [
     ("svg", "image/svg+xml"),
 ];
 
-/// Returns the media type of an image file. The type is determined from its first bytes, or from its extension if the
-/// first bytes are not known. Returns `None` if the file does not seem to be an image, so that other files are never
-/// embedded or copied.
+/// Returns the media type of an image file. The first bytes of the file determine the type. If they are not known, the
+/// extension of the file determines it. Returns `None` if the file does not seem to be an image, so that other files
+/// are never embedded or copied.
 fn media_type(path: &Path, bytes: &[u8]) -> Option<&'static str> {
     let extension = path.extension().unwrap_or_default();
     let of_bytes = sniffed(bytes);
@@ -273,8 +274,8 @@ struct Copies<'a> {
     store: &'a dyn Store,
     /// The file of the model.
     path: &'a Path,
-    /// The paths that are already used, relative to the folder of the model. The value is `None` if the file is not an
-    /// image.
+    /// The paths that are already used, relative to the folder of the model, and the image at each path. The value is
+    /// `None` for a path that belongs to the model itself, such as its `.mtl` file.
     taken: BTreeMap<PathBuf, Option<Arc<[u8]>>>,
     files: Vec<(PathBuf, Content<'static>)>,
     folders: BTreeSet<PathBuf>,
@@ -317,7 +318,8 @@ impl<'a> Copies<'a> {
         Ok(slashed(&name))
     }
 
-    /// Whether the image can have this path. If no file with this path exists, adds the image to the files to write.
+    /// Whether the image can have this path: either no file has this path, or the existing file has the same content as
+    /// the image. If no file exists, adds the image to the files to write.
     fn is_free(&mut self, name: &Path, bytes: &Arc<[u8]>) -> Result<bool, WriteError> {
         let target = folder_of(self.path).join(name);
         if self.store.exists(&target) {

@@ -24,7 +24,7 @@ impl Polygons {
     ///
     /// # Errors
     ///
-    /// Returns Returns [`ReadError::Mesh`] if the polygons do not form a valid mesh or the policies refuse them.
+    /// Returns [`ReadError::Mesh`] if the polygons do not form a valid mesh or the policies refuse them.
     pub(crate) fn into_mesh(
         mut self,
         path: &Path,
@@ -140,7 +140,7 @@ fn mark_copies(built: &mut BuildOutput, n_positions: usize) {
 /// For each element of the mesh, the element of the input that its attribute values come from.
 struct Sources {
     n_positions: usize,
-    /// The original vertex of each copy. Copies come after the original vertices.
+    /// For each copy of a split vertex, the original vertex. Copies come after the original vertices.
     copies: Vec<usize>,
     /// For each half-edge, 1 plus the index of its corner in the input, or 0 if the half-edge has no face. Each entry
     /// is written once.

@@ -14,9 +14,10 @@ use crate::writing::dense;
 /// The joined mesh of a scene.
 #[derive(Debug)]
 pub(crate) struct Joined<'a> {
-    /// The mesh without removed elements. The meshes of several objects are appended in order.
+    /// The joined mesh. Elements that were removed from the meshes of the objects are left out. The meshes of several
+    /// objects are appended in order.
     pub(crate) mesh: Cow<'a, Mesh>,
-    /// The object name in reports of losses. It is the name of the first object.
+    /// The object name that the reported losses contain. It is the name of the first object.
     pub(crate) name: String,
     pub(crate) losses: Vec<Loss>,
 }

@@ -129,7 +129,7 @@ pub struct ReadOptions {
     /// its extension, and all objects of an `.mws` file keep their names. In glTF and COLLADA files, an object has the
     /// name of its node or, if the node has no name, of its mesh.
     pub name: Option<String>,
-    /// How to handle polygons that do not form a clean mesh.
+    /// How to handle polygons that do not form a clean mesh, for example duplicate faces.
     pub policies: Policies,
     /// How nodes place meshes. COLLADA files are always read with [`Placements::Bake`].
     pub placements: Placements,
@@ -138,7 +138,7 @@ pub struct ReadOptions {
     /// Whether reading marks the copies of vertices. When a mesh is not a manifold, reading splits vertices into
     /// copies. If the mesh is then written to an `.obj`, `.ply`, `.off`, `.gltf` or `.glb` file, the marked copies are
     /// merged again. The written file then has the same vertices as the file that was read. This option is for
-    /// conversions without edits.
+    /// converting a file to another format without editing its mesh.
     pub keep_vertices: bool,
     /// The memory budget in bytes. The budget is the maximum size of all images together, and also the maximum size of
     /// the decompressed content of a `.gz` file. Defaults to 4 GiB.
@@ -167,29 +167,30 @@ pub struct WriteOptions {
     pub provenance: Option<String>,
     /// How the images of materials are written. If `None`, images are embedded in `.glb` files. For `.gltf` and `.obj`
     /// files, images in the folder of the original model are copied to the folder of the written file. OBJ files cannot
-    /// embed images, so embedded images are also written to files.
+    /// embed images. Therefore, for `.obj` files, images that are embedded in the original model are also written to
+    /// separate files.
     pub images: Option<Images>,
     /// How to compress the geometry of glTF files. If `None`, the geometry is not compressed. If this option is set,
-    /// files of other formats are refused.
+    /// writing a file of any other format fails.
     pub compression: Option<Compression>,
-    /// How to quantize the geometry of glTF files. If `None`, numbers have 32 bits. If this option is set, files of
-    /// other formats are refused.
+    /// How to quantize the geometry of glTF files. If `None`, numbers have 32 bits. If this option is set, writing a
+    /// file of any other format fails.
     pub quantization: Option<Quantization>,
     /// For glTF, the maximum number of sets of four joints that are written for each vertex of a skinned mesh. If
     /// `None`, the maximum is the number of sets in the original file of the mesh, or 1 if the mesh was not read from a
     /// file.
     pub weight_sets: Option<u32>,
     /// The kind of elements of a `.csv` file. Each element has a row. If `None`, the rows list vertices. If this option
-    /// is set, files of other formats are refused.
+    /// is set, writing a file of any other format fails.
     pub rows: Option<Rows>,
     /// Whether writing fails if the file would not store everything.
     pub strict: bool,
 }
 
-/// The files that were written.
+/// What was written: the files, and the losses.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WriteReport {
-    /// The files. The last file in the list is the requested file.
+    /// The files that were written. The last file in the list is the requested file.
     pub files: Vec<PathBuf>,
     /// The total size of the files in bytes.
     pub bytes: u64,
@@ -217,9 +218,9 @@ pub fn read(store: &dyn Store, path: &Path, options: &ReadOptions) -> Result<Loa
     Ok(loaded)
 }
 
-/// Reads the objects of a file from its bytes. The format is determined by `path`, which also appears in errors and
-/// locates the files that this file refers to. [`Loaded::files`] lists only the files that this file refers to, whereas
-/// [`read()`] also lists `path`.
+/// Reads the objects of a file from its bytes. `path` determines the format and appears in errors. Files that this file
+/// refers to are searched relative to the folder of `path`. [`Loaded::files`] lists only the files that this file
+/// refers to, whereas [`read()`] also lists `path`.
 ///
 /// # Errors
 ///
@@ -264,7 +265,7 @@ pub fn read_bytes(
 }
 
 /// Reads the polygons of a file without building meshes, for programs that need no connectivity. Curves, patches,
-/// polylines and all objects of `.mws` files are left out. The placements of nodes are applied as with
+/// polylines and all objects of `.mws` files are left out. The transforms of nodes are applied to the points, as with
 /// [`Placements::Bake`].
 ///
 /// # Errors
@@ -367,7 +368,8 @@ fn fail_if_left_out(path: &Path, notes: &[Note]) -> Result<(), ReadError> {
 /// Returns the objects that reading a file would give, with the numbers of their elements. If the format has a header
 /// with these numbers, they are taken from the header.
 ///
-/// Also returns notes about the content that reading would leave out, as far as it is known without reading.
+/// Also returns notes about the content that reading would leave out, as far as this content can be found without
+/// building the objects.
 ///
 /// Bezier and `.mws` files are checked completely. In glTF files, only the JSON is checked. OBJ files are not checked:
 /// their statements are only counted.
@@ -444,7 +446,8 @@ pub fn peek(store: &dyn Store, path: &Path, options: &ReadOptions) -> Result<Pee
 /// # Errors
 ///
 /// Returns a [`WriteError`] if the format cannot store the scene or the files cannot be written. If writing fails,
-/// existing files are unchanged, unless the system failed to rename one of several files.
+/// existing files are unchanged, with one exception: if the system fails to rename one of several files, the files that
+/// were renamed before it are already replaced.
 pub fn write(
     store: &dyn Store,
     path: &Path,
@@ -479,7 +482,7 @@ pub fn write(
     Ok(report)
 }
 
-/// Writes a scene whose placements the format can store.
+/// Writes a scene from which `placed` has already removed the nodes if the format cannot store nodes.
 fn write_placed(
     store: &dyn Store,
     path: &Path,
@@ -496,9 +499,10 @@ fn write_placed(
         scene,
         files: mut all,
     } = images::settle(store, path, format, scene, options)?;
-    // In the scene, the copies of split vertices are marked. The writers of OBJ, PLY, OFF and glTF use these marks to
-    // merge the copies again. For all other formats, the marks are removed. Files of these formats contain all copies,
-    // and some readers merge them by position.
+    // When a reader builds a mesh that is not a manifold, it splits vertices into copies. In the scene, these copies
+    // are marked. The writers of OBJ, PLY, OFF and glTF use these marks to merge the copies again. For all other
+    // formats, the marks are removed. The files of those other formats contain all copies, and some readers of these
+    // formats merge vertices with equal positions.
     let scene = &*if keeps_vertices(path) {
         scene
     } else {

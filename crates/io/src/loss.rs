@@ -13,7 +13,8 @@ use crate::{Format, Rows, Storage, Stored};
 pub struct Loss {
     /// The name of the object. The name is empty if the loss concerns the whole scene, such as its cameras.
     pub object: String,
-    /// The domain of the lost values. `None` if the loss concerns the object as a whole.
+    /// The domain (vertices, edges, faces or corners) of the lost values. `None` if the loss concerns the object as a
+    /// whole.
     pub domain: Option<Domain>,
     /// The name of the attribute, or of another part of the object, such as `materials`.
     pub attribute: String,
@@ -23,8 +24,8 @@ pub struct Loss {
     pub reason: String,
 }
 
-/// The names of lost parts that are not attributes. Unlike for other such parts, the losses of these parts have a
-/// domain.
+/// The names of lost parts that are not attributes, but whose losses can have a domain. The losses of all other parts
+/// that are not attributes have no domain.
 const NOT_ATTRIBUTES: [&str; 4] = ["influences", "joint weights", "morph targets", "polygon"];
 
 impl Loss {
@@ -114,7 +115,7 @@ impl<'a> Losses<'a> {
         Losses::of(object, self.list)
     }
 
-    /// Adds a loss unless `count` is 0.
+    /// Adds a loss (content that the file does not store), unless `count` is 0.
     pub(crate) fn add(
         &mut self,
         domain: impl Into<Option<Domain>>,
@@ -133,7 +134,8 @@ impl<'a> Losses<'a> {
         }
     }
 
-    /// Adds a loss for every column of `mesh` that the format cannot store, or for which `is_stored` returns false.
+    /// Adds a loss for every attribute column of `mesh` that the format cannot store, or for which `is_stored` returns
+    /// false.
     pub(crate) fn add_columns(
         &mut self,
         mesh: &Mesh,

@@ -8,7 +8,8 @@
 //! ```
 //!
 //! Reading restores everything: the order of all elements, names, materials with their content, and every attribute,
-//! including the rule for its values at new elements. Other programs do not read this format.
+//! including the rule that computes the values of the attribute at new elements. Other programs do not read this
+//! format.
 
 use scene::{Graph, NoArrays, Scene};
 
@@ -89,7 +90,7 @@ pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> SingleFile {
     (bytes, Vec::new())
 }
 
-/// Returns the provenance of a file, if the file is a Meshwright scene and stores one.
+/// Returns the provenance of a file (a text about its origin), if the file is a Meshwright scene and stores one.
 pub(crate) fn provenance(bytes: &[u8]) -> Option<String> {
     let (provenance, _) = split(bytes)?;
     let text = std::str::from_utf8(provenance).ok()?;

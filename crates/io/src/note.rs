@@ -22,7 +22,7 @@ pub struct Note {
     pub line: Option<usize>,
     /// The number of elements, statements or other things that the note is about.
     pub count: usize,
-    /// The text that follows the count, such as `statements 'vp' left out`. It is in the plural if the count can
+    /// The text that follows the count, such as `statements 'vp' left out`. The text is in the plural if the count can
     /// exceed 1. The text names the elements, statements or other things, and says how the reader handled them. If the
     /// count is 1, [`Display`](fmt::Display) writes the first noun in the singular.
     pub what: String,
@@ -217,7 +217,7 @@ const MAX_LISTED: usize = 1000;
 pub(crate) struct Notes {
     path: PathBuf,
     list: Vec<Note>,
-    /// The number of notes that are counted but not listed.
+    /// For each kind of note, the number of notes that are counted but not listed.
     unlisted: BTreeMap<NoteKind, usize>,
 }
 

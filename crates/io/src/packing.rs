@@ -113,7 +113,7 @@ pub struct PackingReport {
     /// The size in bytes of the same files as written.
     pub bytes_after: u64,
     /// The largest distance between a position and its quantized position, in scene units. `None` if no positions are
-    /// quantized. If the placement of a node has a shear, this value is an upper bound of the distance.
+    /// quantized. If the transform of a node has a shear, this value is an upper bound of the distance.
     pub position_error: Option<f64>,
     /// The largest angle between a normal or a tangent and its quantized direction, in degrees.
     pub normal_error: Option<f64>,

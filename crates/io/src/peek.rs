@@ -1,4 +1,5 @@
-//! Counts the content of a file without building its objects. The counts are used to estimate a run before it starts.
+//! Counts the content of a file without building its objects. The counts are used to estimate a run of a recipe before
+//! the run starts.
 
 use std::ops::RangeInclusive;
 
@@ -28,7 +29,7 @@ pub struct Peek {
 pub struct PeekObject {
     /// The name of the object.
     pub name: String,
-    /// The kind of its geometry, and the numbers of its elements.
+    /// The kind of the geometry of the object, and the numbers of its elements.
     pub geometry: PeekGeometry,
     /// The names of the materials of the object. `None` if the names are known only after reading.
     pub materials: Option<Vec<String>>,
@@ -48,7 +49,7 @@ impl PeekObject {
         }
     }
 
-    /// Sets the attributes that the flags of the mesh do not describe.
+    /// Sets the attributes that the flags of [`PeekMesh`] do not describe.
     pub(crate) fn with_attributes(self, attributes: Vec<(Domain, String)>) -> Self {
         Self {
             attributes: Some(attributes),
@@ -107,7 +108,7 @@ impl PeekGeometry {
     }
 }
 
-/// The numbers of elements and the attributes of a mesh, according to its file.
+/// The attributes of a mesh and the numbers of its elements, according to its file.
 ///
 /// Reading never gives more faces or corners than these counts. Reading can give more vertices, because non-manifold
 /// vertices and edges are split. Reading can also give fewer vertices, for example because a glTF file has a separate
@@ -136,7 +137,7 @@ pub struct PeekMesh {
     pub colors: bool,
     /// Whether faces have materials.
     pub materials: bool,
-    /// The maximum number of joints for which vertices can have weights.
+    /// The maximum number of different joints that have weights in the mesh.
     pub joints: u64,
     /// The number of morph targets.
     pub targets: u64,
@@ -162,7 +163,7 @@ pub struct PeekRanges {
     pub edges: RangeInclusive<u64>,
     /// The number of faces.
     pub faces: RangeInclusive<u64>,
-    /// How many corners each face has.
+    /// The number of corners of each face.
     pub degrees: RangeInclusive<u64>,
 }
 

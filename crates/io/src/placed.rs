@@ -10,14 +10,16 @@ use crate::{Format, Loss, WriteError};
 /// A scene in the form that a format can store.
 pub(crate) struct Placed<'s> {
     pub(crate) scene: Cow<'s, Scene>,
-    /// The parts of the graph that the format does not store.
+    /// The parts of the graph (nodes, cameras, lights, skins and animations) that the format does not store.
     pub(crate) losses: Vec<Loss>,
 }
 
-/// The maximum size of all placed meshes, in bytes. The size is limited because many nodes can reference the same mesh.
+/// The maximum total size, in bytes, of the meshes that are written for all nodes. The size is limited because many
+/// nodes can reference the same mesh.
 const MAX_PLACED_BYTES: u64 = 1 << 36;
 
-/// Returns the scene for a format. If the format has no nodes, every instance becomes an object in scene space.
+/// Returns the scene for a format. If the format has no nodes, every instance of an object becomes a separate object,
+/// with its points in scene space.
 ///
 /// # Errors
 ///

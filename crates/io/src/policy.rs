@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// How to handle polygons that do not form a clean mesh.
+/// How to handle polygons that do not form a clean mesh, for example because some edges have more than two faces.
 ///
 /// Repeated vertices in a face are always handled in the same way. A corner that repeats the vertex of the previous
 /// corner is removed: `f 1 2 2 3` is a triangle. A face that still contains a vertex twice is left out, because a mesh
@@ -31,7 +31,7 @@ pub enum NonManifold {
     /// Split edges and vertices until the faces form a manifold, and list the splits in the report.
     #[default]
     Split,
-    /// Fail.
+    /// Refuse to read the file.
     Refuse,
 }
 

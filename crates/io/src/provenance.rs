@@ -88,7 +88,8 @@ fn of_png(bytes: &[u8]) -> Option<String> {
 
 /// The metadata of an SVG file, if it is plain text.
 fn of_svg(bytes: &[u8]) -> Option<String> {
-    // Only the beginning of the file is searched, and this part can end in the middle of a character.
+    // Only the beginning of the file is searched, and this part can end in the middle of a character. Therefore,
+    // invalid UTF-8 is accepted.
     let text = String::from_utf8_lossy(bytes);
     let (_, behind) = text.split_once("<metadata>")?;
     let (text, _) = behind.split_once("</metadata>")?;

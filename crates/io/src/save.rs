@@ -21,7 +21,7 @@ pub(crate) enum Content<'a> {
     Blocks(Vec<Block<'a>>),
 }
 
-/// A function that appends a block of a few hundred kilobytes to a file.
+/// A function that appends one block of a file, a few hundred kilobytes, to a buffer.
 pub(crate) type Block<'a> = Box<dyn Fn(&mut Vec<u8>) + Send + Sync + 'a>;
 
 /// Writes all files to temporary files first. When all temporary files are complete, moves them to their paths in the
@@ -60,7 +60,7 @@ pub(crate) fn save(
 }
 
 impl Content<'_> {
-    /// Returns the number of bytes written.
+    /// Writes the content, and returns the number of bytes written.
     fn write(&self, out: &mut (dyn Write + Send)) -> io::Result<u64> {
         let n_bytes = match self {
             Content::Bytes(bytes) => {

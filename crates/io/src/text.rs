@@ -64,7 +64,7 @@ impl<'a> Cursor<'a> {
         self.line_start = self.at;
     }
 
-    /// The number of bytes left.
+    /// The number of bytes from the cursor to the end.
     pub(crate) fn remaining(&self) -> usize {
         self.bytes.len() - self.at
     }
@@ -154,7 +154,7 @@ impl<'a> Cursor<'a> {
         (self.place(), self.word())
     }
 
-    /// Moves to the first line that has a word, or to the end of the text.
+    /// Skips blanks, line ends and comments, up to the next word or the end of the text.
     pub(crate) fn skip_empty_lines(&mut self) {
         loop {
             self.skip_white();

@@ -1,8 +1,8 @@
 //! Merges vertices with exactly equal positions.
 //!
-//! Positions are distributed over buckets by a hash. Each bucket finds its equal positions in a small table that fits
-//! in the processor cache. Buckets are processed in parallel. Of several equal positions, the first is kept, and the
-//! kept positions stay in order. Therefore, the result does not depend on the hash.
+//! Positions are distributed over buckets by a hash. To find equal positions, each bucket uses a small hash table that
+//! fits in the processor cache. Buckets are processed in parallel. Of several equal positions, the first is kept, and
+//! the kept positions stay in order. Therefore, the result does not depend on the hash.
 
 use std::cmp::Ordering;
 use std::hash::{BuildHasher, RandomState};
@@ -35,7 +35,7 @@ pub(crate) fn n_merged_as(mesh: &Mesh, round: impl Fn(DVec3) -> DVec3 + Sync) ->
     used.len() - weld(places).0.len()
 }
 
-/// Returns the vertices with faces, without the copies of split vertices.
+/// Returns the vertices with faces. Copies that a reader made by splitting vertices are left out.
 fn vertices_with_faces(mesh: &Mesh) -> Vec<usize> {
     let file = FileVertices::of(mesh);
     parallel::filter(mesh.n_vertices(), |v| {
@@ -138,8 +138,9 @@ pub(crate) fn weld_equal(
     (positions.collect(), vertex_of)
 }
 
-/// Splits each class of elements into classes of equal elements. Returns the first element of each class in ascending
-/// order, and for each element, the index of its class in this list.
+/// The elements are already divided into classes, and `classes` contains the class of each element. Splits each class
+/// into smaller classes of elements that are equal according to `compare`. Returns the first element of each smaller
+/// class in ascending order, and for each element, the index of its smaller class in this list.
 pub(crate) fn split_unequal(
     classes: &[u32],
     compare: impl Fn(usize, usize) -> Ordering + Sync,
@@ -172,14 +173,13 @@ pub(crate) fn split_unequal(
     (firsts, vertex_of.collect())
 }
 
-/// For each position, the index of the first equal position.
+/// For each position, the index of the first position that is equal to it.
 fn firsts(positions: &[DVec3]) -> Vec<u32> {
     let buckets = (positions.len() / BUCKET + 1)
         .next_power_of_two()
         .min(MAX_BUCKETS);
     let keys = Keys::new();
-    // In `sorted`, the positions of each chunk are ordered by bucket. Each position is stored as its hash and its
-    // index.
+    // `sorted` has the positions of each chunk, ordered by bucket. Each position is stored as its hash and its index.
     let mut sorted = mesh::zeroed::<u64>(positions.len());
     let chunks = sorted.chunks_mut(CHUNK).zip(positions.chunks(CHUNK));
     let starts: Vec<Vec<usize>> = parallel::consume(chunks, |chunk, (sorted, positions)| {
@@ -258,7 +258,7 @@ impl Table {
     }
 }
 
-/// Adding 0 turns -0 into 0, so that -0 and 0 are equal.
+/// Adding 0 turns -0 into 0, so that both have the same bits.
 fn bits(p: DVec3) -> [u64; 3] {
     p.to_array().map(|x| (x + 0.0).to_bits())
 }
@@ -283,7 +283,7 @@ impl Keys {
     }
 }
 
-/// Returns the index in an entry.
+/// Returns the index that a table entry stores.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "the index is in the lower half"

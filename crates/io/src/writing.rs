@@ -9,7 +9,7 @@ use crate::corners::vertex_values;
 use crate::loss::Losses;
 use mesh::parallel;
 
-/// Returns the mesh, or a compacted copy if it has removed elements.
+/// Returns the mesh itself or, if elements were removed from it, a compacted copy without gaps in its arrays.
 pub(crate) fn dense(mesh: &Mesh) -> Cow<'_, Mesh> {
     if mesh.is_dense() {
         return Cow::Borrowed(mesh);
@@ -54,7 +54,7 @@ pub(crate) fn uvs_of_vertices(mesh: &Mesh, uvs: &Values) -> Option<Values> {
 /// The reason that is reported when non-finite numbers are lost.
 pub(crate) const NOT_FINITE: &str = "non-finite numbers, written as 0";
 
-/// Returns the values of a column. Replaces non-finite values by zero, and adds a loss for them.
+/// Returns the values of a column, with non-finite values replaced by zero. Adds a loss for the replaced values.
 pub(crate) fn finite<'a>(
     domain: Domain,
     column: &'a Column,

@@ -5,10 +5,10 @@ use super::parser::Parser;
 use crate::diagnostic::Diagnostic;
 
 impl Parser<'_> {
-    /// Reads an attribute. `current` is the `#` of the attribute.
+    /// Reads an attribute. The token `current` is the `#` of the attribute.
     ///
     /// `#![type = ".."]` and `#![schema = ".."]` are for editors only and are ignored. These attributes must be at the
-    /// start of the text. `is_start` states whether this attribute is at the start.
+    /// start of the text. `is_start` is true if this attribute is at the start.
     pub(super) fn attribute(&mut self, is_start: bool) {
         let start = self.bump().span;
         let bang = self.take(TokenKind::Bang);

@@ -18,8 +18,8 @@ pub struct Diagnostic {
     pub labels: Vec<(Span, String)>,
     /// How to correct the text.
     pub help: Option<String>,
-    /// The calls that led to the text, innermost first. Each entry has the index of the text that contains the call,
-    /// and the span of the call in that text.
+    /// If other source texts called this text: the chain of these calls, innermost first. Each entry has the index of
+    /// the text that contains the call, and the span of the call in that text.
     pub calls: Vec<(usize, Span)>,
 }
 
@@ -53,7 +53,7 @@ impl Diagnostic {
         }
     }
 
-    /// Adds a label.
+    /// Adds a label: another relevant span with a short explanation.
     #[must_use]
     pub fn with_label(mut self, span: Span, text: impl Into<String>) -> Self {
         self.labels.push((span, text.into()));

@@ -13,7 +13,7 @@ pub(super) struct Contents {
     pub(super) fields: Vec<Field>,
     values: Vec<Value>,
     entries: Vec<(Value, Value)>,
-    /// Whether all items so far could be read.
+    /// Whether all items that were parsed so far could be read.
     complete: bool,
 }
 
@@ -25,7 +25,7 @@ impl Contents {
 }
 
 impl Parser<'_> {
-    /// Parses the group whose opening bracket is `current`.
+    /// Parses the group whose opening bracket is the token `current`.
     pub(super) fn group(&mut self, bracket: Bracket, has_name: bool) -> Value {
         if self.open.len() >= MAX_DEPTH {
             return self.skip_group();
@@ -336,8 +336,8 @@ impl Parser<'_> {
             let text = format!("and this `{}`", open.bracket.open());
             diagnostic = diagnostic.with_label(open.span, text);
         }
-        // The groups around this one also end at this token, but `complain` reports only the first error about
-        // `current`.
+        // The groups around this one also end at this token, but `complain` reports only the first error about the
+        // token `current`.
         self.complain(diagnostic);
     }
 }

@@ -112,16 +112,17 @@ pub struct Lexer<'s> {
     at: usize,
     /// Whether a `"` string must end in the line in which it starts.
     lines_end_strings: bool,
-    /// No raw string with at least this number of hashes ends in the rest of the text.
+    /// The rest of the text has no end of a raw string with this number of hashes or more.
     unclosed_hashes: usize,
 }
 
 impl<'s> Lexer<'s> {
     /// Creates a lexer for `source`.
     ///
-    /// A string can span several lines. If a quote is missing, everything after it is misread: strings as other tokens,
-    /// and other tokens as strings. Therefore, if a source text has an unclosed string, every string except raw strings
-    /// ends at the end of its line at the latest. Only the line with the missing quote is then misread.
+    /// A string can span several lines. If a closing quote is missing, everything after that point is misread: strings
+    /// as other tokens, and other tokens as strings. Therefore, if a source text has an unclosed string, every string
+    /// except raw strings ends at the end of its line at the latest. Only the line with the missing quote is then
+    /// misread.
     pub fn new(source: &'s str) -> Self {
         let mut lexer = Self {
             source,
@@ -247,7 +248,7 @@ impl Iterator for Lexer<'_> {
         let first = rest.chars().next()?;
         let (kind, mut length) = self.token(rest, first);
         // `string` skips two bytes for an escape. The second byte can be beyond the end of the text, or be the first
-        // byte of a longer character.
+        // byte of a longer character, so the length is corrected here.
         length = length.clamp(first.len_utf8(), rest.len());
         while !rest.is_char_boundary(length) {
             length += 1;
@@ -281,7 +282,7 @@ fn quoted(text: &str) -> (TokenKind, usize) {
     match (first, second) {
         (Some((_, '\\')), Some((i, escaped))) => {
             let from = 1 + i + escaped.len_utf8();
-            // The longest escape is `\u{10ffff}`.
+            // The longest escape, `\u{10ffff}`, has ten characters.
             let mut following = text[from..].char_indices().take(10);
             if let Some((end, _)) = following.find(|&(_, c)| c == '\'') {
                 return (TokenKind::Char, from + end + 1);

@@ -8,8 +8,8 @@
 //!
 //! The `ron` crate stops at the first syntax error and gives little information about its location. This parser
 //! continues after an error, so that all errors are reported. Spans have two uses: later checks report them in their
-//! errors, and programs rewrite recipes without losing comments. [`Value`] is a [`serde::Deserializer`], so a value is
-//! read into a Rust type without parsing the text again.
+//! errors, and programs use them to rewrite recipes without losing comments. [`Value`] is a [`serde::Deserializer`], so
+//! a value is read into a Rust type without parsing the text again.
 
 mod attribute;
 mod de;

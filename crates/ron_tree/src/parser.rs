@@ -64,7 +64,7 @@ pub fn parse(source: &str) -> Parsed {
 /// A token that is neither whitespace nor a comment, or the end of the text.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lexeme {
-    /// `None` at the end of the text.
+    /// The kind of the token, or `None` at the end of the text.
     pub(super) kind: Option<TokenKind>,
     pub(super) span: Span,
     /// The number of line feeds before the token.
@@ -80,9 +80,9 @@ pub(super) struct Parser<'s> {
     pub(super) lexer: Lexer<'s>,
     pub(super) current: Lexeme,
     pub(super) next: Lexeme,
-    /// The end of the last token before `current`.
+    /// The end of the last token before the token `current`.
     pub(super) previous_end: usize,
-    /// The brackets around `current`, outermost first.
+    /// The open brackets around the token `current`, outermost first.
     pub(super) open: Vec<OpenBracket>,
     diagnostics: Vec<Diagnostic>,
     /// The start of the token that the last error is about. No second error is reported about this token.
@@ -121,7 +121,7 @@ impl<'s> Parser<'s> {
         parser
     }
 
-    /// Consumes `current` and returns it. At the end of the text, nothing is consumed.
+    /// Consumes the token `current` and returns it. At the end of the text, nothing is consumed.
     pub(super) fn bump(&mut self) -> Lexeme {
         let consumed = self.current;
         if consumed.kind.is_some() {
@@ -132,7 +132,7 @@ impl<'s> Parser<'s> {
         consumed
     }
 
-    /// Returns the lexeme after `next`.
+    /// Reads the lexeme (a token that is neither whitespace nor a comment) after `next`.
     fn lexeme(&mut self) -> Lexeme {
         if self.next.kind.is_none() && self.next.span.end > 0 {
             return self.next;
@@ -158,8 +158,8 @@ impl<'s> Parser<'s> {
                         Diagnostic::error(start, "this comment is not closed")
                             .with_help("end it with `*/`"),
                     );
-                    // Errors at the end of the text are possibly only consequences of the unclosed comment, so they are
-                    // not reported.
+                    // Errors at the end of the text can be mere consequences of the unclosed comment, so they are not
+                    // reported.
                     after_invalid = true;
                 }
                 _ => break (Some(kind), span),
@@ -175,7 +175,7 @@ impl<'s> Parser<'s> {
         }
     }
 
-    /// Reports an error that is not about `current`.
+    /// Reports an error that is not about the token `current`.
     pub(super) fn report(&mut self, diagnostic: Diagnostic) {
         if self.stopped {
             return;
@@ -187,7 +187,7 @@ impl<'s> Parser<'s> {
         }
     }
 
-    /// Reports an error about `current`, unless an error about `current` was already reported.
+    /// Reports an error about the token `current`, unless an error about this token was already reported.
     pub(super) fn complain(&mut self, diagnostic: Diagnostic) {
         let start = self.current.span.start;
         // An unclosed string or a bad character is always an error, and `value` reports it.
@@ -210,17 +210,17 @@ impl<'s> Parser<'s> {
         self.complain(Diagnostic::error(self.current.span, message));
     }
 
-    /// Reports that something is missing before `current`.
+    /// Reports that something is missing before the token `current`.
     pub(super) fn missing(&mut self, what: &str) {
         self.complain(Diagnostic::error(self.gap(), format!("missing {what}")));
     }
 
-    /// Returns the empty span after the last token before `current`.
+    /// Returns the empty span at the end of the last token before the token `current`.
     pub(super) fn gap(&self) -> Span {
         Span::new(self.previous_end, self.previous_end)
     }
 
-    /// Returns an error value in place of a value that is missing before `current`.
+    /// Returns an error value in place of a value that is missing before the token `current`.
     pub(super) fn missing_value(&self) -> Value {
         Value::new(self.gap(), ValueKind::Error)
     }
@@ -242,7 +242,7 @@ impl<'s> Parser<'s> {
         self.current = self.next;
     }
 
-    /// Consumes `current` if it has this kind, and returns whether it does.
+    /// Consumes the token `current` if it has this kind, and returns whether it does.
     pub(super) fn take(&mut self, kind: TokenKind) -> bool {
         let found = self.current.kind == Some(kind);
         if found {
@@ -251,7 +251,7 @@ impl<'s> Parser<'s> {
         found
     }
 
-    /// Parses a value. If no value starts with `current`, reports an error and consumes nothing.
+    /// Parses a value. If no value starts with the token `current`, reports an error and consumes nothing.
     pub(super) fn value(&mut self, expected: &str) -> Value {
         use TokenKind as K;
         self.values += 1;

@@ -8,7 +8,7 @@ use crate::diagnostic::Span;
 /// The path starts at the outermost value. The path consists of the names of fields, variants and keys, and of the
 /// indices of items (counted from 0), as in the JSON form. For example, `["edges", "Random", "count"]` leads to the 24
 /// in `FlipEdges(edges: Random(count: 24))`. The path can omit the names of calls, and the index of the only value in
-/// parentheses. It never contains `Some`. If the value at `path` does not exist, returns the span of the deepest
+/// parentheses. The path never contains `Some`. If the value at `path` does not exist, returns the span of the deepest
 /// existing value on the path.
 pub fn field_span(value: &Value, path: &[String]) -> Span {
     let (mut value, mut deepest) = (value, value);

@@ -22,7 +22,7 @@ pub(super) struct OpenBracket {
     pub(super) span: Span,
     /// Whether a name precedes the bracket, as in `Name(`.
     pub(super) has_name: bool,
-    /// The number of line feeds before the bracket.
+    /// The number of line feeds in the text before the bracket.
     pub(super) line: usize,
 }
 
@@ -40,8 +40,8 @@ pub(super) enum Closing {
 }
 
 impl Parser<'_> {
-    /// Guesses how the closing bracket at `current`, of kind `found`, relates to the innermost open bracket, of kind
-    /// `innermost_kind`.
+    /// The token `current` is a closing bracket of kind `found`. Guesses how this bracket relates to the innermost open
+    /// bracket, of kind `innermost_kind`.
     pub(super) fn closing(&self, innermost_kind: Bracket, found: Bracket) -> Closing {
         if found == innermost_kind {
             return Closing::Matching;
@@ -79,8 +79,8 @@ impl Parser<'_> {
         }
     }
 
-    /// Whether `current` seems to start an item of an outer group. An item of an outer group means that the closing
-    /// bracket of the innermost group is missing.
+    /// Whether the token `current` seems to start an item of an outer group. If so, the closing bracket of the
+    /// innermost group is missing.
     pub(super) fn belongs_outside(&self, contents: &Contents) -> bool {
         let Lexeme {
             kind, starts_line, ..
@@ -98,7 +98,8 @@ impl Parser<'_> {
             // A tuple has no named fields, so a name at `current` starts a field of the enclosing struct.
             Bracket::Round if contents.is_tuple() && names_field => !innermost.has_name && in_round,
             _ if !starts_line => false,
-            // If a value without a name comes after named fields, it is an item of the enclosing list.
+            // If a value without a name comes after named fields, it is an item of the enclosing list, and the closing
+            // bracket of the struct is missing.
             Bracket::Round => {
                 !contents.fields.is_empty()
                     && (kind == Some(TokenKind::Open(Bracket::Round)) || is_ident && next_opens)
@@ -116,7 +117,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Returns the number of consecutive closing brackets, starting at `current`.
+    /// Returns the number of consecutive closing brackets, beginning with the token `current`.
     fn closing_run(&self) -> usize {
         let closes = |kind| matches!(kind, Some(TokenKind::Close(_)));
         if !closes(self.next.kind) {

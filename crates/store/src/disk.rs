@@ -86,7 +86,8 @@ impl Store for Disk {
     }
 
     fn remove_folder(&self, folder: &Path) -> Result<(), StoreError> {
-        // If the removal fails, the folder is removed in a second way, which needs fewer file descriptors.
+        // If the removal fails, for example because too many files are open, a second way is tried, which needs fewer
+        // file descriptors.
         fs::remove_dir_all(folder)
             .or_else(|_| remove_all(folder))
             .map_err(|error| StoreError::new("remove the folder", folder, error))
@@ -239,7 +240,8 @@ fn read_plain(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
 #[cfg(unix)]
 const LARGE: usize = 1 << 20;
 
-/// Reads the first `n` bytes of a file on all threads. Most of the time is spent on page faults in the new memory.
+/// Reads the first `n` bytes of a file on all threads. Several threads are faster, because most of the time is spent on
+/// page faults in the new memory.
 #[cfg(unix)]
 fn read_at_once(file: &File, n: usize) -> io::Result<Vec<u8>> {
     use std::os::unix::fs::FileExt;

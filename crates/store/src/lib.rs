@@ -29,7 +29,7 @@ pub use disk::{Disk, replace, temporary_prefix};
 pub use memory::Memory;
 pub use temporary::TemporaryFolder;
 
-/// A file system. Paths have the form of the platform. Relative paths are relative to the working directory.
+/// A file system. Paths have the syntax of the operating system. Relative paths are relative to the working directory.
 pub trait Store: Debug + Send + Sync {
     /// Whether paths refer to the file system of the machine, so that other code can open them without the store.
     fn is_disk(&self) -> bool {
@@ -187,7 +187,7 @@ pub fn stem(path: &Path) -> &OsStr {
 /// A new file whose content is first written to a temporary location. If the value is dropped without
 /// [`commit`](Self::commit), the temporary file is removed.
 pub trait NewFile: Write + Send {
-    /// Waits until the bytes are on the disk. Some systems report only during this call that the disk is full.
+    /// Waits until the bytes are on the disk. On some systems, only this call reports that the disk is full.
     ///
     /// # Errors
     ///
@@ -211,8 +211,8 @@ pub struct Entry {
     pub kind: Kind,
     /// The length of a file in bytes.
     pub len: u64,
-    /// The time of the last change, if known. For files in memory, this is not a real time, but a later change
-    /// always has a later value.
+    /// The time of the last change, if known. For files in memory, this is not a real time, but the value still
+    /// increases with each change.
     pub modified: Option<SystemTime>,
 }
 

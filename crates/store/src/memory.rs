@@ -28,7 +28,8 @@ impl Memory {
     }
 
     fn content(&self) -> MutexGuard<'_, Content> {
-        // Every entry is valid by itself, so the map can be used even after a panic.
+        // A panic of another thread while it held the lock does no harm: every entry is valid by itself, so the map can
+        // still be used.
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

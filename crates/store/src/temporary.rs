@@ -25,8 +25,8 @@ impl<'s> TemporaryFolder<'s> {
         let missing =
             missing.take_while(|folder| !folder.as_os_str().is_empty() && !store.exists(folder));
         let parents = missing.map(Path::to_path_buf).collect();
-        // While the folder `inside` is empty, another process can remove it. In this case, a second attempt creates it
-        // again.
+        // While the folder `inside` is empty, another process can remove it. In this case, creating the temporary
+        // folder fails, and the second attempt also creates the folder `inside` again.
         let path = store
             .make_temporary(inside)
             .or_else(|_| store.make_temporary(inside))?;
@@ -45,7 +45,7 @@ impl<'s> TemporaryFolder<'s> {
 
 impl Drop for TemporaryFolder<'_> {
     fn drop(&mut self) {
-        // Removal is best effort.
+        // If the removal fails, the error is ignored and the folder remains.
         let _ = self.store.remove_folder(&self.path);
         for parent in &self.parents {
             if self.store.remove_empty_folder(parent).is_err() {

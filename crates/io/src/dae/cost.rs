@@ -1,4 +1,5 @@
-//! The approximate costs in bytes of the parts of a file, for its memory budget.
+//! The approximate memory, in bytes, that the parts of a file need. These costs are subtracted from the memory budget
+//! of the file.
 
 /// The memory budget of a file, in bytes, is its size times this factor, but at least [`MIN_BUDGET`].
 pub(super) const BUDGET_FACTOR: usize = 64;

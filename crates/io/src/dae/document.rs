@@ -1,4 +1,5 @@
-//! The XML of a COLLADA file: elements by id, numbers in the text of elements, and positions of errors.
+//! Accesses the XML of a COLLADA file: finds elements by id, reads numbers in the text of elements, and determines the
+//! positions of errors.
 
 use std::borrow::Cow;
 use std::cell::{Cell, RefCell};
@@ -125,7 +126,7 @@ pub(super) type What = (&'static str, &'static str);
 /// code of the note.
 type Tally = BTreeMap<(NoteKind, &'static str, &'static str), (usize, usize)>;
 
-/// A file, with its elements by id.
+/// A parsed COLLADA file, with a map from ids to elements.
 pub(super) struct Document<'a> {
     pub(super) root: Node<'a>,
     pub(super) ids: BTreeMap<&'a str, Node<'a>>,
@@ -194,11 +195,11 @@ impl<'a> Document<'a> {
         }
     }
 
-    /// Subtracts `bytes` from the budget.
+    /// Subtracts `bytes` from the remaining memory budget of the file.
     ///
     /// # Errors
     ///
-    /// Returns an error if the budget is used up.
+    /// Returns an error if the memory budget is used up.
     pub(super) fn take(&self, node: Node, bytes: usize) -> Result<(), Fault> {
         let message = "the file repeats its content far more often than is usual for its size";
         let left = self.budget.get().checked_sub(bytes);
@@ -333,7 +334,7 @@ pub(super) fn text(node: Node<'_>) -> &str {
     node.text().unwrap_or_default().trim()
 }
 
-/// The words in the text of an element.
+/// The words in the text of an element, which are separated by white space.
 fn words(node: Node<'_>) -> impl Iterator<Item = &str> {
     let texts = node.children().filter(Node::is_text);
     texts.flat_map(|text| text.text().unwrap_or_default().split_ascii_whitespace())

@@ -58,7 +58,7 @@ enum Kind {
 
 struct Input<'a> {
     kind: Kind,
-    /// The offset of the index for this input among the indices of a corner.
+    /// The position, among the indices of a corner, of the index for this input.
     offset: usize,
     source: Node<'a>,
 }
@@ -67,7 +67,7 @@ struct Input<'a> {
 struct Inputs<'a> {
     /// The number of indices per corner.
     stride: usize,
-    /// The offset of the vertex index among the indices of a corner.
+    /// The position of the vertex index among the indices of a corner.
     vertex: usize,
     /// The element with the positions.
     vertices: Node<'a>,
@@ -226,7 +226,8 @@ impl<'a, 'd> Geometries<'a, 'd> {
         for &input in &of_vertices {
             add(input, vertex)?;
         }
-        // Each list of polygons reads the inputs of the vertices again, so each list takes their cost from the budget.
+        // The inputs of the vertices are read again for each list of polygons. Therefore, their cost is taken from the
+        // memory budget for each list.
         self.document.take(list, cost::NUMBER * of_vertices.len())?;
         Ok(Inputs {
             stride,

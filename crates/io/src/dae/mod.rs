@@ -27,7 +27,8 @@
 //! scene, each of its geometries becomes an object. A file can refer to other files, of which only images are read.
 //!
 //! Document type declarations are refused, so that entities cannot expand. A file can instantiate the same content
-//! several times, but the memory for its content is limited to 64 times its size, or to 16 MiB if that is more.
+//! several times, but the total memory for its content is limited to 64 times the size of the file, or to 16 MiB if
+//! that is more.
 
 mod cost;
 mod document;

@@ -36,8 +36,8 @@ fn name(node: Node<'_>) -> &str {
     given.or(node.attribute("id")).unwrap_or_default()
 }
 
-/// Returns the geometries of the scene in the order of the file. The geometries of a parent come before those of its
-/// children. If the file has no scene, returns the geometries of the libraries.
+/// Returns the geometries of the scene in the order of the file. The geometries of a parent node come before those of
+/// its child nodes. If the file has no scene, returns the geometries of the libraries.
 ///
 /// # Errors
 ///
@@ -185,7 +185,8 @@ impl<'a, 'd> Walk<'a, 'd> {
                 );
                 continue;
             };
-            // The name of the object is stored several times, so its length is also taken from the budget.
+            // The name of the object is stored several times, so the length of the name is also taken from the memory
+            // budget.
             let names = name(node).len() + name(geometry).len();
             self.document.take(instance, cost::OBJECT + 8 * names)?;
             let materials = self.bound_materials(instance)?;
@@ -301,7 +302,8 @@ fn rotation([x, y, z, degrees]: [f64; 4]) -> DMat3 {
     DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z))
 }
 
-/// Returns the transform of a camera that looks along its -z axis.
+/// Returns the transform that a `<lookat>` element describes. The transform places a camera that looks along its own -z
+/// axis.
 fn look_at(node: Node) -> Result<DAffine3, Fault> {
     let [a, b, c, d, e, f, g, h, i] = exactly(node)?;
     let eye = DVec3::new(a, b, c);

@@ -47,8 +47,8 @@ pub(super) struct Outline<'a> {
     /// The elements that contain the indices.
     pub(super) lists: Vec<Node<'a>>,
     pub(super) indices: Vec<u32>,
-    /// For each corner of the polygons, the number of its group of indices. Each group consists of `stride` consecutive
-    /// entries of `indices`.
+    /// For each corner of the polygons, the index (from 0) of its group of indices. Each group consists of `stride`
+    /// consecutive entries of `indices`.
     pub(super) order: Vec<usize>,
     pub(super) degrees: Vec<usize>,
 }

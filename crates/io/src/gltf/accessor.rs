@@ -22,7 +22,7 @@ impl Reader<'_> {
     ///
     /// # Errors
     ///
-    /// Returns an error if the accessor does not exist. `pointer` is the location that refers to the accessor.
+    /// Returns an error if the accessor does not exist. `pointer` is the JSON pointer of the reference to the accessor.
     pub(super) fn count(&self, index: usize, pointer: &str) -> Result<u64, Fault> {
         Ok(self.accessor(index, pointer)?.count.0)
     }
@@ -131,7 +131,7 @@ impl Reader<'_> {
     /// # Errors
     ///
     /// Returns an error if the type of the accessor is not in `types`, the accessor exceeds its buffer, or a value is
-    /// not finite. `pointer` is the location that refers to the accessor.
+    /// not finite. `pointer` is the JSON pointer of the reference to the accessor.
     pub(super) fn vectors<const N: usize, T: Value>(
         &self,
         index: usize,
@@ -211,7 +211,7 @@ impl Reader<'_> {
             ComponentType::U8 | ComponentType::U16 => {
                 self.elements(index, 1, component, 0, |bytes| whole(bytes, component))
             }
-            // Because the type is constant, the compiler turns the loop into a copy.
+            // Because the component type is known at compile time here, the compiler turns the loop into a copy.
             ComponentType::U32 => self.elements(index, 1, component, 0, |bytes| {
                 whole(bytes, ComponentType::U32)
             }),
@@ -246,7 +246,7 @@ impl Reader<'_> {
         })
     }
 
-    /// Reads all elements in blocks. `size` is the number of bytes of an element.
+    /// Reads all elements in blocks, in parallel. `size` is the number of bytes of an element.
     fn blocks<T: Copy + Zeroable + Send>(
         &self,
         index: usize,
@@ -273,7 +273,8 @@ impl Reader<'_> {
         Ok(elements)
     }
 
-    /// Returns the rows of an accessor and the number of its elements. The rows are `None` if the accessor has no view.
+    /// Returns the rows of an accessor (the bytes of its elements in the buffer view), and the number of elements. The
+    /// rows are `None` if the accessor has no view.
     fn dense(
         &self,
         index: usize,
@@ -311,7 +312,8 @@ impl Reader<'_> {
         };
         let n = sparse.count.0;
         // Sparse values need no additional memory, but the reader applies them again each time the accessor is read.
-        // Therefore, the size of the sparse values is taken from the budget.
+        // Therefore, the size of the sparse values is taken from the memory budget each time, to limit the time for
+        // reading.
         self.budget.spend(n.saturating_mul(size as u64), &here)?;
         let (indices, values) = (&sparse.indices, &sparse.values);
         let (at, view) = (format!("{here}/indices"), indices.buffer_view.value());
@@ -332,7 +334,8 @@ impl Reader<'_> {
         Ok(Some((targets, values)))
     }
 
-    /// Checks the number of elements that an accessor without a buffer view declares, and returns it as a `usize`.
+    /// Checks that an accessor without a buffer view does not declare too many elements, and returns their number as a
+    /// `usize`.
     fn zeros(&self, count: u64, here: &str) -> Result<usize, Fault> {
         let all: u64 = self.buffers.iter().map(|buffer| buffer.len() as u64).sum();
         let limit = all.max(MIN_ZEROS);

@@ -1,18 +1,19 @@
-//! The memory budget of a file. Several parts of a file can refer to the same content, but only within the budget.
+//! The memory budget of a file. Several parts of a file can refer to the same content, and each reference can take
+//! memory. The budget limits this memory.
 
 use std::cell::Cell;
 
 use crate::fault::Fault;
 
-/// The budget is the size of the file times this factor, but at least [`MIN_BUDGET`].
+/// The memory budget is the size of the file times this factor, but at least [`MIN_BUDGET`].
 const BUDGET_FACTOR: u64 = 64;
-/// The smallest budget of a file, in bytes.
+/// The smallest memory budget of a file, in bytes.
 const MIN_BUDGET: u64 = 1 << 24;
 
-/// A byte of a buffer with compressed views increases the budget this many times as much as a byte of uncompressed
-/// data. Compressed data needs a larger budget, because it gives a larger mesh than uncompressed data of the same size.
-/// On average, a triangle with its vertices takes two bytes in a compressed view, and at least twenty bytes in an
-/// uncompressed view.
+/// A byte of a buffer with compressed views increases the memory budget of the file this many times as much as a byte
+/// of uncompressed data. Compressed data needs a larger budget, because it gives a larger mesh than uncompressed data
+/// of the same size. On average, a triangle with its vertices takes two bytes in a compressed view, and at least twenty
+/// bytes in an uncompressed view.
 const COMPRESSED: u64 = 4;
 
 /// The memory that can still be used, in bytes.
@@ -27,7 +28,7 @@ impl Budget {
     /// The approximate size of an object without faces.
     pub(super) const OBJECT: u64 = 300;
 
-    /// Creates the budget of a file of `size` bytes.
+    /// Creates the memory budget of a file of `size` bytes.
     pub(super) fn of(size: usize) -> Self {
         let budget = Self::default();
         budget.grant(size as u64);
@@ -35,7 +36,7 @@ impl Budget {
         budget
     }
 
-    /// Increases the budget because `size` additional bytes of input were read.
+    /// Increases the memory budget because `size` additional bytes of input were read.
     pub(super) fn grant(&self, size: u64) {
         let more = size.saturating_mul(BUDGET_FACTOR);
         for bytes in [&self.left, &self.inflation] {
@@ -43,20 +44,20 @@ impl Budget {
         }
     }
 
-    /// Increases the budget for buffers of `size` bytes that contain compressed views. This increase is in addition to
-    /// the usual increase for the size of the buffers.
+    /// Increases the memory budget for buffers of `size` bytes that contain compressed views. This increase is in
+    /// addition to the usual increase for the size of the buffers.
     pub(super) fn grant_compressed(&self, size: u64) {
         let more = size.saturating_mul(BUDGET_FACTOR * (COMPRESSED - 1));
         self.left.set(self.left.get().saturating_add(more));
     }
 
-    /// Whether this number of bytes is left in the budget.
+    /// Whether this number of bytes is left in the memory budget.
     pub(super) fn has(&self, bytes: u64) -> bool {
         bytes <= self.left.get()
     }
 
-    /// Takes bytes from the budget. The budget limits memory even if many parts of a file refer to the same bytes.
-    /// `pointer` is the location that needs the memory.
+    /// Takes bytes from the memory budget. The budget limits memory even if many parts of a file refer to the same
+    /// bytes. `pointer` is the JSON pointer of the part that needs the memory.
     ///
     /// # Errors
     ///
@@ -73,9 +74,10 @@ impl Budget {
         Ok(())
     }
 
-    /// Takes the decoded size of a compressed view from the budget, and returns it as a `usize`. A stream of zeros can
-    /// be compressed to a thousandth of its decoded size, but real files do not consist of zeros. `pointer` is the
-    /// location that needs the memory.
+    /// Takes the decoded size of a compressed view from the budget, and returns it as a `usize`. The decoded sizes of
+    /// all views together have a limit of their own, because a stream of zeros can be a thousand times smaller than its
+    /// decoded data. Real files do not consist of zeros, so they do not reach this limit. `pointer` is the JSON pointer
+    /// of the part that needs the memory.
     ///
     /// # Errors
     ///

@@ -97,14 +97,14 @@ pub(super) fn container(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Fault> {
 }
 
 /// Loads the bytes of all buffers. `binary` is the binary chunk of a GLB file. The chunk is not copied. When a file
-/// next to the document is read for the first time, the budget grows with the number of bytes read. If another buffer
-/// refers to a file that was read before, the length of this buffer is taken from the budget. Buffers that are marked
-/// in `fallbacks` are not read and stay empty.
+/// next to the document is read for the first time, the memory budget grows with the number of bytes read. If another
+/// buffer refers to a file that was read before, the length of this buffer is taken from the budget. Buffers that are
+/// marked in `fallbacks` are not read and stay empty.
 ///
 /// # Errors
 ///
-/// Returns an error if a URI leads out of the folder of the document, if a data URI is not base64, if a file cannot be
-/// read, if there are fewer bytes than a buffer declares, or if the budget is used up.
+/// Returns an error in these cases: a URI leads out of the folder of the document, a data URI is not base64, a file
+/// cannot be read, there are fewer bytes than a buffer declares, or the memory budget is used up.
 pub(super) fn load<'a>(
     buffers: &[Buffer],
     fallbacks: &[bool],
@@ -182,7 +182,7 @@ pub(super) fn data_uri<'a>(data: &'a str, pointer: &str) -> Result<(&'a str, Vec
     Ok((mime, bytes))
 }
 
-/// Decodes base64 (RFC 4648) in either alphabet, with or without padding. White space is ignored.
+/// Decodes base64 (RFC 4648) in the standard or the URL-safe alphabet, with or without padding. White space is ignored.
 fn base64(encoded: &str) -> Option<Vec<u8>> {
     const CONFIG: GeneralPurposeConfig = GeneralPurposeConfig::new()
         .with_decode_allow_trailing_bits(true)

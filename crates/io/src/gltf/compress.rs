@@ -48,8 +48,8 @@ impl Array {
     }
 }
 
-/// Compresses the pieces of the buffer whose views are in `arrays`, and returns all pieces at their new positions.
-/// There is one piece for each view.
+/// The buffer has one piece for each view. Compresses each piece whose view has an entry in `arrays`, and returns all
+/// pieces at their new positions.
 pub(super) fn compress<'a>(
     views: &mut [Value],
     buffers: &mut Vec<Value>,

@@ -21,7 +21,8 @@ use crate::fault::Fault;
 /// of weights. The Khronos validator uses the same tolerance.
 pub(super) const WEIGHT_TOLERANCE: f64 = 2e-7;
 
-/// Counts the values that are repaired or left out while attributes are read. The key is a description for the note.
+/// Counts the values that are repaired or left out while attributes are read. The keys of both maps are the
+/// descriptions that the notes contain.
 #[derive(Default)]
 pub(super) struct Repairs {
     pub(super) changed: BTreeMap<String, usize>,

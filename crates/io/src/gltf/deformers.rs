@@ -8,7 +8,7 @@ use super::document::Document;
 /// How many joints and morph targets deform a mesh, according to the JSON.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Deformers {
-    /// The number of sets of joints and weights.
+    /// The number of sets of joints and weights (`JOINTS_n` and `WEIGHTS_n`).
     pub(super) weight_sets: u32,
     /// The number of morph targets.
     pub(super) targets: usize,

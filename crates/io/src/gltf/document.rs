@@ -59,7 +59,7 @@ pub(super) struct Document {
     pub(super) animations: Vec<AnimationJson>,
     pub(super) cameras: Vec<Json>,
     pub(super) lights: Vec<Json>,
-    /// The parts of the file for [`Graph::document`](scene::Graph::document), by name.
+    /// The parts of the file that are stored unchanged in [`Graph::document`](scene::Graph::document), by name.
     pub(super) kept: BTreeMap<String, String>,
     /// The root nodes of the scene.
     pub(super) roots: Vec<usize>,
@@ -78,8 +78,8 @@ impl Document {
         check_version(json)?;
         check_extensions(json, notes)?;
         let views: Vec<View> = pieces(json, "bufferViews", budget)?;
-        // The reader stores additional data for each buffer view. The memory of this data is also taken from the
-        // budget.
+        // The reader stores additional data for each buffer view. The memory of this data is also taken from the memory
+        // budget of the file.
         let more = views.len() * size_of::<(Option<Compressed>, OnceCell<Vec<u8>>)>();
         budget.spend(more as u64, "/bufferViews")?;
         let compressed = meshopt::compressed(list(json, "bufferViews")?)?;
@@ -191,7 +191,7 @@ fn count_extensions<'a>(json: &'a Value, uses: &mut BTreeMap<&'a str, usize>) {
                             *uses.entry(name).or_default() += 1;
                         }
                     }
-                    // `extras` can contain any application data.
+                    // `extras` can contain any application data, so it is not searched for extensions.
                     _ if key == "extras" => {}
                     _ => count_extensions(value, uses),
                 }
@@ -359,15 +359,15 @@ fn list<'a>(json: &'a Value, key: &str) -> Result<&'a [Value], Fault> {
     }
 }
 
-/// Deserializes the elements of a list. The budget limits the memory of the elements, because an element with default
-/// values takes far less space in the text than in memory.
+/// Deserializes the elements of a list. The memory budget limits the number of elements, because an element with
+/// default values takes far less space in the text than in memory.
 fn pieces<T: DeserializeOwned>(json: &Value, key: &str, budget: &Budget) -> Result<Vec<T>, Fault> {
     let piece = |(i, value): (usize, &Value)| {
         T::deserialize(value).map_err(|e| Fault::json(format!("/{key}/{i}"), e.to_string()))
     };
     let list = list(json, key)?;
     budget.spend((list.len() * size_of::<T>()) as u64, &format!("/{key}"))?;
-    // The capacity is exactly the memory that was taken from the budget.
+    // Exactly this capacity is allocated, because exactly this size was taken from the memory budget.
     let mut pieces = Vec::with_capacity(list.len());
     for numbered in list.iter().enumerate() {
         pieces.push(piece(numbered)?);

@@ -63,7 +63,7 @@ pub(super) fn decode(
     Ok(())
 }
 
-/// Decodes the content of the accessors of a primitive that have no uncompressed data.
+/// Decodes the data of those accessors of a primitive that have no uncompressed data.
 fn arrays(reader: &Reader, compressed: &Compressed) -> Result<Vec<(usize, Vec<u8>)>, Fault> {
     let at = compressed.pointer();
     let document = reader.document;
@@ -100,7 +100,7 @@ fn arrays(reader: &Reader, compressed: &Compressed) -> Result<Vec<(usize, Vec<u8
         }
     }
     // The memory that the decoder allocates depends on the counts that the file declares. This memory is taken from the
-    // budget before the decoder starts.
+    // memory budget before the decoder starts, so wrong counts cause an error.
     let size: usize = wanted
         .iter()
         .map(|(.., n, component)| n * component.size())

@@ -13,8 +13,8 @@ use mesh::parallel;
 /// Triangles in the order of the faces.
 pub(super) struct Faces {
     pub(super) n_triangles: usize,
-    /// The corners of the triangles, as glTF vertices. `None` if the mesh has only triangles and all faces have the
-    /// same material.
+    /// The corners of the triangles, as indices of glTF vertices. `None` if the mesh has only triangles and all faces
+    /// have the same material.
     pub(super) corners: Option<Vec<u32>>,
 }
 
@@ -71,13 +71,13 @@ pub(super) fn faces_by_material(
     faces.collect()
 }
 
-/// The corners of all triangles of a mesh that has only triangles.
+/// The corners of all triangles, as indices of glTF vertices, for a mesh that has only triangles.
 pub(super) fn all_corners(mesh: &Mesh, split: &Split) -> Vec<u32> {
     let corners = parallel::collect(mesh.n_faces(), |f| corners(mesh, split, FaceId::new(f)));
     corners.into_flattened()
 }
 
-/// The corners of a triangle, as glTF vertices.
+/// The corners of a triangle, as indices of glTF vertices.
 pub(super) fn corners(mesh: &Mesh, split: &Split, f: FaceId) -> [u32; 3] {
     let mut corners = [0; 3];
     for (slot, h) in corners.iter_mut().zip(mesh.face_half_edges(f)) {

@@ -1,5 +1,5 @@
 //! Counts the content of a document that the reader leaves out although it supports this kind of content. Such content
-//! is a part that the scene does not use, or a member that a scene cannot store.
+//! is a part of the document that the glTF scene does not use, or a member that a scene of this program cannot store.
 
 use std::collections::BTreeMap;
 
@@ -174,7 +174,7 @@ fn elements<'a>(json: &'a Value, key: &str) -> impl Iterator<Item = &'a Value> +
     list.into_iter().flatten()
 }
 
-/// Counts the `extras` that are left out although the part they belong to is read, such as the `extras` of primitives
+/// Counts the `extras` that are left out although the reader reads the objects that contain them, such as primitives
 /// and accessors.
 fn extras(json: &Value) -> usize {
     let members = json.as_object().into_iter().flatten();

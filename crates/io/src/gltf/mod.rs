@@ -1,4 +1,4 @@
-//! Reads and writes Reads and writes glTF 2.0, as JSON text (`.gltf`) and as a binary file (`.glb`).
+//! Reads and writes glTF 2.0, as JSON text (`.gltf`) and as a binary file (`.glb`).
 //!
 //! ```text
 //! node --- node --- mesh --- primitive --- accessor --- buffer view --- buffer
@@ -41,7 +41,7 @@
 //! | other scenes, and all parts that the scene does not use | left out, with a note |
 //! | names of accessors, buffer views and buffers | not kept: the writer creates new ones |
 //!
-//! With [`Placements::Bake`](crate::Placements::Bake), each node with a mesh becomes an object, the transform of the
+//! With [`Placements::Bake`](crate::Placements::Bake), each node with a mesh becomes an object. The transform of the
 //! node is applied to the positions, normals and tangents, and the scene has no graph. Skinned meshes are deformed to
 //! the pose of their joints. If a transform is a reflection, the orientation of the faces is reversed.
 //!
@@ -66,16 +66,17 @@
 //! reader merges the resulting vertices again. The writer creates one primitive for each material. Writing a scene and
 //! reading it again preserves the scene, with these exceptions:
 //!
-//! - numbers are rounded to 32 bits; if a position or the placement of a node exceeds the range of 32-bit numbers, the
-//!   scene is refused; texture coordinates, custom attributes and deltas of morph targets beyond this range become 0,
+//! - numbers are rounded to 32 bits: if a position or the transform of a node is outside the range of 32-bit floats,
+//!   the scene is refused; texture coordinates, custom attributes and deltas of morph targets outside this range become
+//!   0,
 //! - polygons are triangulated,
 //! - faces are ordered by material,
 //! - vertices at exactly the same position are merged, unless their weights or deltas differ,
 //! - each vertex has at most four joints, or at most as many as in the file that was read,
 //! - normals are normalized, and colors are clamped to 0 to 1,
-//! - isolated vertices, empty meshes, unused materials, embedded images other than PNG and JPEG, vertex tangents,
-//!   tangents without normals, integers, tags, sets of texture coordinates after a gap in their numbering, and
-//!   attributes of edges and faces (except `material`) are lost.
+//! - the following content is lost: isolated vertices, empty meshes, unused materials, embedded images other than PNG
+//!   and JPEG, vertex tangents, tangents without normals, integers, tags, sets of texture coordinates after a gap in
+//!   their numbering, and attributes of edges and faces (except `material`).
 //!
 //! If the [`WriteOptions`](crate::WriteOptions) request it, the module `quantize` quantizes arrays, and the module
 //! `compress` compresses them.
@@ -83,9 +84,9 @@
 //! Every loss is reported as a [`Loss`](crate::Loss), and content that the reader leaves out or changes is reported as
 //! a [`Note`](crate::Note).
 //!
-//! A file can use the same content several times, such as a mesh that several nodes reference. However, the memory that
-//! the content of a file can take is limited to 64 times its size (more if it is compressed), or to 16 MiB if that is
-//! more.
+//! A file can use the same content several times, such as a mesh that several nodes reference. However, the memory for
+//! all content together is limited to 64 times the size of the file (more if the content is compressed), or to 16 MiB
+//! if that is more.
 //!
 //! Each part of the JSON is deserialized separately into the types of `gltf_json`. Therefore, an error is reported with
 //! the JSON pointer of the part in which it occurs. Errors in parts that are not read are ignored.

@@ -35,15 +35,16 @@ fn semantic(name: &str) -> Option<Semantic> {
         Some(set) => Semantic::TexCoords(set.parse().ok()?),
         None => Semantic::Colors(0),
     };
-    // The number can also have leading zeros, which glTF does not allow.
+    // Parsing accepts leading zeros in the number of a set, but glTF does not allow them. Therefore, the result is
+    // compared with the name.
     (semantic.to_string() == name).then_some(semantic)
 }
 
-/// Returns the changes of each primitive of each mesh, in ascending order.
+/// Returns the changes of each primitive of each mesh, sorted by morph target, attribute and accessor.
 ///
 /// # Errors
 ///
-/// Returns an error if a number of an accessor is invalid, or the budget is used up.
+/// Returns an error if a reference to an accessor is not an index, or the memory budget is used up.
 pub(super) fn value_changes(
     meshes: &[Value],
     budget: &Budget,
@@ -82,7 +83,7 @@ fn list<'a>(json: &'a Value, key: &str) -> &'a [Value] {
 /// The changes that the morph targets of a mesh make to texture coordinates and colors.
 pub(super) struct ValueChanges<'a> {
     of_primitives: &'a [Vec<ValueChange>],
-    /// The attributes that a primitive of the mesh has, with their targets.
+    /// The pairs of an attribute and a morph target that changes this attribute in at least one primitive of the mesh.
     columns: BTreeSet<(&'a Semantic, usize)>,
 }
 
@@ -106,9 +107,9 @@ impl<'a> ValueChanges<'a> {
         self.columns.iter().map(|&(semantic, t)| name(semantic, t))
     }
 
-    /// Reads the changes of a primitive, into one column of `n` values for each attribute that a primitive of the mesh
-    /// has. If this primitive does not have the attribute, the column is zero. `here` is the location of the primitive,
-    /// for errors.
+    /// Reads the changes of a primitive, into one column of `n` values for each pair of an attribute and a morph target
+    /// in the mesh. If the target does not change the attribute in this primitive, the column is zero. `here` is the
+    /// location of the primitive, for errors.
     ///
     /// # Errors
     ///

@@ -47,7 +47,7 @@ impl NodeJson {
             .ok_or_else(|| Fault::json(pointer, "expected the index of a light"))
     }
 
-    /// Returns the placement of the node in the space of its parent.
+    /// Returns the placement (transform) of the node in the space of its parent.
     ///
     /// # Errors
     ///

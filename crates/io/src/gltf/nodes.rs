@@ -1,4 +1,4 @@
-//! Finds the meshes that the nodes of a glTF scene reference, with their placements and names.
+//! Finds the meshes that the nodes of a glTF scene reference, with their placements (transforms) and names.
 
 use std::collections::BTreeMap;
 
@@ -55,7 +55,7 @@ struct SceneNode {
 ///
 /// # Errors
 ///
-/// Returns an error if a node is invalid or occurs twice in the scene, or if the budget is used up.
+/// Returns an error if a node is invalid or occurs twice in the scene, or if the memory budget is used up.
 pub(super) fn placed_meshes(
     document: &Document,
     placements: Placements,
@@ -197,7 +197,7 @@ fn shared(
     names: &mut Names,
     notes: &mut Notes,
 ) -> Result<Vec<PlacedMesh>, Fault> {
-    // For each mesh, the first node that references it, and the number of such nodes.
+    // For each mesh, the first node that references it, and the number of nodes that reference it.
     let mut uses: BTreeMap<usize, (usize, u64)> = BTreeMap::new();
     for node in nodes {
         if let Some(mesh) = document.nodes[node.index].mesh {
@@ -270,7 +270,7 @@ fn graph(
     if is_implied {
         return Ok((graph, vec![None; document.nodes.len()]));
     }
-    // For each node, its index in the graph.
+    // For each node of the scene, the index of the node in the graph.
     let mut places = vec![0; nodes.len()];
     let mut of_file = vec![None; document.nodes.len()];
     for (i, node) in nodes.iter().enumerate() {
@@ -321,8 +321,8 @@ fn first_name<'a>(names: [&'a Option<String>; 2], otherwise: &'a str) -> &'a str
         .map_or(otherwise, |name| name)
 }
 
-/// Takes the minimum size of an object from the budget. The size includes the memory of its name, which is stored
-/// several times.
+/// Takes the minimum size of an object from the memory budget. The size includes the memory of its name, which is
+/// stored several times.
 fn spend(name: &str, node: usize, budget: &Budget) -> Result<(), Fault> {
     let bytes = Budget::OBJECT + 8 * name.len() as u64;
     budget.spend(bytes, &format!("/nodes/{node}"))

@@ -34,9 +34,9 @@ pub(super) struct Triangles {
     /// The corner attributes, and the vertex attributes that deform the mesh. At this stage, corner attributes also
     /// have one value for each vertex. In texture coordinates, v points up.
     pub(super) attributes: Attributes,
-    /// Three corners for each triangle.
+    /// Three vertex indices for each triangle.
     pub(super) corners: Vec<u32>,
-    /// For each triangle, its material in the document; empty if no triangle has a material.
+    /// For each triangle, the index of its material in the document; empty if no triangle has a material.
     pub(super) materials: Vec<Option<usize>>,
 }
 
@@ -185,7 +185,7 @@ impl Triangles {
         ((VERTEX + deformers) * n + (CORNER + values) * self.corners.len()) as u64
     }
 
-    /// Appends the vertices of the primitive with this number. `morphed` are the attributes of the mesh that morph
+    /// Appends the vertices of the primitive with this index. `morphed` are the attributes of the mesh that morph
     /// targets change. Returns the index of the first vertex, and the number of vertices.
     fn push_vertices(
         &mut self,
@@ -291,7 +291,7 @@ impl Triangles {
 
     /// Returns how many attributes of earlier primitives the current primitive lacks. The current primitive has `n`
     /// vertices with the attributes `own`. The missing values will be set to zero; their memory is taken from the
-    /// budget.
+    /// memory budget.
     ///
     /// # Errors
     ///

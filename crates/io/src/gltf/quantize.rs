@@ -44,7 +44,7 @@ pub(super) struct Quantizer<'a> {
     options: Option<Quantization>,
     is_compressed: bool,
     grids: BTreeMap<&'a str, Grid>,
-    /// Whether the document uses the extension.
+    /// Whether the document uses the extension `KHR_mesh_quantization`.
     pub(super) uses_extension: bool,
     pub(super) report: PackingReport,
 }
@@ -52,16 +52,16 @@ pub(super) struct Quantizer<'a> {
 /// The grid of the positions of an object.
 struct Grid {
     origin: [f32; 3],
-    /// The scale factor of the grid node. A normalized integer of 65535 steps represents 1, so the factor is the length
-    /// of 65535 steps.
+    /// The scale factor of the grid node. Readers convert the normalized integer 65535 to 1, so the factor is the
+    /// length of 65535 steps of the grid.
     scale: f32,
-    /// The largest error in the space of the object.
+    /// The largest error of a position, in the space of the object.
     error: f64,
 }
 
-/// An attribute as integers.
+/// The values of an attribute, converted to integers.
 pub(super) struct Integers {
-    /// Elements of `stride` bytes.
+    /// The integers as bytes, `stride` bytes for each element.
     pub(super) bytes: Vec<u8>,
     pub(super) stride: usize,
     pub(super) component: ComponentType,
@@ -240,8 +240,8 @@ impl<'a> Quantizer<'a> {
         }
     }
 
-    /// Moves the meshes of quantized objects to grid nodes. `nodes` begins with the nodes of the graph. Each further
-    /// node references one object.
+    /// Moves the meshes of quantized objects to grid nodes, which map the grid of the positions to the space of the
+    /// object. `nodes` begins with the nodes of the graph. Each further node references one object.
     pub(super) fn place(&mut self, graph: &Graph, nodes: &mut Vec<Value>) {
         let identity = DAffine3::IDENTITY;
         let maps = graph.to_scene();
@@ -337,14 +337,15 @@ impl Grid {
         steps.to_array().map(|x| x.round().clamp(0.0, most) as u16)
     }
 
-    /// Returns the position that a reader computes from the steps.
+    /// Returns the position that a reader computes from integer grid coordinates.
     fn position(&self, steps: [u16; 3]) -> DVec3 {
         let fraction = DVec3::from(steps.map(f64::from)) / f64::from(u16::MAX);
         DVec3::from(self.origin.map(f64::from)) + fraction * f64::from(self.scale)
     }
 }
 
-/// Rounds numbers from 0 to 1. Returns the rounded numbers and the largest error.
+/// Rounds the numbers of an attribute, which are in the range from 0 to 1, to integers. Returns the rounded numbers and
+/// the largest error.
 fn fractions(prepared: &PreparedObject, stream: &Stream, bits: Bits) -> (Integers, f64) {
     let PreparedObject { mesh, split, .. } = prepared;
     let (size, largest) = if bits.is_byte() {

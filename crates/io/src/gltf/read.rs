@@ -54,7 +54,8 @@ pub(crate) fn read(
         budget.grant_compressed(size);
     }
     if !document.draco.is_empty() {
-        // In a Draco stream, a triangle takes about one byte.
+        // In a Draco stream, a triangle takes only about one byte, so Draco streams increase the memory budget more
+        // than other compressed data.
         budget.grant_compressed(2 * size);
     }
     draco::decode(&mut document, &mut loaded, &budget)?;
@@ -126,7 +127,7 @@ fn objects(
     Ok(Parsed { objects, graph })
 }
 
-/// Returns the pose that is applied to a mesh, or `None` if nodes place and deform the mesh.
+/// Returns the pose that reading applies to a mesh, or `None` if the nodes in the scene place and deform the mesh.
 ///
 /// # Errors
 ///

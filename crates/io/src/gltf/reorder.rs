@@ -3,8 +3,8 @@
 //!
 //! Source: Sander, Nehab, Barczak, "Fast Triangle Reordering for Vertex Locality and Reduced Overdraw", 2007. The order
 //! consists of fans: all remaining triangles around one vertex, then all remaining triangles around the next vertex,
-//! and so on. The center of the next fan is chosen from the vertices of the previous fan. Preferred are vertices that
-//! will still count as recently used when their own fan is complete.
+//! and so on. The center of the next fan is chosen from the vertices of the previous fan. The algorithm prefers
+//! vertices that will still count as recently used when their own fan is complete.
 
 use std::collections::BTreeMap;
 
@@ -115,8 +115,8 @@ impl Around {
             sum += *start;
             *start = sum;
         }
-        // Each list is filled from its end. Therefore, the entry of the list in `starts` is first its end, and
-        // decreases until it is its beginning.
+        // Each list is filled from its end. Therefore, the entry of a list in `starts` first holds the end of the list,
+        // and decreases until it holds the beginning.
         let mut triangles = vec![0; corners.len()];
         for (i, &corner) in corners.iter().enumerate().rev() {
             let start = &mut starts[corner as usize];

@@ -11,8 +11,8 @@ use crate::loss::Losses;
 use mesh::parallel::{self, BLOCK};
 
 /// The maximum number of comparisons for a corner. A corner is compared with the other corners around its vertex,
-/// beginning with the latest one. This limit keeps the time for a vertex with a million corners linear. If a vertex has
-/// more distinct corners, equal corners can become different vertices.
+/// beginning with the latest one. This limit keeps the time for a vertex with a million corners linear. If the corners
+/// of a vertex have more distinct combinations of values, equal corners can become different vertices.
 const MAX_COMPARED: usize = 64;
 
 /// The glTF vertices. Without reordering, they are in the order of the vertices of the mesh.
@@ -87,11 +87,12 @@ pub(super) fn note_changed(stream: &Stream, mesh: &Mesh, split: &Split, losses: 
     losses.add(stream.domain, &stream.column.name, changed, stream.change());
 }
 
-/// Splits the vertices of a dense mesh. Isolated vertices are left out. If the reader made copies of a vertex, the
-/// copies are merged with it again, unless their values differ.
+/// Splits the vertices of a mesh that has no removed elements. Isolated vertices are left out. If the reader made
+/// copies of a vertex, the copies are merged with it again, unless their values differ.
 pub(super) fn split(mesh: &Mesh, streams: &[Stream]) -> Split {
     let file = FileVertices::of(mesh);
-    // If there are no copies, the values of vertex attributes are the same at all corners of a vertex.
+    // If there are no copies, all corners of a vertex have the same values of vertex attributes, so only corner
+    // attributes are compared.
     let can_differ = |stream: &&Stream| stream.domain == Domain::Corner || file.has_copies();
     let seams: Vec<&Stream> = streams.iter().filter(can_differ).collect();
     let n = file.len();

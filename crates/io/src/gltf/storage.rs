@@ -22,7 +22,8 @@ pub(crate) fn storage(
     let has_normals = || has(Domain::Corner, "normal") || has(Domain::Vertex, "normal");
     match (domain, name, values) {
         (Domain::Face, "material", Values::Int(_)) => Kept,
-        // A file stores only a few joints for each vertex, and the indices of the morph targets can change.
+        // Weights of joints and deltas of morph targets are kept only in part: a file stores only a few joints for each
+        // vertex, and the indices of the morph targets can change.
         (Domain::Vertex, _, Values::Float(_)) if joint_of(name).is_some() => Partial,
         (Domain::Vertex, _, Values::Vec3(_)) if morph_of(name).is_some() => Partial,
         (Domain::Vertex | Domain::Corner, _, Values::Vec3(_))
@@ -49,7 +50,7 @@ pub(crate) fn storage(
         }
         (Domain::Edge | Domain::Face, ..) | (.., Values::Int(_) | Values::Tag(_)) => Lost,
         (_, "normal", Values::Vec3(_)) => kept_if(!is_hidden),
-        // Numbers above 1 are lost.
+        // The writer clamps color components to the range from 0 to 1, so values outside this range are lost.
         (_, "color", Values::Vec4(_)) => {
             if is_hidden {
                 Lost

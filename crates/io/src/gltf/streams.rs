@@ -28,12 +28,12 @@ pub(super) struct Stream<'a> {
 #[derive(Clone, Copy)]
 enum Meaning<'a> {
     Normal,
-    /// The normals of a morph target minus the normals of the mesh. The normals of the mesh are in this column of this
-    /// domain.
+    /// The normals of a morph target minus the normals of the mesh. The two values of the variant are the domain and
+    /// the column of the normals of the mesh.
     NormalDelta(Domain, &'a Column),
     Tangent,
-    /// The tangents of a morph target minus the tangents of the mesh. The tangents of the mesh are in this column of
-    /// the corners.
+    /// The tangents of a morph target minus the tangents of the mesh. The value of the variant is the corner column
+    /// with the tangents of the mesh.
     TangentDelta(&'a Column),
     Uv,
     UvDelta,
@@ -42,8 +42,8 @@ enum Meaning<'a> {
     Custom,
 }
 
-/// Returns the streams of a mesh. Adds losses for all other attributes. `has_target` says whether a morph target is
-/// written.
+/// Returns the streams of a mesh, which are its attributes in the form that glTF requires. Adds losses for all other
+/// attributes. `has_target` says whether a morph target is written.
 pub(super) fn streams<'a>(
     mesh: &'a Mesh,
     has_target: impl Fn(usize) -> bool,
@@ -95,7 +95,8 @@ pub(super) fn streams<'a>(
         let is_material = domain == Domain::Face && column.name == mesh::MATERIAL.name;
         is_deformer(domain, column)
             || is_mark(domain, column)
-            // If a morph target is not written, the loss of the target includes its other attributes.
+            // If a morph target is not written, the loss that is reported for the target also covers the other
+            // attributes of the target, such as its normals.
             || normals.is_some() && morph_normal_of(&column.name).is_some()
             || tangents.is_some() && morph_tangent_of(&column.name).is_some()
             || morph_value_of(&column.name).is_some_and(|(changed, _)| {
@@ -110,8 +111,8 @@ pub(super) fn streams<'a>(
     streams
 }
 
-/// Returns the streams of the normals or the tangents of morph targets. glTF stores their differences from the normals
-/// or tangents of the mesh.
+/// Returns the streams of the normals or the tangents of morph targets. glTF stores the normals and tangents of a morph
+/// target as differences from those of the mesh.
 fn deltas<'a>(
     mesh: &'a Mesh,
     meaning: Meaning<'a>,
@@ -220,7 +221,8 @@ fn stream(domain: Domain, column: &Column, n_uvs: u32) -> Option<Stream<'_>> {
 }
 
 impl Stream<'_> {
-    /// Whether this is the stream of the attribute of the mesh with this name.
+    /// Whether this stream belongs to an attribute of the mesh itself, not of a morph target, and the attribute has
+    /// this name.
     fn is_named(&self, name: &str) -> bool {
         self.target.is_none() && attribute_name(&self.semantic).as_deref() == Some(name)
     }

@@ -38,8 +38,8 @@ impl Reader<'_> {
     ///
     /// # Errors
     ///
-    /// Returns an error if the view does not exist or its buffer is too short. `pointer` is the location that refers to
-    /// the view.
+    /// Returns an error if the view does not exist or its buffer is too short. `pointer` is the JSON pointer of the
+    /// reference to the view.
     pub(super) fn view(&self, index: usize, pointer: impl fmt::Display) -> Result<&[u8], Fault> {
         let at = format!("/bufferViews/{index}");
         let view = get(&self.document.views, index, pointer, "buffer view")?;
@@ -65,8 +65,8 @@ impl Reader<'_> {
         Ok(slot.get_or_init(|| decoded))
     }
 
-    /// Returns `length` bytes of a buffer, beginning at byte `start`. `at` is the location of the object that declares
-    /// this range.
+    /// Returns `length` bytes of a buffer, beginning at byte `start`. `at` is the JSON pointer of the object that
+    /// declares this range.
     fn part(&self, buffer: usize, start: u64, length: u64, at: &str) -> Result<&[u8], Fault> {
         let bytes = get(self.buffers, buffer, format_args!("{at}/buffer"), "buffer")?;
         let range = || {

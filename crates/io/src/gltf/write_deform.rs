@@ -24,8 +24,9 @@ pub(super) struct Deformation<'a> {
 }
 
 impl<'a> Deformation<'a> {
-    /// Determines the content to write, and adds losses for the content that is not written. If `sets` is `Some`, it
-    /// replaces the number of sets that the object had in its original file.
+    /// Determines the content to write, and adds losses for the content that is not written. If `sets` is `Some`, it is
+    /// the maximum number of sets of joints. Otherwise, the maximum is the number of sets that the object had in its
+    /// original file.
     pub(super) fn new(
         object: &Object,
         mesh: &'a Mesh,
@@ -121,7 +122,7 @@ impl<'a> Deformation<'a> {
         std::array::from_fn(|i| self.weights[start + i])
     }
 
-    /// Whether all joints fit in a byte.
+    /// Whether the indices of all joints fit in a byte.
     pub(super) fn is_short(&self) -> bool {
         self.joints.iter().all(|&joint| joint < 256)
     }
@@ -213,8 +214,8 @@ impl Bound {
     }
 }
 
-/// Returns the morph targets of an object. The number of morph targets is the number of weights in the label of the
-/// object or, if this is larger, the number of targets of the mesh.
+/// Returns the morph targets of an object. The number of morph targets is the number of weights that the graph stores
+/// in the label of the object. If the mesh has more targets than that, the number of its targets is used.
 fn morphs<'a>(
     object: &Object,
     mesh: &'a Mesh,

@@ -78,8 +78,8 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Returns the document and the parts of its buffer. The buffer is stored in the file `uri` or, if `uri` is `None`,
-    /// in the chunk after the JSON.
+    /// Returns the document and the parts of its buffer. The buffer is stored in the file `uri`. If `uri` is `None`,
+    /// the buffer is stored in the GLB chunk after the JSON.
     pub(super) fn into_json(
         self,
         options: &WriteOptions,
@@ -147,7 +147,7 @@ impl<'a> Writer<'a> {
             };
             for (key, value) in members {
                 match (&mut part[&key], value) {
-                    // If the part already has extras, the provenance is added to them.
+                    // If the part of the document already has extras, the provenance is added to them.
                     (Value::Object(extras), Value::Object(more)) => extras.extend(more),
                     (place, value) => *place = value,
                 }
@@ -219,7 +219,7 @@ impl<'a> Writer<'a> {
                 "targets": targets,
             }));
         }
-        // The bytes of images follow the data of the first object that uses them.
+        // The bytes of each image follow the data of the first object that uses the image.
         for (place, bytes) in std::mem::take(&mut self.materials.image_bytes) {
             let length = bytes.len();
             let view = self.view(length, None, move |out| out.copy_from_slice(&bytes));

@@ -18,7 +18,8 @@ use crate::loss::Losses;
 /// The materials, textures, samplers and images of a document, without duplicates.
 #[derive(Default)]
 pub(super) struct MaterialWriter {
-    /// The material of the scene for each element of `materials`, without the textures that were dropped.
+    /// For each element of `materials`, the material of the scene from which it was made. Textures that were dropped
+    /// are missing there.
     known: Vec<Material>,
     pub(super) materials: Vec<MaterialJson>,
     pub(super) textures: Vec<TextureJson>,
@@ -32,8 +33,9 @@ pub(super) struct MaterialWriter {
 }
 
 impl MaterialWriter {
-    /// Returns the index that a material has in the document, if it is used by a mesh with `n_uvs` sets of texture
-    /// coordinates. Equal materials get the same index.
+    /// Adds a material to the document if necessary, and returns its index. The material is used by a mesh with `n_uvs`
+    /// sets of texture coordinates, so textures that need other sets are not written. Equal materials get the same
+    /// index.
     ///
     /// # Errors
     ///

@@ -96,7 +96,8 @@ fn write_deformation(
     json["weights"] = json!(weights);
 }
 
-/// Adds the placement of a node to its JSON. A translation, rotation or scale that has no effect is left out.
+/// Adds the placement (transform) of a node to its JSON. A translation, rotation or scale that has no effect is left
+/// out.
 fn write_placement(node: &Node, json: &mut Value) -> Result<(), Unwritable> {
     let numbers = match &node.placement {
         Placement::Matrix(matrix) => {
@@ -123,7 +124,7 @@ fn write_placement(node: &Node, json: &mut Value) -> Result<(), Unwritable> {
             [&translation[..], rotation, scale].concat()
         }
     };
-    // The numbers must be in the range of `f32`, because readers round them to 32 bits.
+    // The numbers of a node must be in the range of `f32`, because readers round them to 32 bits.
     if numbers.iter().all(|&x| x.abs() <= f64::from(f32::MAX)) {
         return Ok(());
     }

@@ -127,7 +127,7 @@ fn wholes(numbers: impl IntoIterator<Item = usize>) -> Vec<u8> {
 fn npy(kind: &str, shape: &[usize], data: Vec<u8>) -> Vec<u8> {
     const PREFIX: usize = 10;
     let sizes: Vec<String> = shape.iter().map(ToString::to_string).collect();
-    // A tuple of one number ends in a comma.
+    // The header is a Python literal, in which a tuple of one number ends in a comma.
     let end = if shape.len() == 1 { "," } else { "" };
     let shape = sizes.join(", ") + end;
     let mut header = format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': ({shape}), }}");

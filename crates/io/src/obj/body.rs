@@ -22,7 +22,7 @@ use mesh::parallel;
 /// The number of vertices, values or faces in a block.
 const BLOCK: usize = 8192;
 
-/// A mesh and the data that writing it needs.
+/// A mesh, and the data that are needed to write the mesh.
 pub(super) struct MeshBody<'a> {
     mesh: &'a Mesh,
     library: &'a Library,
@@ -211,7 +211,8 @@ impl<'a> MeshBody<'a> {
     }
 }
 
-/// Appends the statements after which the face state is `to` instead of `from`.
+/// Appends the statements that change the face state (groups, object, material and smoothing group) from `from` to
+/// `to`.
 fn push_change(out: &mut Vec<u8>, from: &FaceState, to: &FaceState, library: &Library) {
     if let (true, Some(object)) = (to.object != from.object, to.object) {
         push_name(out, "o", object);

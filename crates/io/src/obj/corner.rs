@@ -6,7 +6,7 @@ use crate::fault::Fault;
 use crate::text::{TextPosition, parsed, quoted};
 use mesh::counted;
 
-/// How many positions, texture coordinates and normals there are.
+/// Three counts: the number of positions, of texture coordinates, and of normals.
 pub(super) type Counts = [usize; 3];
 
 /// The indices of the position, texture coordinate and normal of a corner. The position is always present.
@@ -64,7 +64,8 @@ pub(super) fn corner(
 }
 
 /// Parses `field`, one of the indices of the corner `word`. `count` is the number of elements of this kind that are
-/// defined so far. `limit` is the maximum number of elements of this kind in the file, or `None` in a part of a file.
+/// defined so far. `limit` is the maximum number of elements of this kind in the whole file. It is `None` if only a
+/// part of the file is parsed.
 fn index(
     place: TextPosition,
     word: &[u8],

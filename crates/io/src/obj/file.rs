@@ -19,8 +19,8 @@ pub(super) struct ObjFile {
     pub(super) positions: Vec<DVec3>,
     /// One color for each position, or empty. A vertex without a color is white.
     pub(super) colors: Vec<DVec4>,
-    /// The values of `#MRGB` comments of `ZBrush`, one 32-bit number each. Its bytes are the mask, red, green and blue,
-    /// from the highest to the lowest byte.
+    /// The values of `#MRGB` comments of `ZBrush`, one 32-bit number each. The bytes of each number are the mask, red,
+    /// green and blue, from the highest to the lowest byte.
     pub(super) mrgb_colors: Vec<u32>,
     pub(super) uvs: Vec<DVec2>,
     pub(super) normals: Vec<DVec3>,
@@ -64,7 +64,7 @@ pub(super) struct Run {
 /// Content that the reader leaves out or changes.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum LeftOut {
-    /// Statements of the format that do not describe polygons, by keyword.
+    /// Statements of the format that do not describe polygons. The value of the variant is the keyword.
     Statement(String),
     /// Words that are not a statement of the format.
     Unknown(String),

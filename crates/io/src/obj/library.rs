@@ -120,8 +120,8 @@ impl Library {
         self.indices.push(places);
     }
 
-    /// Returns the index of a material. Objects share equal materials. If a different material has the same name, the
-    /// material is renamed.
+    /// Returns the index of a material. Objects share equal materials. If a different material in the library already
+    /// has the name of this material, this material is renamed.
     fn index_of(&mut self, material: &Material, losses: &mut Losses) -> usize {
         let mut base = fit_line(&material.name).into_owned();
         if base.is_empty() || base.as_bytes() == NO_MATERIAL {

@@ -22,7 +22,7 @@ const MAX_NAMES: usize = 512;
 const MAX_PATH_BYTES: usize = 1024;
 
 /// Reads the materials of an OBJ file. The materials of its libraries come first, in order. They are followed by a
-/// default material for each name that no library defines.
+/// default material for each material name that the OBJ file uses but no library defines.
 ///
 /// # Errors
 ///
@@ -102,8 +102,8 @@ fn library_names(words: &str, most: usize, assets: &mut Assets) -> (Vec<String>,
     while !rest.is_empty() && names.len() < most {
         let quoted = rest.strip_prefix('"').and_then(|rest| rest.split_once('"'));
         let (name, behind) = quoted.unwrap_or_else(|| {
-            // A file name can contain blanks. It is the longest prefix of the text that is the name of an existing
-            // file. If no prefix is the name of an existing file, the name is the first word of the text.
+            // A file name can contain blanks. The file name is the longest prefix of the text that is the name of an
+            // existing file. If no prefix is the name of an existing file, the name is the first word of the text.
             let blanks = rest.rmatch_indices(char::is_whitespace).take(MAX_BLANKS);
             let ends = std::iter::once(rest.len()).chain(blanks.map(|(at, _)| at));
             let first = rest.find(char::is_whitespace).unwrap_or(rest.len());

@@ -51,7 +51,8 @@ pub(crate) fn peek(
     let tag = |name: &String| format!("{OBJECT_TAG}{name}");
     let objects = all.objects.list.iter().map(tag);
     let groups = all.groups.list.iter().map(|name| match name.as_str() {
-        // If another attribute has the name of a group, the group is renamed.
+        // The attributes `material` and `smoothing` already have these names, so the reader renames a group with such a
+        // name.
         "material" | "smoothing" => format!("{name} group"),
         _ => name.clone(),
     });

@@ -147,13 +147,13 @@ fn unused(n: usize, indices: &[u32]) -> usize {
 
 // ---- Values of faces ---------------------------------------------------------------------------
 
-/// Returns the faces of the run with index `i`.
+/// Returns the faces of the run (consecutive faces with the same groups, object and material) with index `i`.
 fn faces_of_run(file: &ObjFile, i: usize, n_faces: usize) -> Range<usize> {
     let next = file.runs.get(i + 1);
     file.runs[i].first_face..next.map_or(n_faces, |next| next.first_face)
 }
 
-/// Returns a value for each face, which is the value of the run that contains the face.
+/// Returns a value for each face. The value belongs to the run of consecutive faces that contains the face.
 fn on_faces<T: Copy + Default>(
     polygons: &Polygons,
     file: &ObjFile,

@@ -30,8 +30,8 @@ pub(super) fn read_part(bytes: &[u8], is_first: bool) -> Result<Part, Fault> {
     Parser::new(cursor, Limits::Part).run()
 }
 
-/// Parses the statements of a whole file in order. Parsing in order is slower than parsing in parts, but errors are
-/// exact.
+/// Parses the statements of a whole file in order. Parsing in order is slower than parsing in parts, but the position
+/// of the first error is exact.
 ///
 /// # Errors
 ///
@@ -107,7 +107,8 @@ impl Parser<'_> {
     }
 
     /// Binary data can have any number of distinct unknown words, but only the first few of the file are listed by
-    /// name. When a part is parsed, these words are not known. Therefore, parsing the part fails, and the whole file is
+    /// name. When only a part of the file is parsed, it is not known which words these are, because earlier parts can
+    /// also have unknown words. Therefore, parsing a part with too many unknown words fails, and the whole file is
     /// parsed in order.
     fn unknown(&self, place: TextPosition, word: String) -> Result<LeftOut, Fault> {
         let key = LeftOut::Unknown(word);
@@ -131,7 +132,7 @@ impl Parser<'_> {
 
     // ---- Vertices, texture coordinates, normals ------------------------------------------------
 
-    /// Adds a vertex with the first `n` of the values.
+    /// Adds a vertex. Only the first `n` of the values are used.
     pub(super) fn vertex(
         &mut self,
         place: TextPosition,

@@ -19,7 +19,7 @@ pub(super) struct FaceState<'a> {
 }
 
 /// The state at the end of the text written so far: the numbers of defined elements, the material and the smoothing
-/// group. No groups are set there.
+/// group. At this point of the text, no groups are set.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct TextState {
     pub(super) counts: Counts,
@@ -132,7 +132,7 @@ pub(super) fn fit_line(name: &str) -> Cow<'_, str> {
     Cow::Borrowed(trimmed)
 }
 
-/// Turns a name into a single word.
+/// Turns a name into a single word. Blanks and control characters become `_`.
 pub(super) fn one_word(name: &str) -> Cow<'_, str> {
     let blank = |c: char| c.is_whitespace() || c.is_control();
     if name.is_empty() || name.contains(blank) || name.starts_with('#') || name.ends_with('\\') {

@@ -18,7 +18,8 @@ use crate::save::{Block, Content, save};
 use crate::writing::{dense, push_comment};
 use crate::{Format, WriteOptions, WriteReport, fail_if_lost, gzip};
 
-/// Writes `images`, then the material library if there are materials, and then `scene` to an OBJ file.
+/// Writes the image files in `images`, then the material library if there are materials, and finally the OBJ file with
+/// `scene`.
 ///
 /// # Errors
 ///

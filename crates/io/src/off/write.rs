@@ -35,7 +35,7 @@ struct Content<'a> {
     mesh: &'a Mesh,
     /// The normals, colors and texture coordinates of the vertices, if they exist.
     of_vertices: Vec<Cow<'a, Values>>,
-    /// Colors, or indices into a color map.
+    /// The colors of the faces, or their indices into a color map.
     of_faces: Option<Cow<'a, Values>>,
 }
 

@@ -109,7 +109,7 @@ pub(super) fn numbers<const N: usize, V: Value>(
     properties: [usize; N],
     make: impl Fn([f64; N]) -> V + Sync,
 ) -> Vec<V> {
-    /// The number of rows whose numbers fit in the first-level cache.
+    /// The number of rows that are decoded at a time. The numbers of this many rows fit in the first-level cache.
     const PIECE: usize = 256;
     let mut out = zeroed(table.rows);
     parallel::fill(&mut out, |first, out| {
@@ -222,7 +222,7 @@ pub(super) fn indices(
     Ok((offsets, corners))
 }
 
-/// Reads the integer at an item of a list.
+/// Reads an item of a list as an integer.
 pub(super) fn item_at(table: &Table, property: usize, row: usize, item: usize) -> i64 {
     let kind = table.properties[property].value;
     let at = table.at(property, row) + item * kind.size();

@@ -271,7 +271,7 @@ impl Reader<'_, '_> {
         self.insert(domain, COLOR.name, rule, Values::Vec4(colors));
     }
 
-    /// Adds each remaining property as an attribute with the name of the property. Lists are left out.
+    /// Adds each property that is not yet used as an attribute with the name of the property. Lists are left out.
     fn plain(&mut self, domain: Domain, place: usize, used: &[bool]) {
         let table = &self.tables[place];
         let element = &self.header.elements[place];
@@ -341,7 +341,8 @@ impl Reader<'_, '_> {
     }
 }
 
-/// Returns the rule for an attribute that no comment describes. The rule defines what edits do with its values.
+/// Returns the rule for an attribute that no comment describes. The rule defines which value the attribute gets at an
+/// element that an edit creates.
 pub(super) fn plain_rule(domain: Domain, kind: Type) -> Rule {
     if domain == Domain::Vertex && kind.is_float() {
         Rule::Interpolate
@@ -365,7 +366,7 @@ fn mark_used(used: &mut [bool], properties: &[usize]) {
     }
 }
 
-/// Returns the properties, or `None` if any of them is used.
+/// Returns the properties, or `None` if any of them was already used for another attribute.
 fn free<const N: usize>(used: &[bool], properties: Option<[usize; N]>) -> Option<[usize; N]> {
     properties.filter(|properties| !properties.iter().any(|&p| used[p]))
 }

@@ -27,7 +27,7 @@ use mesh::parallel;
 /// The number of rows in a block of the file, chosen so that a block has a few hundred kilobytes.
 const BLOCK: usize = 8192;
 
-/// Writes `images`, and then `scene` to a little-endian binary file.
+/// Writes the image files in `images`, and then writes `scene` to a little-endian binary PLY file.
 ///
 /// # Errors
 ///
@@ -99,7 +99,7 @@ pub(crate) fn write(
 #[derive(Default)]
 struct Element<'a> {
     comments: Vec<String>,
-    /// The lines of the header, without the word `property`.
+    /// The header lines that declare the properties, without the word `property`.
     properties: Vec<String>,
     names: BTreeSet<String>,
     fields: Vec<Field<'a>>,
@@ -110,15 +110,15 @@ struct Element<'a> {
 /// A field of each row.
 enum Field<'a> {
     Positions(&'a [DVec3]),
-    /// The vertex indices of a face. The field is the type in which their number is stored.
+    /// The vertex indices of a face. The value of this variant is the type in which the number of indices is stored.
     Corners(Type),
     Values {
         values: Cow<'a, Values>,
         /// The number of components of a value that are written. If all colors are opaque, the alpha is left out.
         size: usize,
         form: Type,
-        /// If the field is a list with the values of the corners of a face, the type in which the length of the list is
-        /// stored.
+        /// If the values are those of the corners of a face, they are stored as a list. `count` is then the type in
+        /// which the length of the list is stored.
         count: Option<Type>,
     },
 }

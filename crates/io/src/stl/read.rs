@@ -42,7 +42,7 @@ pub(crate) fn read(bytes: &[u8], notes: &mut Notes) -> Result<Polygons, Fault> {
 
 enum Kind {
     Text,
-    /// A binary file. The field is the position at which the facets end.
+    /// A binary file. The value of the variant is the position at which the facets end, in bytes.
     Binary(usize),
 }
 

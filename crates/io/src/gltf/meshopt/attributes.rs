@@ -31,9 +31,9 @@ const MORE_BITS: Bits = [1, 2, 4, 8];
 /// How the differences of a channel are encoded.
 #[derive(Clone, Copy)]
 enum Channel {
-    /// As separate differences of four bytes.
+    /// As four separate differences, one for each byte.
     Bytes,
-    /// As separate differences of two 16-bit numbers.
+    /// As two separate differences, one for each 16-bit number.
     Shorts,
     /// As the bitwise XOR of the channel and the same channel of the previous element, rotated left by this number of
     /// bits.

@@ -11,9 +11,9 @@ const PAIRS: [u8; 16] = [
 /// The number of pairs that a code can refer to.
 const N_PAIRS: usize = 14;
 
-/// Encodes triangles whose indices have N bytes. The order of the triangles is kept. The corners of a triangle can be
-/// rotated, for example from (a, b, c) to (b, c, a), because a triangle that shares an edge with an earlier triangle is
-/// stored starting at that edge.
+/// Encodes triangles whose indices have N bytes. The order of the triangles is kept. A triangle that shares an edge
+/// with an earlier triangle is stored starting at that edge. Therefore, the corners of a triangle can be rotated, for
+/// example from (a, b, c) to (b, c, a).
 pub(in super::super) fn encode<const N: usize>(
     bytes: &[u8],
     index: impl Fn([u8; N]) -> u32,

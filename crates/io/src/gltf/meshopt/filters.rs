@@ -16,7 +16,7 @@ const BLOCK: usize = 1 << 15;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "UPPERCASE")]
 pub(in super::super) enum Filter {
-    /// The final values.
+    /// No conversion: the elements are already the final values.
     #[default]
     None,
     /// Unit vectors as points of an octahedron.
@@ -25,7 +25,7 @@ pub(in super::super) enum Filter {
     Quaternion,
     /// Floats as a mantissa of 24 bits and an exponent of 8 bits.
     Exponential,
-    /// Colors as luminance and two differences.
+    /// Colors as luminance and two color differences.
     Color,
 }
 

@@ -11,7 +11,7 @@
 use super::input::{Input, header, zigzag};
 use crate::fault::Fault;
 
-/// The length of the tail, which has no content.
+/// The length in bytes of the tail, the end of the stream, which has no content.
 const TAIL: u8 = 4;
 
 /// A lower bound for the size of a stream of `count` indices, in bytes.
@@ -19,7 +19,7 @@ pub(super) fn shortest(count: u64) -> u64 {
     count.saturating_add(1 + u64::from(TAIL))
 }
 
-/// Decodes an index for each slot.
+/// Decodes an index for each slot. A slot is a function that stores an index.
 ///
 /// # Errors
 ///

@@ -30,7 +30,7 @@ pub(super) use encode_attributes::encode as encode_attributes;
 pub(super) use encode_triangles::encode as encode_triangles;
 pub(super) use filters::Filter;
 
-/// The names of the extension.
+/// The names of the two extensions for compressed views.
 pub(super) const MESHOPT: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
 
 /// The largest size of an element in bytes.

@@ -1,5 +1,5 @@
-//! Decodes triangles. Most triangles share an edge with one of the last triangles, and their third vertex is either new
-//! or was used recently.
+//! Decodes a stream of triangles. Most triangles share an edge with one of the last triangles, and their third vertex
+//! is either new or was used recently.
 //!
 //! ```text
 //! 0xe1 | a code for each triangle | numbers | table of 16 bytes, each a pair of 4-bit values
@@ -16,7 +16,7 @@ pub(super) fn shortest(count: u64) -> u64 {
     (count / 3).saturating_add(1 + u64::from(TABLE))
 }
 
-/// Decodes `n` triangles. The three indices of each triangle are stored in three slots.
+/// Decodes `n` triangles. The three indices of each triangle are stored in three slots (functions that store an index).
 ///
 /// # Errors
 ///
@@ -57,7 +57,7 @@ pub(super) fn decode(
 
 /// The reason why a code cannot be decoded.
 enum TriangleError {
-    /// The code refers to an edge or a vertex before the first triangle.
+    /// The code refers to an earlier edge or vertex, but too few triangles precede it.
     Code,
     Stream(Fault),
 }

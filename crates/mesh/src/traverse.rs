@@ -96,23 +96,16 @@ impl Mesh {
         e.half_edges().map(|h| self.face(h))
     }
 
-    /// Returns the half-edge whose `next` is `h`. Walks around the face of `h` and around the origin of `h` at the same
-    /// time, so the time is proportional to the number of corners of the face or to the valence, whichever is smaller.
+    /// Returns the half-edge whose `next` is `h`. If `h` has a face, walks around the face; otherwise, walks around the
+    /// origin of `h`.
     #[inline]
     pub fn prev(&self, h: HalfEdgeId) -> HalfEdgeId {
-        let (mut in_face, mut around) = (self.next(self.next(h)), h);
-        loop {
-            let next = self.next(in_face);
-            if next == h {
-                return in_face;
-            }
-            in_face = next;
-            let before = around.twin();
-            around = self.next(before);
-            if around == h {
-                return before;
-            }
-        }
+        let prev = if self.face(h).is_some() {
+            self.orbit(Some(h), false).last()
+        } else {
+            self.orbit(Some(h), true).last().map(HalfEdgeId::twin)
+        };
+        prev.expect("an orbit contains its start")
     }
 
     /// Returns the half-edge from `v` to `w`, if they share an edge. If there are several such half-edges,

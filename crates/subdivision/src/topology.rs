@@ -133,6 +133,18 @@ fn doo_sabin_weight(n: usize, j: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use geometry::shapes;
+
+    #[test]
+    fn prev_is_the_inverse_of_next() {
+        for mesh in [
+            shapes::cylinder(100, true),
+            shapes::uv_sphere(100, 2),
+            shapes::grid(3, 2),
+        ] {
+            assert!(mesh.half_edges().all(|h| prev(&mesh, mesh.next(h)) == h));
+        }
+    }
 
     #[test]
     fn the_weights_of_a_face_sum_to_one_and_halve_a_regular_polygon() {

@@ -1,4 +1,4 @@
-//! Writes failure capsules.
+//! Writes failure capsules, which are small recipes that reproduce a failure.
 
 use std::fs;
 use std::path::Path;

@@ -24,7 +24,7 @@ const MAX_SWEEP: u64 = 1 << 20;
 
 /// Checks the kind of a file by its extension. Recipes and sweeps share an extension, so they are distinguished by
 /// their contents. If a recipe or a sweep is expected, a file with an unknown extension must begin like a recipe. If a
-/// file is missing, or its kind is unknown for another reason, it is accepted here, because the command itself reports
+/// file is missing, or its kind is unknown for another reason, this check succeeds, because the command itself reports
 /// the error.
 ///
 /// # Errors

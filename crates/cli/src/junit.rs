@@ -8,7 +8,7 @@ pub(crate) struct Case<'a> {
     /// The path. In the report, the name of the test case is the path. The class of the test case is the folder of the
     /// path.
     pub(crate) path: &'a Path,
-    /// In seconds.
+    /// The time of the run, in seconds.
     pub(crate) time: f64,
     pub(crate) end: CaseEnd,
 }
@@ -19,7 +19,7 @@ pub(crate) enum CaseEnd {
     /// The test case was not run. The text is the reason.
     Skipped(&'static str),
     Failed {
-        /// One line.
+        /// A summary of the error in one line.
         message: String,
         /// The text of the error, as it is printed on a terminal.
         text: String,

@@ -54,8 +54,9 @@ pub fn run(registry: Registry) -> ExitCode {
 }
 
 /// Returns the recipes that `meshwright test` runs if it is given these paths of recipes and folders. The result
-/// includes recipes that cannot be read. Recipes without expectations are left out. A recipe that was not given by its
-/// own path but found in a folder is also left out if another of the given and found recipes calls it.
+/// includes recipes that cannot be read. Recipes without expectations are left out. Some recipes are found in a given
+/// folder, and their own paths are not given. Such a recipe is also left out if another recipe that was given or found
+/// calls it.
 ///
 /// # Errors
 ///
@@ -120,7 +121,7 @@ pub fn run_with(registry: &Registry, arguments: &[OsString]) -> u8 {
         Command::NewOp(args) => commands::new_op::run(&args, registry),
     };
     let result = catch_unwind(AssertUnwindSafe(run)).unwrap_or_else(|payload| {
-        // An array that does not fit into memory is an error, not a bug.
+        // A panic because an array does not fit into memory is reported as an error, not as a bug in the program.
         match payload.downcast::<mesh::OutOfMemory>() {
             Ok(missing) => Err(anyhow::Error::new(*missing)),
             Err(payload) => resume_unwind(payload),

@@ -26,7 +26,7 @@ pub(crate) fn load(args: &RecipeArgs, engine: &Engine) -> anyhow::Result<Loaded>
 pub(crate) struct Checking {
     /// The memory budget for meshes, in bytes.
     pub(crate) budget: u64,
-    /// Whether losses are errors.
+    /// Whether a loss is an error. A loss is data that a step cannot keep.
     pub(crate) strict: bool,
 }
 
@@ -65,8 +65,8 @@ pub(crate) fn load_recipe(
     load_text(&source, values, out, checking, engine)
 }
 
-/// Checks a recipe whose text has already been read. If the value of a parameter is a path, it is relative to the
-/// working directory.
+/// Checks a recipe whose text has already been read. If the value of a parameter is a path, this path is relative to
+/// the working directory.
 pub(crate) fn load_text(
     source: &Source,
     values: &ValueArgs,

@@ -8,7 +8,7 @@ use crate::listener::is_interrupted;
 /// recipe stays in memory.
 pub(crate) const CHECKED_AHEAD: usize = 1000;
 
-/// The result of a job. If the job failed or panicked, the error is the message. If the job was canceled or not
+/// The result of a job. If the job failed or panicked, the error contains the message. If the job was canceled or not
 /// started, the error is `None`.
 pub(crate) type JobResult<T> = Result<T, Option<String>>;
 

@@ -153,8 +153,8 @@ fn terminal_width() -> Option<usize> {
 
 /// Aligns rows in columns. If the table is wider than `limit`, its titles are shortened first. If this is not enough
 /// and the last column contains text, the last column is shortened. If the table is still too wide, the first column is
-/// shortened. Numbers are never shortened. If they do not fit, each row of the table continues on further lines, which
-/// are indented.
+/// shortened. Numbers are never shortened. If the numbers still do not fit, each row of the table continues on further
+/// lines, which are indented.
 fn table_within(rows: &[Vec<String>], limit: Option<usize>, last_is_text: bool) -> String {
     /// A name is not shortened to fewer characters than this.
     const MIN: usize = 8;

@@ -56,8 +56,9 @@ pub(crate) fn refuse(path: &Path, command: &str) -> anyhow::Result<()> {
 }
 
 /// Returns a path that names a mesh file in messages. The extension of this path determines the format of the file. For
-/// a file, the result is `path` itself. For a stream, it is a name such as `stdin.obj`, for `- --from obj`. `pipe` is
-/// the name of the stream. `option` is the command-line option that sets the format of the stream.
+/// a file, the result is `path` itself. For a stream, the result is a name that stands for the stream, such as
+/// `stdin.obj` for the arguments `- --from obj`. `pipe` is the name of the stream. `option` is the command-line option
+/// that sets the format of the stream.
 ///
 /// # Errors
 ///

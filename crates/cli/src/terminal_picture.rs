@@ -129,7 +129,7 @@ fn sixel(image: &Image) -> Vec<u8> {
     // The parameter P2 = 1 of the Sixel protocol means that pixels that are not set keep their color.
     let mut text = format!("\x1bP0;1;0q\"1;1;{};{}", image.width, image.height);
     for (i, color) in palette.colors().iter().enumerate() {
-        // In percent.
+        // The components of a Sixel color are in percent.
         let [r, g, b] = color.map(|c| (u32::from(c) * 100 + 127) / 255);
         text += &format!("#{i};2;{r};{g};{b}");
     }

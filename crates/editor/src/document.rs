@@ -16,7 +16,7 @@ pub struct Document {
     /// The path of the recipe's file. For a recipe that was never saved, this is the path that is suggested when the
     /// recipe is saved.
     path: PathBuf,
-    /// Whether the recipe was read from its file or saved to it.
+    /// True if the recipe was read from its file or saved to its file; false for a new recipe that was never saved.
     has_file: bool,
     /// The texts, oldest first.
     history: Vec<State>,
@@ -125,14 +125,14 @@ impl Document {
         &self.path
     }
 
-    /// If the recipe has a file, returns the path of the file, and the stamp that the file had when it was last
-    /// checked.
+    /// If the recipe has a file, returns the path of the file, and its last known stamp. A stamp is a text that
+    /// describes the state of a file, and changes when the file changes.
     pub(crate) fn seen(&self) -> Option<(PathBuf, String)> {
         self.has_file
             .then(|| (self.path.clone(), stamp_line(&self.path, self.seen)))
     }
 
-    /// Whether the recipe was read from its file or saved to it.
+    /// True if the recipe was read from its file or saved to its file; false for a new recipe that was never saved.
     pub fn has_file(&self) -> bool {
         self.has_file
     }

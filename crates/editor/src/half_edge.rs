@@ -68,7 +68,7 @@ pub struct AttributeInfo {
     pub domain: Domain,
     /// The name of the attribute.
     pub name: String,
-    /// The components of the value. A tag is 1 or 0.
+    /// The components of the value. The value of a tag is 1 if the element has the tag, and 0 otherwise.
     pub value: Vec<f64>,
     /// Whether the attribute is a tag.
     pub is_tag: bool,

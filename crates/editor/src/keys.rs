@@ -34,9 +34,9 @@ pub enum Action {
     Rotate,
     /// Show or hide handles that scale the picked elements.
     Scale,
-    /// One level of Loop subdivision.
+    /// Apply one level of Loop subdivision.
     Loop,
-    /// One level of Catmull-Clark subdivision.
+    /// Apply one level of Catmull-Clark subdivision.
     CatmullClark,
     /// Show or hide the wireframe.
     Wireframe,
@@ -69,11 +69,11 @@ pub enum Action {
     /// Close the help, the list of operations, the dialog or the new step that is open. If none of them is open, cancel
     /// the run or, if no run is in progress, pick nothing.
     Cancel,
-    /// Show the next selection that describes the picked elements.
+    /// Show the next selection expression, such as `Sharp(above: 30)`, that describes the picked elements.
     NextProposal,
     /// Pick the elements around the picked elements too.
     Grow,
-    /// Remove the outermost of the picked elements.
+    /// Unpick the outermost of the picked elements.
     Shrink,
     /// Pick the edge loop through the picked edges.
     EdgeLoop,

@@ -256,9 +256,9 @@ impl Editor {
     }
 
     /// Returns the edits of a step of the text, and the name of the mesh that they change. If the step has `on`, its
-    /// edits are played on the first mesh in `on`. If the step has no `on`, they are played on the mesh with the picked
-    /// elements or, if nothing is picked, on the first mesh. Returns `None` if the scene before the step is not known,
-    /// or if the step cannot be played (see [`Play::of_step`] and [`Play::of_loop_level`]).
+    /// edits are played on the first mesh in `on`. If the step has no `on`, its edits are played on the mesh with the
+    /// picked elements or, if nothing is picked, on the first mesh. Returns `None` if the scene before the step is not
+    /// known, or if the step cannot be played (see [`Play::of_step`] and [`Play::of_loop_level`]).
     pub fn play(&self, step: usize) -> Option<(String, Play)> {
         let text = self.outline().steps.get(step)?;
         if text.name == LOOP {
@@ -355,7 +355,7 @@ fn edges(
 }
 
 /// Returns the half-edges around an edge, in the order of their indices. The result has the half-edges that start or
-/// end at an end of the edge, and the half-edges of the faces at both ends.
+/// end at one of the two vertices of the edge, and all half-edges of the faces around these two vertices.
 fn half_edges_around(mesh: &Mesh, edge: EdgeId) -> Vec<HalfEdgeId> {
     if !mesh.has_edge(edge) {
         return Vec::new();

@@ -40,7 +40,8 @@ fn schema() -> String {
     recipe::schema(&REGISTRY).to_string()
 }
 
-/// Returns the operations as JSON: for each, its name, its summary, an example, and whether a step takes `on`.
+/// Returns the operations as JSON: for each, its name, its summary, an example, and whether a step can have the field
+/// `on`, which names objects.
 #[pyfunction]
 fn operations() -> String {
     let entries = REGISTRY.entries().iter().map(|entry| {

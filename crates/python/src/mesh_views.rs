@@ -93,7 +93,8 @@ impl Mesh {
         Ok(Array::ids(half_edges.into_iter().map(number).collect()))
     }
 
-    /// The domain, name, type and rule of each attribute.
+    /// For each attribute: the kind of elements that have it (the domain), its name, the type of its values, and the
+    /// rule by which edits change its values.
     fn attributes(&self) -> Vec<(String, String, &'static str, &'static str)> {
         let columns = self.0.attributes().iter();
         let described = columns.map(|(domain, column)| {
@@ -243,8 +244,9 @@ impl Mesh {
         Ok(bounds.map(|bounds| bounds.map(|point| point.to_array())))
     }
 
-    /// The distances from this surface to another surface, and back: each the largest distance, an upper bound of it,
-    /// and the mean distance. `None` if one of the meshes has no faces.
+    /// The distances from this surface to another surface, and from that surface to this one. For each direction, three
+    /// numbers: the largest distance that was found, an upper bound of all distances, and the mean distance. `None` if
+    /// one of the meshes has no faces.
     fn distance(
         &self,
         py: Python<'_>,
@@ -264,7 +266,8 @@ impl Mesh {
         self.0.euler_characteristic()
     }
 
-    /// A description of each broken invariant. The list is empty for every mesh that this package creates.
+    /// A description of each broken invariant of the half-edge structure. The list is empty for every mesh that this
+    /// package creates.
     fn defects(&self, py: Python<'_>) -> PyResult<Vec<String>> {
         run(py, None, |_| {
             self.0.defects().iter().map(ToString::to_string).collect()

@@ -147,8 +147,8 @@ impl Scene {
             .ok_or_else(|| PyTypeError::new_err(format!("{name:?} is {kind}, expected a mesh")))
     }
 
-    /// The ids of the elements of a mesh that a selection matches. If no domain is given, there must be exactly one
-    /// domain for which the selection is valid.
+    /// The ids of the elements of a mesh that a selection matches. If no domain (kind of elements) is given, the
+    /// selection must be valid for exactly one domain.
     fn select(
         &self,
         py: Python<'_>,
@@ -183,8 +183,8 @@ impl Scene {
         Self(self.0.only(|name| names.iter().any(|n| n == name)))
     }
 
-    /// Whether `only` with these names gives the same scene as the operation Delete with all other names. It does not
-    /// if the scene has cameras, lights or other nodes that `only` leaves out.
+    /// Whether `only` with these names gives the same scene as the operation Delete with all other names. The two
+    /// results differ if the scene has cameras, lights or other nodes that `only` leaves out and Delete keeps.
     fn only_is_delete(&self, names: Vec<String>) -> bool {
         let mut deleted = self.0.clone();
         for object in self.0.objects() {

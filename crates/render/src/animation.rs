@@ -16,7 +16,7 @@ pub struct Timing {
     pub plays: u16,
 }
 
-/// Encodes images as an animated PNG file, with all colors and transparency.
+/// Encodes images as an animated PNG file. No colors and no transparency are lost.
 ///
 /// Each entry of `texts` is a pair of strings: a keyword of 1 to 79 Latin-1 characters, and its text.
 ///

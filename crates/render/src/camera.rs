@@ -32,7 +32,8 @@ pub enum Camera {
         #[serde(default = "margin")]
         #[schemars(range(min = 0.0, max = 0.45))]
         margin: f64,
-        /// Whether the scale is the same from every direction, as needed for a turntable.
+        /// Whether the scale is the same from every direction. An animation in which the camera turns around the scene
+        /// needs this.
         #[serde(default)]
         steady: bool,
     },
@@ -315,8 +316,8 @@ impl View {
     ///
     /// # Errors
     ///
-    /// [`PictureError::Camera`] if a number of the camera is out of its range or not finite, or the camera looks from a
-    /// point to this same point, so that it has no direction.
+    /// [`PictureError::Camera`] if a number of the camera is out of its range or not finite, or if the camera has no
+    /// direction because it looks from a point to this same point.
     pub fn new(
         camera: &Camera,
         points: &impl Fn(&mut dyn FnMut(DVec3)),
@@ -380,7 +381,7 @@ impl View {
         })
     }
 
-    /// Projects a point; `None` if it is behind the camera or nearer than the near plane.
+    /// Projects a point. Returns `None` if the point is behind the camera or nearer than the near plane.
     pub fn screen_point(&self, p: DVec3) -> Option<ScreenPoint> {
         let v = self.camera_space(p);
         (v.z >= self.near).then(|| self.project(v))
@@ -394,11 +395,11 @@ impl View {
         DVec3::new(p.dot(x), p.dot(y), -p.dot(z))
     }
 
-    /// Returns a number that is at least 0 if the point `v`, in [camera coordinates](Self::camera_space), is inside of
-    /// a clipping plane. The number is linear in `v`.
+    /// Returns a number that is at least 0 if the point `v`, in [camera coordinates](Self::camera_space), is on the
+    /// visible side of a clipping plane. The number is linear in `v`.
     ///
-    /// Plane 0 is the near plane. Planes 1 to 4 are at a distance of `far` pixels from the upper left corner of the
-    /// picture: to the left, to the right, above and below.
+    /// Plane 0 is the near plane. Planes 1 to 4 are to the left, to the right, above and below. In the picture, each of
+    /// these planes is a line at a distance of `far` pixels from the upper left corner.
     pub(crate) fn clip_distance(&self, plane: usize, far: f64, v: DVec3) -> f64 {
         let distance = if self.is_perspective { v.z } else { 1.0 };
         let (x, y) = (self.scale * v.x, -self.scale * v.y);

@@ -87,7 +87,7 @@ struct Differences {
     total: u64,
     /// The largest difference of a channel.
     largest: u8,
-    /// The indices of the image, the column and the row of the first pixel that differs.
+    /// For the first pixel that differs: the index of its image in the animation, its column and its row.
     first: Option<[usize; 3]>,
 }
 

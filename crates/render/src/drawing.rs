@@ -28,8 +28,8 @@ pub struct Part<'a> {
     pub points: Cow<'a, [DVec3]>,
     /// The indices of the points of each triangle, counter-clockwise seen from the front.
     pub triangles: Vec<[u32; 3]>,
-    /// For each triangle, the indices of its three corners in the lists with one value for each corner. Empty if there
-    /// are no such lists.
+    /// For each triangle, the indices of its three corners in the lists with one value for each corner, such as
+    /// [`Channel::Corner`]. Empty if the part has no lists with values of corners.
     pub corners: Vec<[u32; 3]>,
     /// The face that each triangle belongs to. The faces are in ascending order. The list is empty if each triangle is
     /// a face.
@@ -57,7 +57,8 @@ pub struct Part<'a> {
 /// The appearance of faces.
 #[derive(Clone, Debug)]
 pub struct Surface {
-    /// Linear red, green, blue and alpha, from 0 to 1. Alpha is the fraction of the samples that the surface covers.
+    /// Linear red, green, blue and alpha, from 0 to 1. Alpha is the fraction of the samples of a pixel that the surface
+    /// covers.
     pub color: [f32; 4],
     /// The texture. The color, including alpha, is multiplied by the texture.
     pub texture: Option<Arc<Texture>>,
@@ -100,8 +101,9 @@ pub struct Line {
     pub width: f32,
     /// Linear red, green, blue and alpha.
     pub color: [f32; 4],
-    /// The indices of the faces beside the line. The faces beside the line never hide it. Face indices continue from
-    /// part to part; [`NO_FACE`] means no face.
+    /// The indices of the faces beside the line. The faces beside the line never hide it. Faces are counted through all
+    /// parts: the first face of a part has the index after the last face of the previous part. [`NO_FACE`] means no
+    /// face.
     pub faces: [u32; 2],
     /// The opacity of the line where a surface hides it, from 0 to 1. A hidden point is drawn as a ring.
     pub hidden: f32,
@@ -125,7 +127,7 @@ pub struct Label {
 /// All input of the rasterizer.
 #[derive(Clone, Debug, Default)]
 pub struct Drawing<'a> {
-    /// The parts. The indices of triangles and faces continue from part to part, in this order.
+    /// The parts. Triangles and faces are counted through all parts, in this order.
     pub parts: Vec<Part<'a>>,
     /// Lines and points. Later ones are drawn on top.
     pub lines: Vec<Line>,

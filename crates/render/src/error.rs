@@ -54,7 +54,7 @@ pub enum PictureError {
 }
 
 impl PictureError {
-    /// Refuses a picture that needs more memory than the budget. Both numbers are in bytes.
+    /// Returns an error if a picture needs more memory than the budget. Both numbers are in bytes.
     ///
     /// # Errors
     ///

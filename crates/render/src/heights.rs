@@ -50,8 +50,8 @@ impl Heights {
     }
 
     /// Returns the height at texture coordinates with v upwards, interpolated between the centers of the four nearest
-    /// pixels. The image is repeated outside of 0 to 1, but not interpolated across its border. Returns 0 for
-    /// coordinates that are not finite.
+    /// pixels. Outside of the range from 0 to 1, the image is repeated, but there is no interpolation across its
+    /// border. Returns 0 for coordinates that are not finite.
     pub fn at(&self, uv: DVec2) -> f64 {
         if !uv.is_finite() {
             return 0.0;

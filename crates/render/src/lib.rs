@@ -84,8 +84,8 @@ pub use texture::{Alpha, Texture, TextureCache};
 /// # Errors
 ///
 /// [`PictureError::Budget`] if the budget is too small for the pixels, for the drawing and its textures (see
-/// [`build_within`]), or for rendering. The pixels are checked first. Also the errors of [`build()`], [`View::new`] and
-/// [`render`].
+/// [`build_within`]), or for rendering. The memory for the pixels is checked first. Also the errors of [`build()`],
+/// [`View::new`] and [`render`].
 pub fn picture(
     scene: &scene::Scene,
     camera: &Camera,

@@ -203,8 +203,8 @@ impl Texture {
         [r, g, b].map(|c| c / weight)
     }
 
-    /// Returns linear red, green and blue, multiplied by a weight, and then the weight. The weight is the coverage of
-    /// the surface, but is never 0.
+    /// Returns four numbers: linear red, green and blue, each multiplied by a weight, and the weight itself. The weight
+    /// is the coverage of the surface, but is never 0.
     fn weighted(&self, footprint: &Footprint) -> [f32; 4] {
         footprint.interpolate(|level| {
             self.at_level(level, footprint, |[r, g, b, a]| {
@@ -249,7 +249,8 @@ impl Texture {
         }
     }
 
-    /// Applies the transform without its offset to texture coordinates with v downwards.
+    /// Applies the scale and the rotation of the transform, but not its offset, to texture coordinates with v
+    /// downwards.
     fn scale_and_rotate(&self, uv: DVec2) -> DVec2 {
         let (sin, cos) = libm::sincos(self.transform.rotation);
         let (x, y) = (

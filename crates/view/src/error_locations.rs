@@ -1,4 +1,5 @@
-//! Draws the locations of errors in a scene: an overview of the whole scene, and a close-up of the first location.
+//! Draws the locations of errors in a scene: an overview of the objects with errors, and a close-up of the first
+//! location.
 
 use std::collections::{HashMap, HashSet};
 
@@ -28,7 +29,8 @@ const EXPECTED: Color = Color::rgb(0x1b, 0x8e, 0x3d);
 const HALO: Color = Color([255, 255, 255, 220]);
 /// The opacity of hidden marks.
 const HIDDEN: f64 = 0.4;
-/// If there are more locations than this, the overview shows no dots at small locations.
+/// The overview marks locations that are too small to see with dots. If there are more locations than this maximum,
+/// these dots are left out.
 const MAX_DOTTED: usize = 200;
 /// The maximum number of names in the close-up.
 const MAX_NAMES: usize = 24;
@@ -39,8 +41,8 @@ const TANGENT: f64 = 0.221_694_662_642_939_43;
 
 /// Draws a scene with the locations of errors in a strong color.
 ///
-/// The left view shows all objects that have a location. If a location does not say in which object it is, the left
-/// view shows the whole scene. The right view is a close-up of the first location, with the names of elements. If
+/// The left view shows all objects that contain a location of an error. If the object of a location is unknown, the
+/// left view shows the whole scene. The right view is a close-up of the first location, with the names of elements. If
 /// `locations` is empty, there is only the left view. `caption` is written below the left view. Returns `None` if the
 /// scene is empty.
 ///
@@ -79,7 +81,7 @@ pub fn draw_error_locations(
             visible.max(1e-6 * middle.abs().max_element()) / TANGENT,
         )
     });
-    // If the distance overflows, there is no close-up.
+    // If the square of the distance of the camera overflows, there is no close-up.
     let focus = focus.filter(|(_, distance)| (distance * distance).is_finite());
     let mut direction = preferred_direction(surroundings.normal, locations, center);
     if let (Some(first), Some((middle, distance))) = (locations.first(), focus) {
@@ -141,8 +143,8 @@ pub fn draw_error_locations(
     sheet(&cells, &style, budget).map(Some)
 }
 
-/// Returns the scene without the objects that have no error, because they could hide the locations. Returns the whole
-/// scene if a location does not say in which object it is.
+/// Returns the scene without the objects that have no error, because these objects could hide the locations. Returns
+/// the whole scene if the object of a location is unknown.
 fn objects_with_errors(scene: Scene, locations: &[ErrorLocation]) -> Scene {
     let names: HashSet<&str> = locations.iter().map(|location| &*location.object).collect();
     let objects = scene.objects().iter();
@@ -170,7 +172,7 @@ fn style(has_edges: bool) -> Style {
     }
 }
 
-/// The surfaces at the locations of errors.
+/// Properties of the surfaces at the locations of errors.
 #[derive(Default)]
 struct Surroundings {
     /// The number of faces of the scene.
@@ -205,7 +207,7 @@ fn placed(scene: &Scene, locations: &[ErrorLocation]) -> Vec<ErrorLocation> {
 impl Surroundings {
     fn new(scene: &Scene, locations: &[ErrorLocation]) -> Self {
         let mut surroundings = Self::default();
-        // The locations that are faces. The key of this map is the first point of the face.
+        // The error locations that are faces. The key in the map is the bit pattern of the first point of the face.
         let mut face_locations: HashMap<[u64; 3], Vec<&ErrorLocation>> = HashMap::new();
         for location in locations {
             if let [first, _, _, ..] = location.points[..] {

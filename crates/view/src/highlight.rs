@@ -19,7 +19,7 @@ const VERTEX_POWER: f64 = 0.4;
 
 /// The opacity of hidden edges.
 const HIDDEN_EDGES: f64 = 0.3;
-/// The opacity of the rings of hidden vertices.
+/// The opacity of hidden vertices, which are drawn as rings.
 const HIDDEN_VERTICES: f64 = 0.75;
 
 /// Converts a length in a picture whose shorter side has 960 pixels to a length in a picture of this size. If the
@@ -84,7 +84,8 @@ mod tests {
         let rounded = |x: f64| (x * 10.0).round() / 10.0;
         let edges = sizes.map(|size| rounded(scaled(EDGE_WIDTH, EDGE_POWER, size)));
         let vertices = sizes.map(|size| rounded(scaled(VERTEX_DIAMETER, VERTEX_POWER, size)));
-        // The documentation of the operation `Picture` gives these numbers.
+        // If these numbers change, the documentation of the operation `Picture` must be updated, because it states
+        // them.
         assert_eq!(edges, [2.2, 2.8, 3.4, 4.0, 8.0]);
         assert_eq!(vertices, [5.2, 7.5, 9.9, 13.0, 26.0]);
         assert_eq!(max_diameter(1, sizes[0]).min(vertices[0]), vertices[0]);

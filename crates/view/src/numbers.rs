@@ -23,7 +23,7 @@ pub struct ColorBy {
     pub map: Option<ColorMap>,
     /// The values that the first and the last color represent, as in `(0, 60)`. If omitted, the range is computed from
     /// the values of the quantity. For curvatures, the range is symmetric about 0, and the lowest and the highest
-    /// eighth of the values are ignored. If all other values are 0, fewer values are ignored.
+    /// eighth of the values are ignored. If all remaining values are 0, fewer values are ignored.
     #[serde(default)]
     pub range: Option<[f64; 2]>,
     /// Whether a legend in a corner of the picture explains the colors.
@@ -77,7 +77,7 @@ pub struct Numbers {
 }
 
 impl Numbers {
-    /// Returns the legend of the colors, if the numbers were computed for pictures with a legend.
+    /// Returns the legend that explains the colors, or `None` if the pictures have no legend.
     pub fn legend(&self) -> Option<Legend> {
         self.scale.legend()
     }
@@ -90,7 +90,7 @@ pub(crate) struct ColorScale {
     map: ColorMap,
     /// The numbers that the first and the last color represent.
     pub(crate) range: [f64; 2],
-    /// The distinct numbers of the scene, rounded down; only for [`ColorMap::Classes`].
+    /// The distinct numbers of the scene, rounded down. They are used only with [`ColorMap::Classes`].
     classes: Vec<f64>,
     /// Whether pictures have a legend.
     legend: bool,
@@ -181,8 +181,8 @@ pub fn existing_attributes(mut names: Vec<&str>) -> String {
 }
 
 impl Quantity {
-    /// Returns the quantities that the meshes of a scene have without further input: all quantities that are computed
-    /// from one mesh, and the attributes of all meshes by name.
+    /// Returns the quantities that can be shown for a scene without further input. These are all quantities that are
+    /// computed from one mesh, and all attributes that a mesh of the scene has.
     pub fn of_scene(scene: &Scene) -> Vec<Self> {
         let mut quantities = vec![
             Self::MeanCurvature,
@@ -202,8 +202,9 @@ impl Quantity {
         quantities
     }
 
-    /// Returns the domain of the quantity, and one number for each element of the domain, by index. The number of an
-    /// element without a value is NaN. Returns `None` if the mesh does not have this quantity.
+    /// Returns the kind of elements that the quantity belongs to, and a list of one number for each of these elements,
+    /// by the index of the element. The number of an element without a value is NaN. Returns `None` if the mesh does
+    /// not have this quantity.
     fn values(&self, mesh: &Mesh, targets: &[Mesh]) -> Option<(Domain, Vec<f64>)> {
         let each = |domain, value: &dyn Fn(usize) -> Option<f64>| {
             let all = 0..mesh.domain_len(domain);
@@ -269,7 +270,7 @@ impl Quantity {
             // The range is symmetric about 0. The range excludes the lowest and the highest eighth of the values.
             // Curvatures are very large at a few sharp corners and rims, and meshes often have many vertices there. If
             // all remaining values are 0, as on a flat surface with sharp edges, the range excludes only 2 % of the
-            // values at each end. If the values that remain after this are all 0 too, the range excludes no values.
+            // values at each end. If the values without these 2 % are all 0 too, the range excludes no values.
             Self::MeanCurvature | Self::GaussianCurvature => {
                 let max = [8, 50, usize::MAX].map(|part| {
                     let n_outliers = values.len() / part;

@@ -62,8 +62,8 @@ impl Default for SheetStyle {
 }
 
 impl SheetStyle {
-    /// Returns the style for images of this size. If the shorter side of the images is longer than 560 pixels, the
-    /// captions and gaps are larger. So the captions stay as readable as the images when the sheet is scaled down.
+    /// Returns the style for images of this size. For images whose shorter side is longer than 560 pixels, the captions
+    /// and gaps grow with this side. So the captions stay as readable as the images when the sheet is scaled down.
     #[must_use]
     pub fn scaled_to(self, [width, height]: [u32; 2]) -> Self {
         let side = width.min(height);
@@ -142,8 +142,8 @@ impl Layout {
 ///
 /// # Errors
 ///
-/// [`PictureError::Size`] if a side is longer than [`LARGEST_SIDE`](render::LARGEST_SIDE), or there are no images and
-/// no gap.
+/// [`PictureError::Size`] if a side is longer than [`LARGEST_SIDE`](render::LARGEST_SIDE), or the sheet has no size
+/// because there are no images and no gap.
 pub fn sheet_size(
     cells: &[Cell],
     headings: Headings,

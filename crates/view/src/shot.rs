@@ -29,8 +29,8 @@ pub struct Shot<'a> {
     pub size: [u32; 2],
     /// The cameras. The views of the cameras are placed side by side.
     pub cameras: &'a [Camera],
-    /// The number of views in a row. If `None`, a row has one view of each scene. For a single scene, a row has all
-    /// views, but at most 4.
+    /// The number of views in a row. If `None`, the number depends on the number of scenes: with several scenes, each
+    /// row shows all scenes from one camera. With one scene, a row shows the views of all cameras, but at most 4 views.
     pub columns: Option<u32>,
     /// Shading, lines and background.
     pub style: &'a Style,

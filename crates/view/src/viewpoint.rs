@@ -9,8 +9,8 @@ use scene::Scene;
 
 use crate::position_bits::bits;
 
-/// The number of directions on the whole sphere. Only the directions with an allowed elevation on the outer side of the
-/// surface are tried.
+/// The number of directions on the whole sphere. Only those of them are tried that lie on the outer side of the surface
+/// and whose elevation is allowed.
 const DIRECTIONS: u32 = 200;
 
 /// The sine of 75 degrees, which is the maximum elevation of the camera. If the camera looks straight down, the upward
@@ -32,8 +32,8 @@ pub(crate) struct Target<'a> {
 ///
 /// The candidates are directions on the outer side of the surface. A candidate is clear if no face hides the middle of
 /// the target from a camera in this direction. Returns the clear candidate that is nearest to the unit vector
-/// `preferred`. If no candidate is clear, faces at a distance of `near` or more are ignored. If still no candidate is
-/// clear, returns `preferred`.
+/// `preferred`. If no candidate is clear, the search is repeated for a camera at the distance `near` from the target,
+/// so that faces behind this camera are ignored. If still no candidate is clear, returns `preferred`.
 pub(crate) fn clear_direction(
     scene: &Scene,
     target: &Target,

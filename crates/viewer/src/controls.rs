@@ -31,7 +31,7 @@ pub(crate) fn over_view(ui: &mut Ui, rect: Rect, parts: &mut Parts) {
     });
 }
 
-/// The progress of a run that takes long, at the bottom of the view.
+/// Draws the progress of a run that takes long, at the bottom of the view.
 fn progress(ui: &mut Ui, parts: &Parts) {
     let Some(progress) = parts.editor.progress().filter(|_| parts.runs_long()) else {
         return;
@@ -202,7 +202,7 @@ fn view_keys(ui: &Ui, view: &mut ViewPane) {
     });
 }
 
-/// The choice of the quantity that is shown as colors.
+/// Draws the list from which the user chooses the quantity that is shown as colors.
 fn color_combo(ui: &mut Ui, view: &mut ViewPane, scene: &scene::Scene) {
     let current = view.look.color_by.as_ref().map(|by| by.of.clone());
     let name = current

@@ -26,11 +26,11 @@ pub(crate) enum Change {
     Set(String),
     /// A value of a slider that is being dragged.
     Drag(String),
-    /// The default.
+    /// The parameter gets its default value again.
     Reset,
 }
 
-/// The largest range of whole numbers that gets a slider.
+/// A whole number has a slider only if its range is at most this large. Otherwise, it has a number field.
 const MAX_SLIDER: f64 = 1000.0;
 
 /// The largest number of parts of a value that are shown without a click.
@@ -80,7 +80,7 @@ pub(crate) fn ui(ui: &mut Ui, field: &Field) -> Option<Change> {
     change
 }
 
-/// The parts of a struct or of a variant, each with its own widget.
+/// Draws the parts of a struct or of a variant, each with its own widget.
 fn parts(ui: &mut Ui, field: &Field) -> Option<Change> {
     let of = field.of;
     let whole = field.live.or(of.current())?;
@@ -167,7 +167,7 @@ fn use_picked(ui: &mut Ui, field: &Field, change: &mut Option<Change>) {
     }
 }
 
-/// The widget of a parameter, if the widget is on the same line as the name of the parameter.
+/// Draws the widget of a parameter whose widget is on the same line as its name.
 fn widget(ui: &mut Ui, field: &Field) -> Option<Change> {
     let of = field.of;
     let current = match field.live {
@@ -245,7 +245,7 @@ fn widget(ui: &mut Ui, field: &Field) -> Option<Change> {
     }
 }
 
-/// The number fields of a tuple, from right to left as the layout.
+/// Draws the number fields of a tuple. The last number is drawn first, because the layout runs from right to left.
 fn tuple<N>(
     ui: &mut Ui,
     name: &str,
@@ -265,7 +265,7 @@ fn tuple<N>(
     change
 }
 
-/// A list of choices, each with its description. Returns the index of the choice that was clicked.
+/// Draws a list of choices, each with its description. Returns the index of the choice that was clicked.
 fn choice<'c>(
     ui: &mut Ui,
     field: &Field,
@@ -295,7 +295,7 @@ fn choice<'c>(
     chosen
 }
 
-/// A number field for a whole number.
+/// Returns a number field for a whole number.
 fn whole<'a>(n: &'a mut i64, limits: &Limits) -> DragValue<'a> {
     let speed = (n.unsigned_abs() as f64 * 0.001).max(0.1);
     let low = limits.min.map_or(i64::MIN, integer);
@@ -303,7 +303,7 @@ fn whole<'a>(n: &'a mut i64, limits: &Limits) -> DragValue<'a> {
     DragValue::new(n).speed(speed).range(low..=high)
 }
 
-/// A number field for a number of a vector.
+/// Returns a number field for a number of a vector.
 fn component(x: &mut f64) -> DragValue<'_> {
     let speed = (x.abs() * 0.01).max(0.01);
     unlimited(x, &Limits::default()).speed(speed)
@@ -319,7 +319,7 @@ fn unlimited<'a>(x: &'a mut f64, limits: &Limits) -> DragValue<'a> {
         .custom_formatter(|x, _| format!("{}", rounded(x)))
 }
 
-/// A slider, or a number field if the number has no range.
+/// Draws a slider, or a number field if the number has no minimum or no maximum.
 fn number(ui: &mut Ui, name: String, before: f64, limits: &Limits) -> Option<Change> {
     let mut x = before;
     let response = match range(limits) {
@@ -339,7 +339,8 @@ fn number(ui: &mut Ui, name: String, before: f64, limits: &Limits) -> Option<Cha
     )
 }
 
-/// Returns the change of a slider or number field: live while it is dragged, and final at the end.
+/// Returns the change that the user made with a slider or number field: `Change::Drag` during a drag, and `Change::Set`
+/// otherwise.
 fn dragged(
     response: &Response,
     value: impl FnOnce() -> FieldValue,
@@ -359,7 +360,8 @@ fn dragged(
     })
 }
 
-/// Returns the change of a slider by the wheel: live while the wheel turns, and final when it stops.
+/// Returns the change that the user made by turning the wheel over a slider: `Change::Drag` while the wheel turns, and
+/// `Change::Set` when the wheel stops.
 fn by_wheel(ui: &Ui, slider: &Response, x: f64, [min, max]: [f64; 2]) -> Option<Change> {
     let id = slider.id.with("wheel");
     let last: Option<f64> = ui.data(|data| data.get_temp(id));
@@ -407,7 +409,7 @@ fn integer(x: f64) -> i64 {
     x as i64
 }
 
-/// A text field for a value.
+/// Draws a text field for a value.
 fn text(ui: &mut Ui, field: &Field) -> Option<Change> {
     let of = field.of;
     let id = Id::unique(("field", field.salt, &of.name));
@@ -428,7 +430,7 @@ fn text(ui: &mut Ui, field: &Field) -> Option<Change> {
     }))
 }
 
-/// A line of text. Returns the new text when Enter is pressed or the line loses the focus.
+/// Draws a line of text that can be edited. Returns the new text when Enter is pressed or the line loses the focus.
 pub(crate) fn line(ui: &mut Ui, name: &str, current: &str, hint: &str, id: Id) -> Option<String> {
     // If Tab moves the focus away, the typed text is still needed in the next frame.
     let has_focus = ui.memory(|memory| memory.has_focus(id) || memory.had_focus_last_frame(id));

@@ -16,7 +16,7 @@ const MAX_RECENT: usize = 10;
 pub(crate) struct Files {
     folder: Option<PathBuf>,
     recent: Vec<PathBuf>,
-    /// The unsaved texts of sessions that crashed.
+    /// The unsaved texts of editors that crashed.
     recoveries: Vec<Recovery>,
 }
 
@@ -86,7 +86,7 @@ pub(crate) fn journals(state_folder: Option<&Path>) -> Option<PathBuf> {
     state_folder.map(|folder| folder.join("journals"))
 }
 
-/// Saves the recipe, and asks for a file if it has none.
+/// Saves the recipe. If the recipe has no file yet, asks for one.
 pub(crate) fn save(parts: &mut Parts, ctx: &Context) {
     if !parts.editor.document().has_file() {
         paths::ask(parts, Purpose::SaveRecipe, ctx);

@@ -79,8 +79,8 @@ pub(crate) fn ui(ctx: &Context, parts: &mut Parts) {
     }
 }
 
-/// Returns the column of each group, so that the three columns are about equally long: the groups are added, the longest
-/// first, to the column that is shortest so far.
+/// Returns the column of each group. The groups are added one after another, the longest first, to the column that is
+/// shortest so far. So the three columns become about equally long.
 fn columns_of(lengths: &[usize]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..lengths.len()).collect();
     order.sort_by_key(|&g| std::cmp::Reverse(lengths[g]));
@@ -93,7 +93,7 @@ fn columns_of(lengths: &[usize]) -> Vec<usize> {
     columns
 }
 
-/// The keys of a task.
+/// Draws the keys of a task.
 fn group(ui: &mut Ui, task: &str, rows: &[(String, &str)]) {
     ui.add_space(4.0);
     ui.label(RichText::new(task).strong().size(13.0));

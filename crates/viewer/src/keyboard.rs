@@ -7,7 +7,7 @@ use eframe::egui::{Context, Event, Id, Key, Modifiers, Popup};
 ///
 /// While a text is edited, only F1, Escape and keys with Ctrl have an action, and only if the action is about the
 /// window or the file. While a widget other than the view has the focus, that widget receives Space and Enter. While a
-/// menu or a list of choices is open, it receives all keys.
+/// menu or a list of choices is open, this menu or list receives all keys.
 pub(crate) fn actions(ctx: &Context, keys: &Keys, is_modal: bool, view: Option<Id>) -> Vec<Action> {
     if Popup::is_any_open(ctx) {
         return Vec::new();

@@ -10,8 +10,8 @@ use scene::{ErrorLocation, Scene};
 
 use crate::gpu::{Overlay, OverlayLine};
 
-/// The maximum number of elements that are drawn. To draw more elements would take longer than a frame, and they would
-/// cover the picture.
+/// The maximum number of elements that are drawn. More elements would take longer than a frame to draw, and would cover
+/// the picture.
 const MAX_ELEMENTS: usize = 300_000;
 
 /// How elements are drawn.

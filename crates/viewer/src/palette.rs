@@ -53,7 +53,7 @@ pub(crate) fn search<'r>(
     found.into_iter().map(|(_, entry)| entry).collect()
 }
 
-/// Returns how well an operation matches a word; 0 is best. `None` if it does not match.
+/// Returns how well an operation matches a word; 0 is best. Returns `None` if the operation does not match.
 fn score(entry: &Entry, word: &str) -> Option<u32> {
     let name = entry.name.to_lowercase();
     let has = |list: &[&str]| {

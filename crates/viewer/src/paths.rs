@@ -1,5 +1,5 @@
-//! Asks for the path of a file: by a dialog of the system or, if the system shows none, by a text field and a list of
-//! files in the window.
+//! Asks for the path of a file with a dialog of the system. If the system shows no dialog, asks with a text field and a
+//! list of files in the window.
 
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -190,7 +190,7 @@ fn entries(folder: &Path, purpose: Purpose) -> Vec<Listed> {
     entries
 }
 
-/// Shows a dialog of the system. `None` if it is canceled, or cannot be shown.
+/// Shows a dialog of the system. Returns `None` if the dialog is canceled, or cannot be shown.
 fn dialog(purpose: Purpose, suggested: &Path) -> Option<PathBuf> {
     let mut dialog = rfd::FileDialog::new().set_title(purpose.title());
     if let Some(folder) = suggested.parent().filter(|folder| folder.is_dir()) {

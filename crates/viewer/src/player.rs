@@ -87,7 +87,7 @@ impl Parts {
     pub(crate) fn play(&mut self, step: usize) {
         let Some((object, play)) = self.editor.play(step) else {
             self.inform(
-                "These edits cannot be played: the step must flip, split or collapse edges of a mesh, without `until`.",
+                "These edits cannot be played: the step must flip (without `until`), split or collapse edges of a mesh, or make one level of Loop subdivision.",
             );
             return;
         };
@@ -130,7 +130,7 @@ impl Parts {
     }
 }
 
-/// The controls of the player, or nothing if no edits are played.
+/// Draws the controls of the player. Draws nothing if no edits are played.
 pub(crate) fn ui(ui: &mut Ui, parts: &mut Parts) {
     let Some(player) = &mut parts.player else {
         return;
@@ -197,7 +197,7 @@ pub(crate) fn ui(ui: &mut Ui, parts: &mut Parts) {
     }
 }
 
-/// The name of an edit, why it was refused, and the pointers that it changes.
+/// Draws the name of an edit, the pointers that the edit changes and, if the edit was refused, the reason.
 fn edit_ui(ui: &mut Ui, verb: &str, edit: &PlayedEdit) {
     let colors = Colors::current(ui);
     ui.label(RichText::new(format!("{verb}: {}", edit.name)).color(colors.picked));
@@ -238,7 +238,7 @@ fn edit_ui(ui: &mut Ui, verb: &str, edit: &PlayedEdit) {
     }
 }
 
-/// A value before and after an edit.
+/// Draws a value before and after an edit.
 fn cell(ui: &mut Ui, colors: &Colors, [before, after]: [Option<String>; 2]) {
     let (text, color) = match (before, after) {
         (Some(before), Some(after)) if before == after => (before, colors.weak),

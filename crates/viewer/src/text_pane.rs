@@ -27,7 +27,7 @@ pub(crate) struct TextPane {
     cursor: Option<usize>,
     /// The index of the chosen completion.
     chosen: usize,
-    /// The first byte of the word for which the user has closed the completion.
+    /// The offset of the word for which the user has closed the list of completions.
     closed_at: Option<usize>,
 }
 

@@ -10,9 +10,9 @@ use eframe::egui::{
 pub struct Colors {
     /// The background behind everything.
     pub base: Color32,
-    /// Panels.
+    /// The background of panels.
     pub panel: Color32,
-    /// Fields and code.
+    /// The background of fields and code.
     pub field: Color32,
     /// Lines between panels.
     pub line: Color32,

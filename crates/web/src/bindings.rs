@@ -136,7 +136,7 @@ impl Session {
         self.0.arrays(object).map(View)
     }
 
-    /// Returns the placements of the instances of a mesh.
+    /// Returns the placement of each instance of a mesh: 16 numbers that map the mesh to the scene.
     pub fn placements(&self, object: &str) -> Vec<f64> {
         self.0.placements(object)
     }
@@ -209,7 +209,7 @@ impl Colored {
         serde_json::json!({ "legend": self.0.legend, "meshes": meshes }).to_string()
     }
 
-    /// The colors of the mesh with this index. They can be taken once.
+    /// The colors of the mesh with this index. These colors can be taken only once.
     pub fn colors(&mut self, mesh: usize) -> Vec<u8> {
         let mesh = self.0.meshes.get_mut(mesh);
         mesh.map_or_else(Vec::new, |m| std::mem::take(&mut m.colors))

@@ -1,5 +1,5 @@
-//! `meshwright test --update`: in recipes, replaces the recorded values by the actual values of a run. Also replaces
-//! reference files by the files that the run has written.
+//! `meshwright test --update`: replaces the expected values in recipes by the actual values of a run. Also replaces
+//! reference files (expected output files) by the files that the run has written.
 
 use std::path::Path;
 
@@ -9,8 +9,8 @@ use recipe::update::update;
 use crate::output::write_temporary;
 use engine::Loaded;
 
-/// Replaces the recorded values that differ from the actual values of the run. Returns one line of text for each
-/// change. If the update fixes a failure, this failure is removed from `outcome`.
+/// Replaces the expected values in the recipe that differ from the actual values of the run. Returns one line of text
+/// for each change. If the update fixes a failure, this failure is removed from `outcome`.
 pub(crate) fn update_recorded_values(
     path: &Path,
     loaded: &Loaded,

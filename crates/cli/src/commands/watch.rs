@@ -157,8 +157,8 @@ impl FolderWatcher {
         };
         for file in self.disk.files() {
             if !is_temporary(&file) && !lock(&self.ignored).contains(&file) {
-                // The run has already read the file. If the folder of one file cannot be watched, the folders of the
-                // other files are still watched.
+                // Errors are ignored: if the folder of one file cannot be watched, the folders of the other files are
+                // still watched.
                 let _ = self.follow(folder_of(&file));
             }
         }

@@ -10,7 +10,8 @@ use crate::keys::Action;
 use crate::panel::{FieldKind, Panel, PanelField};
 use crate::text::{self, TextError};
 
-/// An operation that is to be inserted as a step after the step cursor.
+/// An operation that is to be inserted as a step at the step cursor, which is a position between two steps of the
+/// recipe.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Command {
     /// The name of the operation.
@@ -20,8 +21,8 @@ pub struct Command {
     /// The selection that becomes the value of the first parameter that selects elements, if this parameter has no
     /// value.
     pub selection: Option<SelectionText>,
-    /// The object that the step acts on. If `None`, the step acts on all objects; but if the scene has several meshes
-    /// and the command has a selection, it acts on the object of the selection.
+    /// The object that the step acts on. If `None`, the step usually acts on all objects. But if the scene has several
+    /// meshes and the command has a selection, the step acts only on the object of the selection.
     pub on: Option<String>,
 }
 
@@ -76,9 +77,9 @@ pub enum CommandError {
 }
 
 impl SelectionText {
-    /// Returns the selection for the operation `name`. If the step `before` has the same operation, a single step is
-    /// enough. In this case, the returned selection is the one in the step `before`. Otherwise, returns a copy of
-    /// `self`.
+    /// Returns the selection for the operation `name`. If the step `before` has the same operation, the step `before`
+    /// is not needed: for example, a command that tags elements needs no step that tags them first. In this case,
+    /// returns the selection that the step `before` contains. Otherwise, returns a copy of `self`.
     fn without_tag(&self, name: &str) -> Self {
         let elements = self.before.as_deref().and_then(|before| {
             let step = parse(before).value;
@@ -385,7 +386,8 @@ impl Panel {
 }
 
 /// Converts a selection to a selection of elements of the kind `wanted`. A selection that already selects elements of
-/// this kind is returned unchanged. An example of a conversion is `EdgesWithin`.
+/// this kind is returned unchanged. An example of a conversion is `EdgesWithin`, which turns a selection of vertices
+/// into a selection of edges.
 fn converted(selection: &SelectionText, wanted: Option<ElementKind>) -> Option<String> {
     let text = &selection.text;
     match wanted {

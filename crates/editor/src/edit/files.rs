@@ -80,7 +80,8 @@ impl Editor {
         recovery.discard(&*self.store);
     }
 
-    /// Writes the unsaved text to the journal, if the editor has a journal.
+    /// Writes the unsaved text to the journal, from which the text can be recovered after a crash. Does nothing if the
+    /// editor has no journal.
     pub(super) fn keep_journal(&mut self) {
         if let Some(journal) = &mut self.journal {
             journal.keep(&self.document, &*self.store);

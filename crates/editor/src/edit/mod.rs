@@ -329,7 +329,7 @@ impl Editor {
         (update != Update::default()).then_some(update)
     }
 
-    /// Polls until the run has ended, or until the given time has passed. Returns whether it has ended.
+    /// Polls until the run has ended, or until the given time has passed. Returns whether the run has ended.
     pub fn wait(&mut self, time: Duration) -> bool {
         let end = Instant::now() + time;
         loop {
@@ -403,8 +403,8 @@ impl Editor {
         };
         if !Arc::ptr_eq(&self.shown, &shown) {
             self.shown = shown;
-            // In another scene, it is possible that the picked elements need another selection, or do not exist. A
-            // preview keeps the picked elements and their selection.
+            // In another scene, the picked elements possibly need another selection, or do not exist. A preview keeps
+            // the picked elements and their selection.
             if self.preview.is_none() {
                 self.keep_picked();
             } else {
@@ -422,8 +422,8 @@ impl Editor {
         changed
     }
 
-    /// Reads the outline of the changed text and runs it. If `cursor` is `None`, the number of steps before the step
-    /// cursor stays the same. A cursor after the last step stays after the last step.
+    /// Reads the outline of the changed text, and runs the text. If `cursor` is `None`, the number of steps before the
+    /// step cursor stays the same. A cursor after the last step stays after the last step.
     fn text_changed(&mut self, cursor: Option<usize>) {
         let new = Outline::of(self.document.text());
         let (old_n, new_n) = (self.outline.steps.len(), new.steps.len());

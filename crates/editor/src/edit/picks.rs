@@ -59,7 +59,7 @@ impl Editor {
     pub fn proposals(&mut self) -> &[Proposal] {
         self.search();
         self.proposals = match std::mem::take(&mut self.proposals) {
-            // A search that panics finds nothing.
+            // If the search panics, its result is an empty list.
             Proposals::Searching(thread) => Proposals::Known(thread.join().unwrap_or_default()),
             known => known,
         };

@@ -10,10 +10,10 @@ use super::{CommandError, Editor};
 use crate::text::{self, Outline};
 
 impl Editor {
-    /// Adds expectations about the scene at the step cursor: how many objects, vertices, edges and faces it has, its
-    /// Euler characteristic, and `Manifold` and `Closed` if they hold. If the step cursor is not at the end of the
-    /// recipe, the step before the cursor gets an id, and the expectations are checked after this step. Returns the
-    /// expectations.
+    /// Adds expectations about the scene at the step cursor: how many objects, vertices, edges and faces the scene has,
+    /// and its Euler characteristic. Also adds `Manifold` and `Closed` if these expectations hold. If the step cursor
+    /// is not at the end of the recipe, the step before the cursor gets an id, and the expectations are checked after
+    /// this step. Returns the expectations.
     ///
     /// # Errors
     ///

@@ -85,7 +85,7 @@ impl FieldKind {
     /// Returns the kind of a field whose values have this JSON schema. References in the schema are looked up in the
     /// schema `root`.
     pub(super) fn at_depth(json: &Json, root: &Json, depth: usize) -> Self {
-        // Schemas can refer to themselves.
+        // Schemas can refer to themselves, so the depth is limited.
         if depth > 8 {
             return Self::Other;
         }

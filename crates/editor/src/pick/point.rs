@@ -195,8 +195,9 @@ struct Search<'a, 's> {
 }
 
 impl Search<'_, '_> {
-    /// Adds the vertices and edges of a face, and of faces around it, that are near the pixel. The faces around it must
-    /// show the same side (front or back) to the viewer.
+    /// Searches a face and the faces around this face, and adds those of their vertices and edges that are near the
+    /// pixel. Of the faces around the given face, only those are searched that show the same side (front or back) to
+    /// the viewer as the given face.
     fn around(&mut self, at: usize, face: FaceId) {
         let target = &self.targets[at];
         let (_, direction) = target.view.ray(self.pixel);
@@ -242,8 +243,8 @@ impl Search<'_, '_> {
         }
     }
 
-    /// Adds the edge of a half-edge, and the ends of the edge, if they are near the pixel. Returns whether the edge is
-    /// near the pixel.
+    /// Adds the edge of a half-edge and the two ends of the edge. Each of the three is added only if it is near the
+    /// pixel. Returns whether the edge is near the pixel.
     fn add(&mut self, at: usize, h: HalfEdgeId) -> bool {
         let target = &self.targets[at];
         let Some((distance, point)) = target
@@ -292,7 +293,8 @@ impl Search<'_, '_> {
         true
     }
 
-    /// Returns the best candidate among the visible candidates. `under` is the face under the cursor.
+    /// Returns the best visible candidate: the nearest visible vertex or, if there is none, the nearest visible edge.
+    /// `under` is the face under the cursor.
     fn best(mut self, under: Option<FaceId>) -> Option<Hit> {
         let key = |c: &Candidate| (c.rank, c.distance);
         // Of the two halves of an edge, the half on the face under the cursor comes first, because it was added first.

@@ -36,7 +36,7 @@ pub(crate) struct Request {
     pub(crate) source: Source,
     /// The folder for outputs.
     pub(crate) out: PathBuf,
-    /// Whether the outputs are kept.
+    /// Whether the run keeps the output files that it writes. Otherwise, it discards them.
     pub(crate) keep_outputs: bool,
     /// The memory budget for meshes, in bytes.
     pub(crate) budget: u64,
@@ -68,7 +68,8 @@ struct Waiting {
     progress: Option<(u64, Progress)>,
     ends: bool,
     on_event: Option<Wake>,
-    /// The files whose changes are reported, and the stamp of each file.
+    /// The files whose changes are reported, and the stamp of each file: a text that describes the state of the file
+    /// and changes when the file changes.
     watched: Vec<(PathBuf, String)>,
 }
 

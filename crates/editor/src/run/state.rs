@@ -27,8 +27,8 @@ pub struct RunState {
     pub parameters: Vec<Parameter>,
     /// The files that the recipe reads.
     pub inputs: Vec<PathBuf>,
-    /// The files, other than the recipe, on which the result depends. Each file has the stamp that it had when the
-    /// recipe was read.
+    /// The files, other than the recipe, on which the result depends. With each file, the list has the stamp that the
+    /// file had when the recipe was read: a text that changes when the file changes.
     pub(crate) watched: Vec<(PathBuf, String)>,
     /// The files that the run wrote. The list is empty if the request did not ask for outputs.
     pub written: Vec<PathBuf>,
@@ -69,7 +69,7 @@ pub struct StepState {
     pub source: usize,
     /// The range of the text in which the name of the operation is written.
     pub span: Span,
-    /// The forecast of the counts and the memory after the step.
+    /// The forecast of the numbers of elements and of the memory after the step.
     pub forecast: Option<StepForecast>,
     /// The result, once it is known.
     pub result: Option<Snapshot>,

@@ -69,7 +69,8 @@ impl Picked {
         }
     }
 
-    /// Adds the elements of another set. If the other set is of another object or kind, it replaces this set.
+    /// Adds the elements of another set. If the other set belongs to another object, or has another kind of elements,
+    /// the other set replaces this set.
     pub fn add(&mut self, other: &Self) {
         if self.object != other.object || self.kind() != other.kind() {
             self.clone_from(other);
@@ -84,8 +85,9 @@ impl Picked {
         self.half_edge = other.half_edge.or(self.half_edge);
     }
 
-    /// If all elements of another set are already in this set, removes them. Otherwise, adds them. A click with Shift
-    /// has this effect. If the other set is of another object or kind, it replaces this set.
+    /// If all elements of another set are already in this set, removes these elements. Otherwise, adds them. A click
+    /// with Shift has this effect. If the other set belongs to another object, or has another kind of elements, the
+    /// other set replaces this set.
     pub fn toggle(&mut self, other: &Self) {
         let before = self.clone();
         self.add(other);

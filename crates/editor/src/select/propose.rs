@@ -122,7 +122,7 @@ fn candidates(object: &Object, mesh: &Mesh, elements: &Selected) -> Vec<Candidat
         text,
         is_closed: true,
     });
-    // If a single element is picked, its number is tried first.
+    // If a single element is picked, its index is tried first.
     if elements.len() == 1 {
         all.clear();
         all.extend(listed);
@@ -264,8 +264,8 @@ fn between(mesh: &Mesh, e: EdgeId) -> String {
     format!("Between({}, {})", v.min(w), v.max(w))
 }
 
-/// Returns a selection that uses a new tag. Also returns the step that gives this tag to the elements, which it lists
-/// by their indices.
+/// Returns a selection that uses a new tag. Also returns the step that gives this tag to the elements. The step lists
+/// the elements by their indices.
 fn by_new_tag(mesh: &Mesh, picked: &Picked) -> Proposal {
     let (operation, field, domain) = match picked.kind() {
         ElementKind::Vertices => ("TagVertices", "vertices", Domain::Vertex),

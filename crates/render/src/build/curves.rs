@@ -14,9 +14,9 @@ use crate::drawing::{Channel, NO_FACE, Part, Surface};
 use crate::figure::construction;
 use crate::style::Lines;
 
-/// The number of cells along each side of a patch.
+/// The number of cells along each side of the grid as which a patch is drawn.
 const CELLS: u32 = 24;
-/// The number of line segments of a curve.
+/// The number of line segments into which a curve is divided for drawing.
 const SEGMENTS: u32 = 200;
 /// The diameter of the dot for a polyline with a single point, as a multiple of the line width.
 const SINGLE_POINT: f64 = 3.0;
@@ -64,7 +64,8 @@ impl Builder<'_, '_> {
         Ok(())
     }
 
-    /// Adds the edges of a tessellated surface. The edges must be added before the faces of the surface.
+    /// Adds the edges of a tessellated surface. The edges must be added before the faces of the surface, because
+    /// `n_faces` is taken as the index of the first of these faces.
     fn grid(&mut self, surface: &Tessellation, lines: &Lines) {
         let mut edges: BTreeMap<[u32; 2], [u32; 2]> = BTreeMap::new();
         for (f, corners) in (self.n_faces..).zip(surface.faces()) {

@@ -259,7 +259,7 @@ fn triangulate(mesh: &Mesh, with_corners: bool) -> Triangulation {
     all
 }
 
-/// Returns the triangles of a dense mesh in which all faces are triangles.
+/// Returns the triangles of a mesh without deleted elements, in which all faces are triangles.
 fn triangles_of(mesh: &Mesh, with_corners: bool) -> Triangulation {
     let half_edges = |i: usize| {
         let h = mesh.face_half_edge(FaceId::new(i));

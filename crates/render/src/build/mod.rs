@@ -17,7 +17,7 @@ use crate::drawing::{Drawing, Label, Line};
 use crate::style::Style;
 use crate::texture::TextureCache;
 
-/// Additions to the geometry of a scene.
+/// What a picture shows in addition to the objects of a scene.
 #[derive(Clone, Debug, Default)]
 pub struct Overlays {
     /// Highlighted elements. Later highlights are drawn on top.

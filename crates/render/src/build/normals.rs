@@ -87,14 +87,14 @@ fn is_clearly_smooth(a: DVec3, b: DVec3, limit: f64) -> bool {
     limit > 0.0 && dot > 0.0 && dot * dot > (1.0 + 1e-9) * limit * limit * lengths
 }
 
-/// Returns the sum of the area vectors of the faces around the origin of `h`. Faces that a sharp edge separates from
-/// the face of `h` are left out.
+/// Returns the sum of the area vectors of the faces around the vertex at which the half-edge `h` starts. Faces that a
+/// sharp edge separates from the face of `h` are left out.
 fn of_corner(mesh: &Mesh, h: HalfEdgeId, areas: &[[f32; 3]], is_sharp: &[bool]) -> [f32; 3] {
     let Some(face) = mesh.face(h) else {
         return [0.0; 3];
     };
     let mut sum = areas[face.index()];
-    // Walks counter-clockwise around the vertex, across the previous edge of each face.
+    // Walks counter-clockwise around the vertex. The edge of a face that ends at the vertex leads to the next face.
     let mut g = h;
     loop {
         let before = mesh.prev(g);

@@ -202,7 +202,7 @@ fn write_loop(
     }
 }
 
-/// Draws an arrow between two points, shortened at both ends. Returns its ends.
+/// Draws an arrow between two points, shortened at both ends. Returns the two ends of the arrow.
 fn arrow(svg: &mut Svg, [a, b]: [DVec2; 2], color: Color) -> [DVec2; 2] {
     let ends = [a.lerp(b, SHORTENING), b.lerp(a, SHORTENING)];
     let along = (b - a).normalize_or_zero();

@@ -1,9 +1,9 @@
 //! Converts lines of text to outlines. Only the embedded fonts are used.
 //!
-//! If a font does not have a character, the first embedded font with this character is used, except in formulas. If no
-//! other font is used, the font's own glyph for missing characters is drawn. In Inter, this glyph is blank. Letters are
-//! kerned, and accents are placed on their letters. Right-to-left text is not supported, because the fonts have no
-//! right-to-left letters.
+//! If a font does not have a character, the first embedded font with this character is used, except in formulas. In
+//! formulas, and if no embedded font has the character, the font's own glyph for missing characters is drawn. In Inter,
+//! this glyph is blank. Letters are kerned, and accents are placed on their letters. Right-to-left text is not
+//! supported, because the fonts have no right-to-left letters.
 
 use std::sync::LazyLock;
 

@@ -180,7 +180,7 @@ fn stroke((color, width): (Color, f64), cap: LineCap, dash: Option<StrokeDash>) 
     (color, stroke)
 }
 
-/// Returns the outline of a shape; `None` if it is empty.
+/// Returns the outline of a shape, or `None` if the outline is empty.
 fn outline(shape: &Shape) -> Option<Path> {
     let mut path = PathBuilder::new();
     match shape {

@@ -280,7 +280,7 @@ impl Svg {
         self.elements.push(Element::Shape(shape, paint));
     }
 
-    /// Returns the document as text. `provenance` is written as its metadata.
+    /// Returns the document as text. `provenance` is written as the metadata of the document.
     pub fn finish(&self, provenance: Option<&str>) -> String {
         let [w, h] = [self.width, self.height].map(number);
         let mut xml = format!(

@@ -24,7 +24,9 @@ pub enum UvFill {
     None,
     /// One of eight colors for each chart. Neighboring charts usually have different colors.
     Charts,
-    /// The stretch of angles: dark if angles are preserved (aspect 1), bright for an aspect of [`MAX_ASPECT`] or more.
+    /// How much angles are distorted, from dark (no distortion: the aspect is 1) to bright (the aspect is
+    /// [`MAX_ASPECT`] or more). A small circle on the surface becomes an ellipse in the texture; the aspect is the
+    /// ratio of the axes of the ellipse.
     Stretch,
 }
 
@@ -96,7 +98,7 @@ pub fn uv_layout(
     let lines = |borders: bool| -> Vec<Command> {
         let chosen = corners().filter(|&h| {
             let is_border = is_border(mesh, uvs, h);
-            // Both half-edges of an inner edge have the same position, so only one of them is drawn.
+            // An edge inside a chart has two half-edges at the same position, so only one of them is drawn.
             is_border == borders && (is_border || h < h.twin())
         });
         chosen

@@ -76,7 +76,8 @@ fn chunks(n: usize, all: usize) -> impl Iterator<Item = Range<usize>> {
 }
 
 /// Returns the maximum number of bytes that the lists take, including the temporary memory of sorting. `groups` has the
-/// number of items of each group. All items of a chunk belong to the same group.
+/// number of items of each group: of the triangles of each part, or of all lines. All items of a chunk belong to the
+/// same group.
 pub(super) fn bytes(groups: impl Iterator<Item = usize> + Clone, frame: &Frame) -> u64 {
     let all: usize = groups.clone().sum();
     let n_chunks: usize = groups.map(|n| chunks(n, all).count()).sum();
@@ -338,7 +339,7 @@ impl Lines {
     }
 }
 
-/// Returns the tiles that a box of pixels touches; `None` if it is outside of the picture.
+/// Returns the tiles that a box of pixels touches, or `None` if the box is outside of the picture.
 fn tiles_of_box([left, top, right, bottom]: [f64; 4], frame: &Frame) -> Option<TileRect> {
     let (w, h) = (f64::from(frame.width), f64::from(frame.height));
     if right < 0.0 || bottom < 0.0 || left >= w || top >= h {

@@ -1,6 +1,6 @@
 //! Selects the samples of a pixel that a transparent triangle covers. The number of these samples is proportional to
-//! alpha. Different surfaces usually start at different samples, so that several transparent surfaces can be visible in
-//! the same pixel.
+//! alpha. The first sample that is covered usually differs from surface to surface, so that several transparent
+//! surfaces can be visible in the same pixel.
 
 use glam::DVec2;
 

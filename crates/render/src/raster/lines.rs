@@ -47,7 +47,7 @@ pub(super) fn project(drawing: &Drawing, view: &View) -> Vec<Option<ProjectedLin
     })
 }
 
-/// Projects a line; `None` if it is behind the camera, has no width, or has an end that is not finite.
+/// Projects a line. Returns `None` if the line is behind the camera, has no width, or has an end that is not finite.
 fn project_line(line: &Line, view: &View) -> Option<ProjectedLine> {
     let [a, b] = line.ends.map(|p| view.camera_space(p));
     let [da, db] = [a, b].map(|v| view.clip_distance(0, 0.0, v));

@@ -210,7 +210,7 @@ pub fn render(
     })
 }
 
-/// Draws a triangle into a tile, except for its transparent samples.
+/// Draws a triangle into a tile, but only at the samples that its alpha selects (see [`Coverage`]).
 fn draw(tile: &mut Tile, id: u32, projected: &ProjectedTriangle, shader: &Shader) {
     if !shader.has_transparency {
         tile.draw(id, projected, u16::MAX);
@@ -320,7 +320,8 @@ fn place(
     let number = (y / TILE * frame.columns + x / TILE) as usize;
     let tolerance = view.depth_change(2.0 * view.pixel_size(point.depth), point.depth);
     let limit = narrow(point.depth - tolerance);
-    // Triangles are drawn only at the pixel of the label.
+    // To find the depth of the surface at the label, the triangles are drawn into a tile of a single pixel: the pixel
+    // of the label.
     let mut tile = Tile::new();
     (tile.left, tile.top, tile.right, tile.bottom) = (x, y, x + 1, y + 1);
     triangles.each_of_tile(drawing, number, |id, projected| {

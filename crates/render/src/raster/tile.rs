@@ -89,9 +89,9 @@ impl Tile {
         ((y - self.top) * TILE + (x - self.left)) as usize
     }
 
-    /// Draws a triangle. At each sample that the new triangle covers, it replaces the current triangle if the new
-    /// triangle is nearer to the camera. At the same depth, the triangle with the lower index is visible. Only samples
-    /// whose bit is set in `mask` can be covered.
+    /// Draws a triangle. At each sample that the new triangle covers, the new triangle replaces the current triangle if
+    /// the new triangle is nearer to the camera. At the same depth, the triangle with the lower index is visible. Only
+    /// samples whose bit is set in `mask` can be covered.
     pub(super) fn draw(&mut self, id: u32, projected: &ProjectedTriangle, mask: u16) {
         let Some(setup) = Setup::new(projected, self) else {
             return;

@@ -106,7 +106,8 @@ impl Parts {
         }
     }
 
-    /// Chooses an operation from the palette: applies it, or opens its panel if it needs a parameter.
+    /// Handles the choice of an operation in the palette: applies the operation, or opens its panel if the operation
+    /// needs a parameter.
     pub(crate) fn choose(&mut self, operation: &str) {
         let selection = self.editor.selection();
         let Some(entry) = self.editor.registry().get(operation) else {
@@ -146,7 +147,7 @@ impl Parts {
         let view = &mut self.view;
         view.tool = (view.tool != Some(tool)).then_some(tool);
         if view.tool.is_some() && self.editor.picked().is_none() {
-            self.inform("Pick elements: the handles appear at them.");
+            self.inform("Pick elements first: the handles appear at the picked elements.");
         }
     }
 

@@ -20,7 +20,9 @@ impl Parts {
         if picks && self.draft.is_some() && self.editor.is_preview() {
             // The new step acts on elements of the scene before this step, not on elements of the preview.
             self.editor.end_preview();
-            self.inform("This is the scene before the new step: pick its elements.");
+            self.inform(
+                "The view now shows the scene before the new step: pick the elements here.",
+            );
             return;
         }
         match event {

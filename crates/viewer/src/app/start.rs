@@ -38,7 +38,7 @@ impl Default for Start {
 pub struct Opened {
     pub(super) editor: Editor,
     pub(super) files: Files,
-    /// Why the file of the start could not be opened.
+    /// Why the file that was given at the start could not be opened.
     pub(super) notice: Option<Notice>,
     pub(super) start: Start,
 }
@@ -46,7 +46,7 @@ pub struct Opened {
 impl Start {
     /// Creates the editor, and opens the file if there is one.
     pub fn open(self) -> Opened {
-        // Looks for the journals of other sessions, before this editor has its own journal.
+        // Looks for the journals of other editors before this editor has its own journal.
         let mut files = Files::new(self.state_folder.clone());
         let settings = Settings {
             journals: files::journals(self.state_folder.as_deref()),

@@ -120,8 +120,8 @@ fn byte(x: f32) -> u8 {
     (x.clamp(0.0, 1.0) * 255.0).round() as u8
 }
 
-/// Converts a part. If the part is the surface of a mesh, `mesh` is this mesh. It shows which sides of triangles are
-/// edges of the mesh, and which are diagonals of polygons.
+/// Converts a part. If the part is the surface of a mesh, `mesh` is this mesh. The mesh is needed to find out which
+/// sides of triangles are edges of the mesh, and which are diagonals of polygons.
 pub(super) fn surfaces(part: &Part, mesh: Option<&Mesh>, center: DVec3) -> Vec<Surface> {
     split(part, mesh, center, [CHUNK, MAX_POINTS])
 }

@@ -153,11 +153,11 @@ pub(super) struct Uploaded {
     /// The buffers that are updated after a local change of the mesh. `None` if the whole object is converted after
     /// every change.
     pub(super) simple: Option<Simple>,
-    /// Lines and their number.
+    /// The buffer of the lines, and the number of lines.
     pub(super) lines: Option<(wgpu::Buffer, u32)>,
     /// Whether the hidden parts of some lines are also drawn.
     pub(super) has_hidden: bool,
-    /// Corners of triangles on surfaces and their number.
+    /// The buffer of the corners of colored triangles on surfaces, and the number of corners.
     pub(super) patches: Option<(wgpu::Buffer, u32)>,
 }
 

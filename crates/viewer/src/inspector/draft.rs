@@ -95,7 +95,7 @@ impl Draft {
     }
 }
 
-/// The parameters of a new step.
+/// Draws the parameters of a new step.
 pub(super) fn ui(ui: &mut Ui, parts: &mut Parts) {
     let Some(mut draft) = parts.draft.take() else {
         return;

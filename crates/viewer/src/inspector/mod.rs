@@ -72,7 +72,7 @@ fn known_selection(parts: &mut Parts) -> Option<SelectionText> {
     is_known.then(|| parts.editor.selection()).flatten()
 }
 
-/// What an operation does: in one line or, after a click, in full.
+/// Draws the description of an operation: in one line or, after a click, in full.
 fn about(ui: &mut Ui, panel: &Panel) {
     weak(ui, &panel.summary);
     let title = RichText::new("About this operation").size(12.0);
@@ -91,7 +91,7 @@ fn weak(ui: &mut Ui, text: &str) {
     ui.add(Label::new(RichText::new(text).size(12.0).color(color)).wrap());
 }
 
-/// The parameters of the step at the cursor.
+/// Draws the parameters of the step at the cursor.
 fn step(ui: &mut Ui, parts: &mut Parts) {
     let Some(step) = parts.editor.cursor().checked_sub(1) else {
         weak(
@@ -162,7 +162,7 @@ fn step(ui: &mut Ui, parts: &mut Parts) {
     }
 }
 
-/// The parameters of the recipe as sliders.
+/// Draws the parameters of the recipe as sliders.
 fn recipe_parameters(ui: &mut Ui, parts: &mut Parts) {
     let parameters = parts.editor.outline().parameters.clone();
     for parameter in &parameters {

@@ -65,7 +65,8 @@ pub(super) fn picked(ui: &mut Ui, parts: &mut Parts) {
     });
 }
 
-/// Explains how elements are picked, or how patches become a mesh with elements.
+/// Explains how to pick elements or, if the scene has only patches, how to turn them into a mesh whose elements can be
+/// picked.
 fn nothing_picked(ui: &mut Ui, parts: &mut Parts) {
     let scene = parts.editor.view().scene;
     let has_mesh = scene
@@ -98,7 +99,7 @@ fn nothing_picked(ui: &mut Ui, parts: &mut Parts) {
     }
 }
 
-/// The selection that the next step uses. The user can edit it.
+/// Draws the selection that the next step uses. The user can edit this selection.
 fn selection(ui: &mut Ui, parts: &mut Parts) {
     if parts.editor.is_searching() {
         weak(
@@ -137,7 +138,7 @@ fn selection(ui: &mut Ui, parts: &mut Parts) {
     }
 }
 
-/// If an edge is picked, the half-edge of this edge, and the neighbors of the half-edge.
+/// If an edge is picked, draws the half-edge of this edge, and the neighbors of the half-edge.
 pub(super) fn half_edge(ui: &mut Ui, parts: &mut Parts) {
     let picked = parts.editor.picked().and_then(|picked| picked.half_edge);
     let info = picked.zip(parts.picked_mesh());

@@ -56,7 +56,7 @@ pub(super) struct Drag {
     start: DVec2,
     /// The last place of the cursor.
     last: DVec2,
-    /// The turn of the cursor around the base so far, in degrees.
+    /// The angle by which the cursor has moved around the base since the start of the drag, in degrees.
     turned: f64,
     /// The offset in scene units, the angle in degrees, or the factor.
     value: f64,
@@ -233,8 +233,8 @@ impl ViewPane {
         }
     }
 
-    /// Returns the half of a ring around an axis that is nearer to the viewer, or the whole ring if it faces the
-    /// viewer.
+    /// Returns the visible part of the ring around an axis: the half of the ring that is nearer to the viewer, or the
+    /// whole ring if the ring faces the viewer.
     fn ring(&self, gizmo: Gizmo, length: f64, axis: usize) -> Handle {
         let normal = gizmo.axes[axis];
         let back = self.camera.axes()[2];

@@ -286,7 +286,7 @@ impl ViewPane {
         self.update_overlay(shown);
         let size = [rect.width(), rect.height()].map(|side| whole(side * scale));
         let Some(gpu) = &mut self.gpu else {
-            let message = "There is no graphics adapter that can draw the scene.\nIt needs Vulkan, Metal or Direct3D 12.\nThe recipe can still be edited and run.\n\nOn Debian, `apt-get install mesa-vulkan-drivers` installs a software renderer.";
+            let message = "There is no graphics adapter that can draw the scene.\nThe adapter must support Vulkan, Metal or Direct3D 12.\nThe recipe can still be edited and run.\n\nOn Debian, `apt-get install mesa-vulkan-drivers` installs a software renderer.";
             ui.painter().rect_filled(rect, 0.0, colors.base);
             ui.painter().text(
                 rect.center(),

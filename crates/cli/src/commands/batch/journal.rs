@@ -97,7 +97,7 @@ impl Journal {
         let others = others(&path).into_iter().map(std::fs::read);
         for (i, bytes) in std::iter::once(Ok(bytes)).chain(others).enumerate() {
             // A journal that was removed in the meantime has no entries. Lines that cannot be parsed, such as lines of
-            // a different version, are ignored, so their files are processed again.
+            // a different version, are ignored, so the input files of these lines are processed again.
             for line in bytes.unwrap_or_default().split(|&b| b == b'\n') {
                 if let Ok(entry) = serde_json::from_slice::<Entry>(line) {
                     if is_wanted(&entry.row) {

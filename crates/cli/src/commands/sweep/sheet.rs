@@ -292,8 +292,8 @@ pub(super) fn kept_bytes(budget: u64) -> u64 {
 /// The positions of cells on a sheet, in order from left to right and from top to bottom.
 struct Layout {
     columns: usize,
-    /// The labels of the rows and the columns of the sheet. The lists are empty if `--columns` is given, or if the
-    /// number of axes with several values is not two.
+    /// The labels of the rows and the columns of the sheet. The labels exist only if exactly two axes (varying
+    /// parameters) of the sweep have several values, and `--columns` is not given. Otherwise, the lists are empty.
     heads: [Vec<String>; 2],
 }
 
@@ -309,7 +309,7 @@ impl Layout {
         let columns = match (columns, &changing[..]) {
             (Some(columns), _) => columns as usize,
             (None, [rows, columns]) => {
-                // The last parameter changes fastest.
+                // In the list of cells, the value of the last parameter changes from one cell to the next.
                 let row = |i: usize| values(plan, rows, i * columns.len).join(", ");
                 let column = |i: usize| values(plan, columns, i).join(", ");
                 heads[0].extend((0..rows.len).map(row));

@@ -7,9 +7,9 @@ use mesh::{DVec3, Domain, EdgeId, Mesh, VertexId, angle_between};
 
 use crate::Scaled;
 
-/// Returns the Gaussian curvature at each vertex, by vertex index, in 1 / scene unit². The curvature is 1 / r² on a
-/// sphere of radius r, and 0 on a cylinder. The value is NaN for dead (removed) vertices, for isolated vertices, and
-/// for vertices whose faces all have zero area.
+/// Returns the Gaussian curvature at each vertex. Entry i belongs to the vertex with the index i; the unit is 1 / scene
+/// unit². The curvature is 1 / r² on a sphere of radius r, and 0 on a cylinder. The value is NaN for dead (removed)
+/// vertices, for isolated vertices, and for vertices whose faces all have zero area.
 ///
 /// The curvature is the angle defect divided by the [vertex area](vertex_area). The angle defect of a vertex is 2π
 /// minus the sum of the angles of the faces at the vertex; for a boundary vertex, it is π minus this sum. Source:
@@ -29,13 +29,14 @@ pub fn gaussian_curvatures(mesh: &Mesh) -> Vec<f64> {
     })
 }
 
-/// Returns the mean curvature at each vertex, by vertex index, in 1 / scene unit. The curvature is 1 / r on an
-/// outward-facing sphere of radius r, 1 / (2r) on a cylinder, and negative where the surface is concave. The value is
-/// NaN for dead (removed) vertices, for isolated vertices, and for vertices whose faces all have zero area.
+/// Returns the mean curvature at each vertex. Entry i belongs to the vertex with the index i; the unit is 1 / scene
+/// unit. If the faces point outward, the curvature is 1 / r on a sphere of radius r and 1 / (2r) on a cylinder. The
+/// curvature is negative where the surface is concave. The value is NaN for dead (removed) vertices, for isolated
+/// vertices, and for vertices whose faces all have zero area.
 ///
 /// The signed dihedral angle of an edge is the angle between the normals of its two faces, positive if the edge is
-/// convex. The contribution of an edge is half the product of its signed dihedral angle and its length. The two ends of
-/// the edge share this contribution equally. The sum of the contributions at a vertex is divided by the [vertex
+/// convex. The contribution of an edge is half the product of its signed dihedral angle and its length. Each of the two
+/// ends of the edge gets half of this contribution. The sum of the contributions at a vertex is divided by the [vertex
 /// area](vertex_area). Source: Cohen-Steiner, Morvan, "Restricted Delaunay Triangulations and Normal Cycle", 2003.
 /// Boundary edges contribute 0.
 pub fn mean_curvatures(mesh: &Mesh) -> Vec<f64> {
@@ -50,16 +51,17 @@ pub fn mean_curvatures(mesh: &Mesh) -> Vec<f64> {
     })
 }
 
-/// Returns the two principal curvatures at each vertex, the smaller one first, by vertex index, in 1 / scene unit. On
-/// an outward-facing sphere of radius r, both principal curvatures are 1 / r. On an outward-facing cylinder of radius
-/// r, the principal curvatures are 0 and 1 / r. The values are NaN where the [mean curvature](mean_curvatures) is NaN.
+/// Returns the two principal curvatures at each vertex, the smaller one first. Entry i belongs to the vertex with the
+/// index i; the unit is 1 / scene unit. On an outward-facing sphere of radius r, both principal curvatures are 1 / r.
+/// On an outward-facing cylinder of radius r, the principal curvatures are 0 and 1 / r. The values are NaN where the
+/// [mean curvature](mean_curvatures) is NaN.
 ///
-/// The principal curvatures are the eigenvalues of the curvature tensor of the vertex in the plane perpendicular to its
-/// normal. The normal is the sum of the area vectors of the faces around the vertex. Each edge at the vertex adds
-/// ½ θ l u uᵀ to the tensor, where θ is the signed dihedral angle of the edge, l is its length, and u is the unit
-/// vector along it. The sum over all edges at the vertex is divided by the [vertex area](vertex_area). Source:
-/// Cohen-Steiner, Morvan, "Restricted Delaunay Triangulations and Normal Cycle", 2003. Where the surface is nearly
-/// flat around the vertex, the mean of the principal curvatures is close to the mean curvature.
+/// The principal curvatures are the eigenvalues of a 2 x 2 curvature tensor in the tangent plane of the vertex. This
+/// plane is perpendicular to the sum of the area vectors of the faces around the vertex. Each edge at the vertex adds ½
+/// θ l u uᵀ to the tensor, where θ is the signed dihedral angle of the edge, l is its length, and u is the unit vector
+/// along it. The sum over all edges at the vertex is divided by the [vertex area](vertex_area). Source: Cohen-Steiner,
+/// Morvan, "Restricted Delaunay Triangulations and Normal Cycle", 2003. Where the surface is nearly flat around the
+/// vertex, the mean of the principal curvatures is close to the mean curvature.
 pub fn principal_curvatures(mesh: &Mesh) -> Vec<[f64; 2]> {
     let none = [f64::NAN; 2];
     let scaled = Scaled::new(mesh);
@@ -69,7 +71,7 @@ pub fn principal_curvatures(mesh: &Mesh) -> Vec<[f64; 2]> {
         let normal: DVec3 = faces.map(|f| mesh.area_vector(f)).sum();
         let normal = normal.normalize_or(DVec3::Z);
         let (a, b) = normal.any_orthonormal_pair();
-        // The tensor in the basis a, b: rows (aa, ab) and (ab, bb).
+        // The entries of the tensor in the basis a, b. The rows of the tensor are (aa, ab) and (ab, bb).
         let [mut aa, mut ab, mut bb] = [0.0; 3];
         for h in mesh.vertex_half_edges(v) {
             let along = mesh.position(mesh.target(h)) - mesh.position(v);
@@ -109,7 +111,7 @@ fn signed_dihedral(mesh: &Mesh, e: EdgeId) -> f64 {
     };
     let (n, m) = (mesh.face_normal(f), mesh.face_normal(g));
     let [v, w] = mesh.edge_vertices(e).map(|v| mesh.position(v));
-    // The first half-edge of the edge runs from v to w with f to its left.
+    // The first half-edge of the edge runs from v to w, and the face f is to the left of this half-edge.
     if n.cross(m).dot(w - v) >= 0.0 {
         angle_between(n, m)
     } else {
@@ -117,7 +119,8 @@ fn signed_dihedral(mesh: &Mesh, e: EdgeId) -> f64 {
     }
 }
 
-/// Returns the value of each vertex, by index, converted to scene units. Values that are not finite become NaN.
+/// Computes a value for each vertex, and converts the value to scene units. Entry i of the result belongs to the vertex
+/// with the index i. Values that are not finite become NaN.
 fn at_vertices(
     scaled: &Scaled,
     dimension: i32,
@@ -133,7 +136,8 @@ fn at_vertices(
     })
 }
 
-/// Returns the value of each vertex, by index. Dead vertices get the value `none`.
+/// Computes a value for each vertex. Entry i of the result belongs to the vertex with the index i. Dead (removed)
+/// vertices get the value `none`.
 fn fill_vertices<T: Copy + Send + Sync>(
     mesh: &Mesh,
     none: T,

@@ -1,5 +1,6 @@
-//! Fills a hole with triangles by cutting off ears, one after another. An ear is a vertex of the hole that is cut off
-//! by a new triangle. The corners of this triangle are the ear and its two neighbors around the hole, p and q.
+//! Fills a hole with triangles by cutting off ears, one after another. An ear is a vertex at the border of the hole
+//! that a new triangle cuts off. The corners of this triangle are the ear and its two neighbors around the hole, p and
+//! q. The hole that remains has an edge from p to q and no longer touches the ear.
 //!
 //! ```text
 //!      p --- ear               p
@@ -13,12 +14,12 @@ use std::collections::BinaryHeap;
 
 use mesh::{DVec3, EditError, FaceId, HalfEdgeId, Mesh, VertexId};
 
-/// The maximum number of edges of a hole that is filled with triangles of minimal total area. The time grows
-/// with the third power of the number of edges; for 500 edges, it is about a tenth of a second.
+/// The maximum number of edges of a hole for which the triangulation with the smallest total area is computed. The time
+/// for this grows with the third power of the number of edges; for 500 edges, it is about a tenth of a second.
 const MAX_EXACT_EDGES: usize = 500;
 
-/// The largest cost that the shape of a triangle adds to its area, as a fraction of the mean squared edge length of
-/// the hole.
+/// The cost of a triangle is its area plus a term for its shape. This is the largest value of the shape term, as a
+/// fraction of the mean squared edge length of the hole.
 const SHAPE_WEIGHT: f64 = 1e-6;
 
 /// Fills the hole of `h`, a half-edge without a face, with triangles.
@@ -37,10 +38,10 @@ const SHAPE_WEIGHT: f64 = 1e-6;
 /// whose triangles are closest to equilateral. Source: Barequet and Sharir, "Filling gaps in the boundary of a
 /// polyhedron", 1995. The time is proportional to n³ for n edges.
 ///
-/// In a hole with more than 500 edges, corners are cut off one after another. The next corner is always the corner
-/// whose two neighbors are nearest to each other. Cutting off all corners takes time proportional to n log n for n
-/// edges. Corners that are straight or reflex, as seen along the mean normal, are cut off last. In a hole that is far
-/// from convex, the triangles can overlap.
+/// In a hole with more than 500 edges, corners are cut off one after another. The next corner is always the convex
+/// corner whose two neighbors are nearest to each other. Corners that are straight or reflex, as seen along the mean
+/// normal, are cut off last. Cutting off all corners takes time proportional to n log n for n edges. In a hole that is
+/// far from convex, the triangles can overlap.
 ///
 /// A new edge never connects two vertices that already share an edge.
 ///
@@ -54,8 +55,9 @@ const SHAPE_WEIGHT: f64 = 1e-6;
 /// # Errors
 ///
 /// Returns [`EditError::DuplicateEdge`] if every triangulation needs an edge that already exists. For a hole of more
-/// than 500 edges, this error means only that the search did not find a triangulation without an existing edge. Also
-/// returns [`EditError::Full`] and the errors of [`Mesh::fill_hole`]. After an error, the mesh is unchanged.
+/// than 500 edges, this error does not mean that no triangulation exists: the search only tries one order of the
+/// corners. Also returns [`EditError::Full`] and the errors of [`Mesh::fill_hole`]. After an error, the mesh is
+/// unchanged.
 pub fn fill_hole_triangles(mesh: &mut Mesh, h: HalfEdgeId) -> Result<Vec<FaceId>, EditError> {
     let ears = ears(mesh, &mesh.rim(h)?)?;
     mesh.fill_hole_by_ears(h, &ears)
@@ -77,12 +79,12 @@ struct Hole<'m> {
     mesh: &'m Mesh,
     vertices: Vec<VertexId>,
     points: Vec<DVec3>,
-    /// The cost that the worst possible triangle shape adds to the area of a triangle.
+    /// The largest shape term: the cost that is added to the area of a degenerate triangle.
     shape: f64,
 }
 
-/// The best triangulation of a part of the rim: its cost, and the third corner of the triangle whose side
-/// joins the two ends of the part.
+/// The cheapest triangulation of a part of the rim (consecutive vertices around the hole): its cost, and the third
+/// corner of the triangle whose side joins the two ends of the part.
 type Best = (f64, usize);
 
 impl<'m> Hole<'m> {
@@ -107,7 +109,7 @@ impl<'m> Hole<'m> {
 
     /// Returns the cost of a triangle: its area plus a shape term that grows with the deviation from an equilateral
     /// triangle. By Weitzenböck's inequality, 4 √3 times the area is at most the sum of the squared sides, so
-    /// `roundness` is at most 1.
+    /// `roundness` is at most 1. It is 1 for an equilateral triangle.
     fn cost(&self, i: usize, m: usize, k: usize) -> f64 {
         let (a, b, c) = (self.points[i], self.points[m], self.points[k]);
         let (ab, bc, ca) = (b - a, c - b, a - c);
@@ -121,8 +123,9 @@ impl<'m> Hole<'m> {
         0.5 * twice + self.shape * (1.0 - roundness)
     }
 
-    /// Finds the triangulation of the smallest cost, by dynamic programming over parts of the rim. Returns
-    /// `None` if every triangulation needs an edge that already exists.
+    /// Finds the triangulation with the smallest total cost, by dynamic programming over parts of the rim. Returns the
+    /// ears in the order in which they are cut off. Returns `None` if every triangulation needs an edge that already
+    /// exists.
     fn smallest(&self) -> Option<Vec<usize>> {
         let n = self.points.len();
         let mut best: Vec<Option<Best>> = vec![None; n * n];
@@ -132,9 +135,9 @@ impl<'m> Hole<'m> {
         for length in 2..n {
             for i in 0..n - length {
                 let k = i + length;
-                // The corners from i to k are filled as a part of the hole, which needs a new edge from i to k. If the
-                // mesh already joins i and k, this is not possible. For the part with all corners, the edge from i to k
-                // is an edge of the rim and exists already.
+                // The part of the hole between the corners i and k is filled separately, so it needs a new edge from i
+                // to k. If the mesh already has this edge, the part cannot be filled separately. The part with all
+                // corners is an exception: its edge from i to k is an edge of the rim, and is not new.
                 if length < n - 1 && self.is_joined(i, k) {
                     continue;
                 }
@@ -145,8 +148,8 @@ impl<'m> Hole<'m> {
                         continue;
                     };
                     let cost = left + right + self.cost(i, middle, k);
-                    // Accepts the first candidate even if its cost is not finite, so that very large
-                    // coordinates work.
+                    // Accepts the first candidate even if its cost is not finite. Otherwise, no candidate would be
+                    // found for a hole with very large coordinates.
                     if found.is_none_or(|(least, _)| cost < least) {
                         found = Some((cost, middle));
                     }
@@ -155,8 +158,8 @@ impl<'m> Hole<'m> {
             }
         }
 
-        // A triangle becomes an ear only after the parts on both sides of the triangle are cut off, so the
-        // order is reversed.
+        // The corner of a triangle becomes an ear only after the parts on both sides of the triangle are filled. The
+        // loop below visits each triangle before these parts, so the order is reversed at the end.
         let mut ears = Vec::with_capacity(n - 2);
         let mut parts = vec![(0, n - 1)];
         while let Some((i, k)) = parts.pop() {
@@ -170,8 +173,8 @@ impl<'m> Hole<'m> {
         Some(ears)
     }
 
-    /// Repeatedly cuts off the ear with the shortest new edge. Returns `None` if every remaining ear needs an
-    /// edge that already exists.
+    /// Repeatedly cuts off the ear with the shortest new edge, convex ears first. Returns the ears in the order in
+    /// which they are cut off. Returns `None` if every remaining ear needs an edge that already exists.
     fn nearest_first(&self) -> Option<Vec<usize>> {
         let n = self.points.len();
         let mut next: Vec<usize> = (1..n).chain([0]).collect();
@@ -180,7 +183,7 @@ impl<'m> Hole<'m> {
         let key = |p: usize, ear: usize, q: usize| {
             let (a, b, c) = (self.points[p], self.points[ear], self.points[q]);
             let is_inward = (b - a).cross(c - b).dot(normal) > 0.0;
-            // Non-negative numbers have the same order as their bits.
+            // The bits of a non-negative f64, read as an integer, have the same order as the numbers.
             (!is_inward, a.distance_squared(c).to_bits())
         };
         let mut queue: BinaryHeap<_> = (0..n)
@@ -207,15 +210,15 @@ impl<'m> Hole<'m> {
         Some(ears)
     }
 
-    /// Returns twice the area vector of the rim, by Newell's method.
+    /// Returns twice the area vector of the polygon around the hole, by Newell's method.
     fn normal(&self) -> DVec3 {
         let first = self.points[0];
         let sides = self.points.windows(2);
         sides.map(|s| (s[0] - first).cross(s[1] - first)).sum()
     }
 
-    /// Returns the error that names the first existing edge between two vertices that are not neighbors around the
-    /// hole.
+    /// Returns the error for a hole that cannot be filled. The error names the first two vertices that already share an
+    /// edge without being neighbors around the hole.
     fn duplicate(&self) -> EditError {
         let n = self.points.len();
         let pairs = (0..n).flat_map(|i| (i + 2..n).map(move |k| (i, k)));

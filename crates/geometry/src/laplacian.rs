@@ -20,16 +20,16 @@ use progress::{Cancelled, Meter, Progress};
 use crate::sparse::SymmetricMatrix;
 use crate::triangulate::Cutter;
 
-/// The largest number of corners of a polygon that gets a virtual vertex. Polygons with more corners are cut into
-/// triangles.
+/// A polygon with 4 corners up to this number is divided into triangles around a virtual vertex in its middle. A
+/// polygon with more corners is cut into triangles along diagonals.
 const MAX_CORNERS: usize = 16;
 /// In every triangle, the sum of any two sides must exceed the third side by at least this fraction of the mean edge
-/// length. If necessary, all edges are lengthened by the same length.
+/// length. If one triangle fails this test, all edges of all triangles are lengthened by the same length.
 const SLACK: f64 = 1e-5;
-/// The number of faces in a block. One thread computes the entries of the faces of a block.
+/// The number of faces in a block. One thread computes the matrix entries of all faces of a block.
 const FACES: usize = 4096;
 
-/// The cotangent Laplacian of a surface with the areas of its vertices.
+/// The cotangent Laplacian of a surface, and for each vertex, the area of the surface that belongs to it.
 ///
 /// # Examples
 ///
@@ -50,24 +50,24 @@ pub struct Laplacian {
     /// The stiffness matrix, with one row for each vertex. The matrix is positive semidefinite, and each row adds up
     /// to 0. The entry for the two ends of an edge is minus the weight of the edge. The entries have no unit.
     pub stiffness: SymmetricMatrix,
-    /// The diagonal of the lumped mass matrix: the area that belongs to each vertex, in scene unit², at most 1.8e308.
-    /// The area is 0 for vertices without faces. For vertices with faces, the area is more than 0, unless it is too
-    /// small for an `f64`.
+    /// The diagonal of the lumped mass matrix: the area that belongs to each vertex, in scene unit². Areas too large
+    /// for an `f64` are replaced by its largest value, 1.8e308. The area is 0 for vertices without faces. For vertices
+    /// with faces, the area is more than 0, unless it is too small for an `f64`.
     pub areas: Vec<f64>,
 }
 
 impl Laplacian {
-    /// Computes the Laplacian of a mesh. Rows of dead (removed) vertices are empty.
+    /// Computes the Laplacian of a mesh. The rows of dead (removed) vertices have no entries.
     ///
     /// A polygon with 4 to 16 corners is divided into triangles around a virtual vertex at the mean of its corners. The
     /// value at the virtual vertex is the mean of the values at the corners. For such a polygon, the result therefore
-    /// does not depend on a choice of triangles. The gradient of a linear function on a flat polygon is exact. Polygons
-    /// with more than 16 corners are cut into triangles.
+    /// does not depend on a choice of diagonals. The gradient of a linear function on a flat polygon is exact. Polygons
+    /// with more than 16 corners are cut into triangles along diagonals.
     ///
-    /// If a triangle is degenerate or almost degenerate, the same small length is added to the lengths of all edges. A
-    /// triangle is almost degenerate if the sum of two of its sides exceeds the third side by less than 1e-5 times the
-    /// mean edge length. After the addition, no triangle is almost degenerate. All entries are therefore finite for any
-    /// finite positions.
+    /// If any triangle is degenerate or almost degenerate, the same small length is added to the edge lengths of all
+    /// triangles. A triangle is almost degenerate if the sum of two of its sides exceeds the third side by less than
+    /// 1e-5 times the mean edge length. After the addition, no triangle is almost degenerate. All entries are therefore
+    /// finite for any finite positions.
     ///
     /// # Errors
     ///
@@ -141,8 +141,8 @@ impl Laplacian {
     }
 }
 
-/// Returns the exponent of the largest power of two that is not above the largest absolute coordinate. Returns 0 if all
-/// coordinates are 0 or one is infinite.
+/// Returns the exponent of the largest power of two that is not above the largest absolute coordinate of the points.
+/// Returns 0 if all coordinates are 0, or if a coordinate is infinite.
 pub(crate) fn exponent(points: &[DVec3]) -> i32 {
     match parallel::fold(
         points.len(),
@@ -155,12 +155,13 @@ pub(crate) fn exponent(points: &[DVec3]) -> i32 {
     }
 }
 
-/// Returns the point times a power of two. The product is exact unless the result is near 0.
+/// Returns the point `p` times 2 to the power of `exponent`. Each coordinate of the product is exact unless it
+/// overflows or is near 0.
 pub(crate) fn scaled(p: DVec3, exponent: i32) -> DVec3 {
     DVec3::from_array(p.to_array().map(|x| libm::scalbn(x, exponent)))
 }
 
-/// Returns the lengths of the sides: entry i is the length of the side opposite corner i.
+/// Returns the lengths of the sides of a triangle: entry i is the length of the side opposite corner i.
 fn lengths([a, b, c]: [DVec3; 3]) -> [f64; 3] {
     [b.distance(c), c.distance(a), a.distance(b)]
 }
@@ -178,7 +179,7 @@ fn half_cotangents(corners: [DVec3; 3], more: f64) -> ([f64; 3], f64) {
         );
     }
     let [a, b, c] = lengths(corners).map(|l| l + more);
-    // Heron's formula. `more` is large enough to make all four factors positive.
+    // Heron's formula. All four factors are positive, because `more` is large enough.
     let area = 0.25 * ((a + b + c) * (b + c - a) * (c + a - b) * (a + b - c)).sqrt();
     let half_cot = |a: f64, b: f64, c: f64| (b * b + c * c - a * a) / (8.0 * area);
     (
@@ -193,7 +194,7 @@ struct Entries {
     areas: Vec<(u32, f64)>,
 }
 
-/// The triangles of a face.
+/// The triangles into which one face is divided.
 #[derive(Default)]
 struct Pieces {
     /// The vertices of the face.
@@ -203,7 +204,7 @@ struct Pieces {
     triangles: Vec<[usize; 3]>,
     has_virtual: bool,
     cutter: Cutter,
-    /// For each corner, the weight of its edge to the virtual vertex.
+    /// For each corner of the face, the weight of the edge from this corner to the virtual vertex.
     spokes: Vec<f64>,
 }
 
@@ -235,7 +236,7 @@ impl Pieces {
         triangle.map(|i| self.positions[i])
     }
 
-    /// Appends the entries of the face.
+    /// Appends the matrix entries and the vertex areas that the face contributes.
     fn entries(&mut self, more: f64, entries: &mut Entries) {
         let n = self.corners.len();
         self.spokes.clear();
@@ -263,8 +264,8 @@ impl Pieces {
             }
         }
         if self.has_virtual {
-            // Let s(i) be the weight of the spoke to corner i. The energy of values u at the corners is the sum over i
-            // of s(i) (u(i) - m)², where m is the mean of u.
+            // A spoke is an edge from a corner to the virtual vertex. Let s(i) be the weight of the spoke to corner i.
+            // The energy of values u at the corners is the sum over i of s(i) (u(i) - m)², where m is the mean of u.
             let total: f64 = self.spokes.iter().sum();
             let count = n as f64;
             for i in 0..n {

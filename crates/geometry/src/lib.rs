@@ -1,4 +1,4 @@
-//! Algorithms over a [`Mesh`](mesh::Mesh) that go beyond one element and its neighbors.
+//! Algorithms on a [`Mesh`](mesh::Mesh) that need more than one element and its neighbors.
 //!
 //! | items | contents |
 //! | --- | --- |

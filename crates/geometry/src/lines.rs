@@ -1,5 +1,5 @@
-//! The edges that simplification and remeshing preserve as lines, and how these lines restrict the vertices on
-//! them.
+//! Lines: chains of edges that simplification and remeshing preserve, for example boundaries and seams. Finds the edges
+//! of these lines, and how the lines restrict the movement of the vertices on them.
 
 use mesh::{CREASE, Column, Domain, EdgeId, FaceId, Mesh, Values, VertexId, parallel};
 
@@ -11,14 +11,14 @@ pub(crate) enum Kind {
     /// The vertex is on one line. In simplification, a vertex on a line moves only when it merges with a neighbor on
     /// the line. In remeshing, a vertex on a line moves along the line.
     Line,
-    /// The vertex does not move: it is pinned, or it is the end of a line, a meeting point of lines, or a point where
-    /// the values on a line change.
+    /// The vertex does not move. It is pinned, or it is the end of a line or a meeting point of lines. A vertex at
+    /// which the edge attributes of a line change does not move either.
     Fixed,
 }
 
 /// Returns, for each edge, whether it is a part of a line. These edges are parts of lines: boundary edges, seams, edges
-/// between faces with different tags, materials or other whole numbers, edges with a tag or a crease, and the
-/// `features`. The mesh must be [dense](mesh::Mesh::is_dense).
+/// with a tag or a crease, and the `features`. An edge is also a part of a line if its two faces have different tags,
+/// materials or other whole numbers. The mesh must be [dense](mesh::Mesh::is_dense).
 pub(crate) fn lines(mesh: &Mesh, features: &[EdgeId]) -> Vec<bool> {
     let faces: Vec<&Column> = labels(mesh, Domain::Face).collect();
     let tags: Vec<&[bool]> = labels(mesh, Domain::Edge)
@@ -50,7 +50,8 @@ pub(crate) fn lines(mesh: &Mesh, features: &[EdgeId]) -> Vec<bool> {
     lines
 }
 
-/// Returns how each vertex is allowed to move. The mesh must be [dense](mesh::Mesh::is_dense).
+/// Returns how each vertex is allowed to move. `lines` tells which edges are parts of lines. The mesh must be
+/// [dense](mesh::Mesh::is_dense).
 pub(crate) fn kinds(mesh: &Mesh, lines: &[bool], pinned: &[VertexId]) -> Vec<Kind> {
     let columns = mesh.attributes().of(Domain::Edge);
     let mut kinds: Vec<Kind> = parallel::collect(mesh.n_vertices(), |v| {
@@ -72,14 +73,15 @@ pub(crate) fn kinds(mesh: &Mesh, lines: &[bool], pinned: &[VertexId]) -> Vec<Kin
     kinds
 }
 
-/// Returns the columns of a domain whose values are labels: tags or whole numbers. Labels cannot be averaged.
+/// Returns the attribute columns of a domain (vertices, edges, faces or corners) whose values are labels: tags or whole
+/// numbers. Labels cannot be averaged.
 pub(crate) fn labels(mesh: &Mesh, domain: Domain) -> impl Iterator<Item = &Column> {
     let is_label = |column: &&Column| matches!(column.values, Values::Tag(_) | Values::Int(_));
     mesh.attributes().of(domain).iter().filter(is_label)
 }
 
-/// Returns a power of two that scales `length` to a number from 1 to 2. The power is limited to the range from 2^-1000
-/// to 2^1000. Returns 1 if `length` is 0 or not finite.
+/// Returns the power of two p for which `length` times p is at least 1 and less than 2. The result is limited to the
+/// range from 2^-1000 to 2^1000. Returns 1 if `length` is 0 or not finite.
 pub(crate) fn inverse_power_of_two(length: f64) -> f64 {
     if length > 0.0 && length.is_finite() {
         let (_, exponent) = libm::frexp(length);

@@ -7,12 +7,12 @@ pub fn area(mesh: &Mesh) -> f64 {
     sum_over_faces(mesh, |f| mesh.face_area(f))
 }
 
-/// Returns the volume inside the mesh. The volume is negative if the faces are oriented inward. It is meaningful only
-/// for a closed mesh.
+/// Returns the volume inside the mesh. The volume is negative if the normals of the faces point inward. The volume is
+/// meaningful only for a closed mesh.
 ///
-/// Each face is triangulated as a fan. By the divergence theorem, the volume is the sum of the signed volumes of
-/// tetrahedra. Each tetrahedron joins a fixed point to a triangle of the surface. The fixed point is the center of the
-/// bounding box, so that the volume is accurate even for a mesh far from the origin.
+/// Each face is divided into a fan of triangles. By the divergence theorem, the volume is the sum of the signed volumes
+/// of tetrahedra. Each tetrahedron joins a triangle of the surface to one fixed point, the same for all triangles. The
+/// fixed point is the center of the bounding box, so that the volume is accurate even for a mesh far from the origin.
 pub fn volume(mesh: &Mesh) -> f64 {
     let middle = bounds(mesh).map_or(DVec3::ZERO, |[min, max]| 0.5 * (min + max));
     sum_over_faces(mesh, |f| {
@@ -36,8 +36,8 @@ fn sum_over_faces(mesh: &Mesh, term: impl Fn(FaceId) -> f64 + Sync) -> f64 {
     })
 }
 
-/// Returns the lowest and the highest corner of the bounding box of all vertices. Returns `None` if the mesh has no
-/// vertices.
+/// Returns two corners of the bounding box of all vertices: the corner with the smallest coordinates and the corner
+/// with the largest coordinates. Returns `None` if the mesh has no vertices.
 pub fn bounds(mesh: &Mesh) -> Option<[DVec3; 2]> {
     let bounds = |v: usize| {
         let v = VertexId::new(v);
@@ -49,9 +49,9 @@ pub fn bounds(mesh: &Mesh) -> Option<[DVec3; 2]> {
     })
 }
 
-/// Returns the total number of handles g of all components, from χ = 2c - 2g - b. In this formula, c is the number of
-/// components with faces, b is the number of boundary loops, and χ is the Euler characteristic without isolated
-/// vertices.
+/// Returns the genus g: the total number of handles of all components. The genus follows from χ = 2c - 2g - b. In this
+/// formula, c is the number of components with faces, b is the number of boundary loops, and χ is the Euler
+/// characteristic without isolated vertices.
 pub fn genus(mesh: &Mesh) -> i64 {
     let count = |n: usize| i64::try_from(n).expect("fewer than 2^32 elements");
     let isolated = count(mesh.n_isolated_vertices());
@@ -60,9 +60,9 @@ pub fn genus(mesh: &Mesh) -> i64 {
     (2 * components - count(mesh.n_boundary_loops()) - euler) / 2
 }
 
-/// Returns the component index of each vertex, by vertex index. Components are numbered from 0 in the order of the
-/// lowest vertex id of each component. An isolated vertex is a separate component. The index of a dead (removed) vertex
-/// is `usize::MAX`.
+/// Returns, for each vertex, the index of its connected component. Entry i belongs to the vertex with the index i.
+/// Components are numbered from 0 in the order of the lowest vertex id of each component. An isolated vertex is a
+/// separate component. The index of a dead (removed) vertex is `usize::MAX`.
 pub fn components(mesh: &Mesh) -> Vec<usize> {
     let mut component = vec![usize::MAX; mesh.positions().len()];
     let mut n = 0;
@@ -110,7 +110,7 @@ pub fn valences(mesh: &Mesh) -> Vec<usize> {
 /// Returns the sine and cosine of an angle in degrees. The result is exact for multiples of 90, and is identical bit
 /// for bit on every platform.
 pub fn sin_cos_degrees(degrees: f64) -> (f64, f64) {
-    let degrees = degrees % 360.0; // This operation is exact.
+    let degrees = degrees % 360.0; // The remainder is exact.
     match degrees.abs() {
         0.0 => (0.0, 1.0),
         90.0 => (degrees.signum(), 0.0),

@@ -10,15 +10,16 @@
 //!
 //! Faces that are adjacent in the mesh and belong to the same part stay connected. A fan is a set of faces around a
 //! vertex that are connected by edges at this vertex. At a vertex of the new boundary, each boundary half-edge that
-//! ends at the vertex is linked to the boundary half-edge at the other end of the same fan. If a vertex has several
-//! fans, the first fan keeps the vertex and each of the other fans gets a copy.
+//! ends at the vertex gets a successor: the boundary half-edge that leaves the vertex at the other end of the same fan.
+//! If a vertex has several fans, the first fan keeps the vertex and each of the other fans gets a copy.
 
 use mesh::{Connectivity, Domain, EdgeId, FaceId, HalfEdgeId, Mesh, Sources, VertexId};
 
 use crate::components;
 
-/// Returns the component index of each face, by face index. Components are numbered from 0 in the order of the lowest
-/// face id of each component. The index of a dead (removed) face is `usize::MAX`.
+/// Returns, for each face, the index of its connected component. Entry i belongs to the face with the index i.
+/// Components are numbered from 0 in the order of the lowest face id of each component. The index of a dead (removed)
+/// face is `usize::MAX`.
 pub fn face_components(mesh: &Mesh) -> Vec<usize> {
     let of_vertex = components(mesh);
     let mut number = vec![usize::MAX; of_vertex.len()];
@@ -35,10 +36,12 @@ pub fn face_components(mesh: &Mesh) -> Vec<usize> {
     components
 }
 
-/// Returns each component as a separate mesh, in the order of the lowest face id of each component.
+/// Returns each connected component as a separate mesh. The meshes are in the order of the lowest face id of each
+/// component.
 ///
 /// Elements keep their order and all their values. Isolated vertices are left out; [`Mesh::n_isolated_vertices`] counts
-/// them. The parts are dense. The time is linear in the size of the mesh, for any number of components.
+/// them. The returned meshes are dense: their ids have no gaps. The time is linear in the size of the mesh, for any
+/// number of components.
 ///
 /// # Examples
 ///
@@ -56,14 +59,15 @@ pub fn separated(mesh: &Mesh) -> Vec<Mesh> {
     parts(mesh, &face_components(mesh))
 }
 
-/// Splits the mesh into separate meshes: one part for each value in `part_of_face`, which is indexed by face.
-/// Parts are in ascending order of these values. Faces with the value `usize::MAX` and isolated vertices are left
-/// out.
+/// Splits the mesh into separate meshes: one part for each different value in `part_of_face`, which has one value for
+/// each face index. Parts are in ascending order of these values. Faces with the value `usize::MAX` and isolated
+/// vertices are left out.
 ///
-/// Elements keep their order and their values. An edge between two parts is copied to both. If the faces of a part form
-/// several fans around a vertex, the fan with the lowest boundary half-edge keeps the vertex. Each of the other fans
-/// around the vertex gets a copy of the vertex. The copies are numbered after all other vertices. A part with a new
-/// boundary loses the columns with [`Rule::Drop`](mesh::Rule::Drop). The parts are dense. Apart from sorting the faces,
+/// Elements keep their order and their values. An edge between two parts is copied to both parts. A fan is a set of
+/// faces around a vertex that are connected by edges at this vertex. If the faces of a part form several fans around a
+/// vertex, the fan with the lowest boundary half-edge keeps the vertex. Each of the other fans gets a copy of the
+/// vertex. The copies are numbered after all other vertices. A part with a new boundary loses the attribute columns
+/// with [`Rule::Drop`](mesh::Rule::Drop). The parts are dense: their ids have no gaps. Apart from sorting the faces,
 /// the time is linear in the size of the mesh, for any number of parts.
 ///
 /// # Panics
@@ -77,7 +81,7 @@ pub fn parts(mesh: &Mesh, part_of_face: &[usize]) -> Vec<Mesh> {
     );
     let number = |f: FaceId| part_of_face[f.index()];
     let mut faces: Vec<FaceId> = mesh.faces().filter(|&f| number(f) != usize::MAX).collect();
-    // The sort is stable, so the faces of a part keep their order.
+    // The sort is stable (it keeps the order of equal elements), so the faces of a part keep their order.
     faces.sort_by_key(|&f| number(f));
     let mut builder = PartBuilder {
         mesh,
@@ -90,7 +94,7 @@ pub fn parts(mesh: &Mesh, part_of_face: &[usize]) -> Vec<Mesh> {
         .collect()
 }
 
-/// Builds parts of a mesh one at a time. Holds the new ids of the elements of the current part.
+/// Builds parts of a mesh, one after another. Holds the new ids of the elements of the part that is being built.
 struct PartBuilder<'m> {
     mesh: &'m Mesh,
     vertices: Vec<VertexId>,
@@ -98,7 +102,7 @@ struct PartBuilder<'m> {
 }
 
 impl PartBuilder<'_> {
-    /// Builds the mesh of some faces, which are in ascending order.
+    /// Builds the mesh that consists of the given faces. `faces` is in ascending order.
     fn part(&mut self, faces: &[FaceId]) -> Mesh {
         let old = self.mesh;
         let sides = || faces.iter().flat_map(|&f| old.face_half_edges(f));
@@ -181,7 +185,8 @@ impl PartBuilder<'_> {
 }
 
 /// Links the half-edges without a face into boundary loops, and gives each additional fan at a vertex a copy of the
-/// vertex. `vertices` lists the old vertex that each vertex comes from. An entry is appended for each copy.
+/// vertex. `vertices` lists, for each new vertex, the old vertex from which it comes. For each copy, this function
+/// appends an entry to the list.
 fn link_boundary(c: &mut Connectivity, prev: &[HalfEdgeId], vertices: &mut Vec<VertexId>) {
     let boundary: Vec<HalfEdgeId> = (0..c.next.len())
         .map(HalfEdgeId::new)

@@ -1,6 +1,6 @@
 //! Exact geometric predicates.
 //!
-//! The results are those of exact arithmetic on the given coordinates. Source: Shewchuk, "Adaptive Precision
+//! The results are the same as with exact arithmetic on the given coordinates. Source: Shewchuk, "Adaptive Precision
 //! Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997, as implemented by the crate `robust`. The
 //! results are exact if the products of the differences of coordinates neither overflow nor underflow. No product
 //! overflows or underflows if every coordinate is 0 or from 1e-90 to 1e90 in magnitude.

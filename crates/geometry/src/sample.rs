@@ -14,22 +14,23 @@ use crate::tangent::triangles;
 pub struct Sample {
     /// The position.
     pub position: DVec3,
-    /// The unit normal of the triangle that contains the point.
+    /// The unit normal of the triangle that contains the point. Polygons are cut into triangles.
     pub normal: DVec3,
-    /// The face.
+    /// The face that contains the point.
     pub face: FaceId,
 }
 
-/// The number of random candidates, divided by the number of returned points.
+/// For each returned point, this number of random candidates is drawn.
 const CANDIDATES: usize = 5;
 
 /// Returns exactly `count` random, evenly spread points on a surface. Polygons are triangulated. Returns no points if
 /// the area of the surface is zero or not finite.
 ///
-/// First, 5 × `count` random points are distributed by area. Then the most crowded point is removed, again and again,
-/// until `count` points are left (Yuksel, "Sample Elimination for Generating Poisson Disk Sample Sets", 2015).
-/// Distances are Euclidean, not along the surface. The points are in the order in which they were drawn. They depend
-/// only on the mesh, `count` and the seed.
+/// First, 5 × `count` random points are drawn, so that equal areas get about equal numbers of points. Then the most
+/// crowded point (the point with the most and nearest neighbors) is removed, again and again, until `count` points are
+/// left (Yuksel, "Sample Elimination for Generating Poisson Disk Sample Sets", 2015). Distances are Euclidean, not
+/// along the surface. The returned points are in the order in which they were drawn. The result depends only on the
+/// mesh, `count` and the seed.
 ///
 /// # Errors
 ///
@@ -46,9 +47,11 @@ pub fn samples(
     if candidates.is_empty() || count == 0 {
         return Ok(Vec::new());
     }
-    // The largest radius of `count` disks in a plane of this area, in the densest arrangement.
+    // The largest possible radius of `count` equal disks that fill a flat region of this area, in the densest
+    // arrangement.
     let radius = (area / (2.0 * 3.0_f64.sqrt() * count as f64)).sqrt();
-    // Two points that are closer than `least` are treated as if their distance were `least`, which improves the result.
+    // Two points that are closer than `least` are treated as if their distance were `least`. As a result, the points
+    // are spread more evenly.
     let ratio = 1.0 / CANDIDATES as f64;
     let least = 2.0 * radius * (1.0 - ratio * ratio.sqrt()) * 0.65;
     let grid = Grid::new(&candidates, 2.0 * radius);
@@ -74,7 +77,8 @@ pub fn samples(
         let Some((bits, std::cmp::Reverse(i))) = heap.pop() else {
             break;
         };
-        // If the weight of this candidate has changed, the queue has a newer entry for the same candidate.
+        // If the weight of this candidate has changed since the entry was made, the entry is skipped: the queue has a
+        // newer entry for the same candidate.
         if !is_kept[i] || bits != f64::to_bits(crowding[i]) {
             continue;
         }
@@ -102,13 +106,14 @@ pub fn samples(
         .collect())
 }
 
-/// Returns the sort key for removal: the largest weight first, then the lowest index. Weights are not negative, so they
-/// have the same order as their bits.
+/// Returns the sort key for removal: the candidate with the largest weight comes first, and of equal weights, the
+/// candidate with the lowest index. The bits of a non-negative weight, read as an integer, have the same order as the
+/// weights.
 fn entry(weight: f64, i: usize) -> (u64, std::cmp::Reverse<usize>) {
     (weight.to_bits(), std::cmp::Reverse(i))
 }
 
-/// Returns `n` random points, distributed by area, and the total area.
+/// Returns `n` random points, so that equal areas get about equal numbers of points. Also returns the total area.
 fn candidates(mesh: &Mesh, n: usize, seed: u64) -> (Vec<Sample>, f64) {
     let triangles = triangles(mesh);
     let mut sums = Vec::with_capacity(triangles.len());
@@ -138,13 +143,13 @@ fn candidates(mesh: &Mesh, n: usize, seed: u64) -> (Vec<Sample>, f64) {
     ((0..n).filter_map(sample).collect(), total)
 }
 
-/// Points in cells of a grid.
+/// Points, sorted into the cubic cells of a grid to find near points quickly.
 struct Grid {
     points: Vec<DVec3>,
     size: f64,
     /// For each point, the cell that contains it.
     cells: Vec<[f64; 3]>,
-    /// The points, sorted by cell.
+    /// The indices of the points, sorted by cell.
     sorted: Vec<usize>,
 }
 
@@ -164,13 +169,13 @@ impl Grid {
         }
     }
 
-    /// Calls a function with every point other than `i` that is closer to point `i` than the size of a cell. The order
-    /// of the calls is fixed.
+    /// Calls `each` with the index of every other point whose distance from point `i` is less than the size of a cell.
+    /// The order of the calls does not vary.
     fn each_near(&self, i: usize, mut each: impl FnMut(usize)) {
         let [x, y, z] = self.cells[i];
         for dx in [-1.0, 0.0, 1.0] {
             for dy in [-1.0, 0.0, 1.0] {
-                // Cells that are adjacent along z are consecutive.
+                // Cells that are adjacent along z follow each other in the sorted list.
                 let first = [x + dx, y + dy, z - 1.0];
                 let last = [x + dx, y + dy, z + 1.0];
                 let from = self

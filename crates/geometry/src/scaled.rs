@@ -1,4 +1,4 @@
-//! Meshes in a unit of length in which products of lengths neither overflow nor underflow.
+//! Converts meshes to a unit of length in which products of lengths neither overflow nor underflow.
 
 use std::borrow::Cow;
 
@@ -12,8 +12,8 @@ const ORDINARY: i32 = 64;
 /// A mesh, scaled by a power of two if its coordinates are very small or very large.
 ///
 /// Computations of areas and curvatures, and comparisons of distances, contain products of up to four lengths. If the
-/// lengths are about 1e-90 or 1e90 scene units, a product of four lengths is 0 or infinite. Scaling by a power of two
-/// changes only the exponent of a result.
+/// lengths are about 1e-90 or 1e90 scene units, a product of four lengths is rounded to 0 or to infinity. Scaling by a
+/// power of two changes only the exponents of the numbers, so it causes no rounding errors.
 #[derive(Clone, Debug)]
 pub struct Scaled<'a> {
     mesh: Cow<'a, Mesh>,
@@ -22,12 +22,12 @@ pub struct Scaled<'a> {
 }
 
 impl<'a> Scaled<'a> {
-    /// Scales a mesh if necessary. A mesh that is scaled loses its attributes.
+    /// Scales a mesh if its coordinates are very small or very large. A mesh that is scaled loses its attributes.
     pub fn new(mesh: &'a Mesh) -> Self {
         Self::by(mesh, ordinary(exponent(mesh.positions())))
     }
 
-    /// Scales two meshes by the same power of two if necessary.
+    /// Scales two meshes by the same power of two if the coordinates of the larger mesh are very small or very large.
     pub fn pair(a: &'a Mesh, b: &'a Mesh) -> [Self; 2] {
         let larger = |mesh: &Mesh| {
             let is_point = mesh.positions().iter().all(|p| *p == DVec3::ZERO);
@@ -52,7 +52,7 @@ impl<'a> Scaled<'a> {
         }
     }
 
-    /// Returns the scaled mesh.
+    /// Returns the scaled mesh, or the original mesh if no scaling was necessary.
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
     }
@@ -62,8 +62,9 @@ impl<'a> Scaled<'a> {
         libm::scalbn(length, -self.exponent)
     }
 
-    /// Converts a quantity of the scaled mesh to scene units. The dimension is 1 for a length, 2 for an area and -1 for
-    /// a curvature. The result is infinite or not exact if the number is outside of the range of `f64`.
+    /// Converts a quantity of the scaled mesh to scene units. The dimension is the exponent of the length in the unit:
+    /// 1 for a length, 2 for an area and -1 for a curvature. If the exact result is outside of the range of `f64`, the
+    /// result is infinite or not exact.
     pub fn restored(&self, quantity: f64, dimension: i32) -> f64 {
         libm::scalbn(quantity, dimension * self.exponent)
     }
@@ -74,7 +75,8 @@ impl<'a> Scaled<'a> {
     }
 }
 
-/// Returns `exponent`, or 0 if the coordinates need no scaling.
+/// Returns the exponent of the scale for coordinates of the size 2^`exponent`: `exponent` itself, or 0 if such
+/// coordinates need no scaling.
 fn ordinary(exponent: i32) -> i32 {
     if (-ORDINARY..ORDINARY).contains(&exponent) {
         0

@@ -42,7 +42,7 @@ pub fn cube() -> Mesh {
     )
 }
 
-/// Makes a regular tetrahedron from four corners of the cube: 4 vertices, 4 triangles.
+/// Makes a regular tetrahedron from four of the corners of the cube with corners at ±1: 4 vertices, 4 triangles.
 pub fn tetrahedron() -> Mesh {
     let at = DVec3::new;
     let positions = vec![
@@ -54,7 +54,7 @@ pub fn tetrahedron() -> Mesh {
     of(positions, &[[0, 1, 3], [0, 2, 1], [0, 3, 2], [1, 2, 3]])
 }
 
-/// Makes a regular octahedron with corners on the axes, at distance 1 from the origin: 6 vertices, 8 triangles.
+/// Makes a regular octahedron with corners on the axes, at the distance 1 from the origin: 6 vertices, 8 triangles.
 pub fn octahedron() -> Mesh {
     let positions = vec![
         DVec3::X,
@@ -234,8 +234,9 @@ pub fn uv_sphere(around: u32, rings: u32) -> Mesh {
     of(positions, &polygons)
 }
 
-/// Returns the mesh with each polygon triangulated as a fan at its first corner. The triangles are in the order of the
-/// polygons. The polygons should be convex, like the faces of the shapes in this module. Attributes are dropped.
+/// Returns a mesh in which each polygon is divided into a fan of triangles around its first corner. The triangles are
+/// in the order of the polygons. The polygons should be convex, like the faces of the shapes in this module; otherwise,
+/// triangles can overlap. The result has no attributes.
 pub fn fans(mesh: &Mesh) -> Mesh {
     let number = |v: VertexId| u32::try_from(v.index()).expect("ids are below 2^32");
     let mut triangles = Vec::new();
@@ -246,7 +247,8 @@ pub fn fans(mesh: &Mesh) -> Mesh {
     of(mesh.positions().to_vec(), &triangles)
 }
 
-/// Returns a value for each cell of a table, row by row. `value` gets the column and the row.
+/// Returns a list with a value for each cell of a table, row by row. `value` computes the value from the column and the
+/// row of the cell.
 fn cells<T: Send>(columns: u32, rows: u32, value: impl Fn(u32, u32) -> T + Sync) -> Vec<T> {
     let n = columns as usize * rows as usize;
     let number = |i: usize| u32::try_from(i).expect("a column or a row");
@@ -256,13 +258,13 @@ fn cells<T: Send>(columns: u32, rows: u32, value: impl Fn(u32, u32) -> T + Sync)
     })
 }
 
-/// Returns the point of the unit circle after `i` of `n` equal steps.
+/// Divides the unit circle into `n` equal steps, beginning at (1, 0). Returns the point after `i` steps.
 fn turn(i: u32, n: u32) -> (f64, f64) {
     let (sin, cos) = libm::sincos(std::f64::consts::TAU * f64::from(i) / f64::from(n));
     (cos, sin)
 }
 
-/// Builds a mesh from polygons that are known to be a manifold.
+/// Builds a mesh from polygons. The caller knows that these polygons form a manifold.
 fn of(positions: Vec<DVec3>, polygons: &[impl AsRef<[u32]> + Sync]) -> Mesh {
     let (mesh, report) =
         Mesh::from_polygons(positions, polygons).expect("the polygons of a shape are valid");

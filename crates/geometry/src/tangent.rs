@@ -18,21 +18,22 @@ use crate::triangulate::Cutter;
 /// The tangents of a mesh.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tangents {
-    /// For each half-edge with a face, the unit tangent of its corner and the sign of the bitangent, 1 or -1. The
-    /// value is zero for other half-edges.
+    /// For each half-edge with a face, the unit tangent of its corner and the sign of the bitangent, 1 or -1. For
+    /// half-edges without a face, the value is zero.
     pub values: Vec<DVec4>,
-    /// The number of corners at which texture coordinates define no direction. The tangents of these corners
-    /// are arbitrary unit vectors perpendicular to the normals.
+    /// The number of corners at which the texture coordinates define no direction, for example because they are equal
+    /// at all corners of the triangle. The tangents of these corners are arbitrary unit vectors perpendicular to the
+    /// normals.
     pub n_arbitrary: usize,
 }
 
 /// Computes the tangents of a dense mesh from texture coordinates and normals. `uvs` has the texture coordinates of
-/// each half-edge. The coordinate v points upwards. The normals are the corner normals of the mesh or, if there are
-/// none, its vertex normals. Returns `None` if the mesh has no normals.
+/// each half-edge. The texture coordinate v points upwards. The normals are the corner normals of the mesh. If the mesh
+/// has no corner normals, its vertex normals are used. Returns `None` if the mesh has no normals.
 ///
-/// The computation uses 32-bit numbers. Polygons are triangulated in the same way as by the glTF writer. Two corners
-/// share a tangent if they have the same position, normal and texture coordinates, if their faces are connected, and if
-/// the texture is mirrored on both faces or on neither of them.
+/// The computation uses 32-bit floating-point numbers. Polygons are cut into the same triangles as in exported glTF
+/// files. Two corners share a tangent if they have the same position, normal and texture coordinates, if their faces
+/// are connected, and if the texture is mirrored on both faces or on neither of them.
 pub fn tangents(mesh: &Mesh, uvs: &[DVec2]) -> Option<Tangents> {
     let normals = match (mesh.get(CORNER_NORMAL), mesh.get(VERTEX_NORMAL)) {
         (Some(normals), _) => Normals::Corners(normals),
@@ -108,7 +109,7 @@ struct Corners<'a> {
 }
 
 impl Corners<'_> {
-    /// Returns the unit normal of a corner, or the face normal if the normal of the corner is zero.
+    /// Returns the unit normal of the corner of `h`. If the stored normal is zero, returns the normal of the face.
     fn unit_normal(&self, h: HalfEdgeId) -> DVec3 {
         let normal = match self.normals {
             Normals::Corners(normals) => normals[h.index()],

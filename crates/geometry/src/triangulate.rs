@@ -12,8 +12,8 @@
 //! into monotone pieces. Then diagonals are flipped until the result is a constrained Delaunay triangulation. A polygon
 //! that cannot be cut in this way becomes a fan. See [`Cutter`] for the details.
 //!
-//! Corner indices start at 0 and follow the face. The corners of a triangle are in ascending order, so a triangle
-//! has the orientation of the face.
+//! The corners of a face are numbered from 0, in their order around the face. The corners of a triangle are in
+//! ascending order, so a triangle has the orientation of the face.
 
 mod flips;
 mod monotone;
@@ -34,22 +34,24 @@ const TOLERANCE: f64 = 1e-12;
 /// The largest number of corners for which a face is cut by ear clipping. Ear clipping of a face with this number of
 /// corners takes at most about 50 ms.
 const MAX_EARS: usize = 4096;
-/// The smallest number of corners for which the cut can be canceled. Faces with fewer corners than this take little
-/// time.
+/// The smallest number of corners for which the triangulation of a face can be canceled. Faces with fewer corners take
+/// little time.
 const MIN_CANCELLED: usize = 256;
-/// The largest number of corners for which a face is cut. A face with more corners than this becomes a fan.
+/// The largest number of corners of a face for which a good triangulation is computed. A face with more corners becomes
+/// a fan.
 const MAX_CORNERS: usize = 10_000_000;
 
-/// How a face is cut.
+/// How a face is cut into triangles.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cut {
     /// The face is a triangle and is not cut.
     Keep,
     /// The face is a quadrilateral and is cut along one diagonal.
     Quad {
-        /// Whether the diagonal runs from corner 0 to 2. If false, the diagonal runs from corner 1 to 3.
+        /// Whether the diagonal joins corners 0 and 2. If false, the diagonal joins corners 1 and 3.
         from_zero: bool,
-        /// Whether the quadrilateral could also be cut along its other diagonal.
+        /// Whether the quadrilateral could equally well be cut along its other diagonal: both diagonals are good, or
+        /// both are bad. A bad diagonal gives a triangle that has zero area or is flipped.
         is_free: bool,
     },
     /// The face has more than four corners.
@@ -62,7 +64,7 @@ pub enum Cut {
 }
 
 impl Cut {
-    /// Returns the number of new edges, which is also the number of additional faces.
+    /// Returns the number of diagonals. This is the number of new edges, and also the number of additional faces.
     pub fn n_diagonals(&self) -> usize {
         match self {
             Self::Keep => 0,
@@ -88,7 +90,8 @@ impl Cut {
         }
     }
 
-    /// Replaces the contents of `into` by the diagonals: sorted pairs of corners, the lower corner first.
+    /// Replaces the contents of `into` by the diagonals. Each diagonal is a pair of corners, the lower corner first.
+    /// The pairs are sorted.
     pub fn diagonals(&self, into: &mut Vec<[u32; 2]>) {
         into.clear();
         // In every triangle except one, the side from the last to the first corner is a diagonal. Each diagonal is the
@@ -102,13 +105,13 @@ impl Cut {
     }
 }
 
-/// Triangulates faces one after another, and reuses its buffers.
+/// Triangulates faces, one after another. Its buffers are used again for each face.
 ///
 /// A quadrilateral is cut along its shorter diagonal. If both diagonals are equally long (relative difference of the
 /// squared lengths at most 1e-12), the quadrilateral is cut along the diagonal at its vertex with the lowest id. A
-/// diagonal is avoided if one of its triangles has zero area or is flipped, as seen along the face normal. A
-/// quadrilateral with a reflex corner is therefore cut at that corner. Neither diagonal is avoided if both have a
-/// triangle that has zero area or is flipped.
+/// diagonal is bad if one of its two triangles has zero area or is flipped, as seen along the face normal. If only one
+/// diagonal is bad, the other diagonal is used. A quadrilateral with a reflex corner is therefore cut at that corner.
+/// If both diagonals are bad, the quadrilateral is cut as if both were good.
 ///
 /// A face with more than four corners is projected along its normal and cut by ear clipping (Held, "FIST: Fast
 /// Industrial-Strength Triangulation of Polygons", 2001, as implemented by the crate `earcut`). The time of ear
@@ -116,10 +119,10 @@ impl Cut {
 /// into monotone pieces instead (de Berg and others, "Computational Geometry: Algorithms and Applications", 2008,
 /// chapter 3). Then diagonals are flipped until the result is a constrained Delaunay triangulation.
 ///
-/// A face becomes a fan around its vertex with the lowest id if it has more than ten million corners or cannot be cut.
-/// A face cannot be cut if its area is zero or its sides cross. A face with more than 4096 corners also becomes a fan
-/// if some of its sides overlap. If a face with more than 4096 corners needs more than 1024 flips for each corner, some
-/// of its triangles are not Delaunay triangles.
+/// Some faces become a fan around their vertex with the lowest id: faces with more than ten million corners, and faces
+/// that cannot be cut in these ways. A face cannot be cut if its area is zero or its sides cross. A face with more than
+/// 4096 corners also becomes a fan if some of its sides overlap. If a face with n corners, more than 4096, needs more
+/// than 1024 n flips, the flipping stops early, and some of its triangles are not Delaunay triangles.
 ///
 /// # Examples
 ///
@@ -146,8 +149,8 @@ impl Cutter {
         self.cut_unless(&|| false, mesh, f)
     }
 
-    /// Returns how `f` is cut. For a face with many corners, `is_cancelled` is called many times. When `is_cancelled`
-    /// returns `true`, the cut is not completed: the face becomes a fan.
+    /// Returns how `f` is cut. For a face with at least 256 corners, `is_cancelled` is called many times. When
+    /// `is_cancelled` returns `true`, the triangulation stops, and the face becomes a fan.
     pub fn cut_unless(&mut self, is_cancelled: &dyn Fn() -> bool, mesh: &Mesh, f: FaceId) -> Cut {
         self.points.clear();
         let corners = mesh.face_vertices(f).map(|v| mesh.position(v));
@@ -177,15 +180,16 @@ impl Cutter {
         let Some(normal) = doubled_area(&self.points).try_normalize() else {
             return false;
         };
-        // The first point is the origin.
+        // After `normalize`, the first point is the origin, so the plane of the face contains the origin.
         if self.points.iter().any(|p| normal.dot(*p).abs() > TOLERANCE) {
             return false;
         }
         let n = self.points.len();
         let side = |i: usize| self.points[(i + 1) % n] - self.points[i % n];
         let turns_left = (0..n).all(|i| normal.dot(side(i).cross(side(i + 1))) > 0.0);
-        // If the sides of a polygon turn by 360° in total, the sign of their component along an axis in the plane
-        // changes exactly twice.
+        // The sides of a convex polygon turn by 360° in total. Then the sign of their component along an axis in the
+        // plane changes exactly twice around the polygon. If the sides turn more than once around, the sign changes
+        // more often.
         let (axis, _) = normal.any_orthonormal_pair();
         let signs = (0..n).map(|i| axis.dot(side(i))).filter(|s| *s != 0.0);
         let signs: Vec<bool> = signs.map(|s| s > 0.0).collect();
@@ -193,8 +197,8 @@ impl Cutter {
         turns_left && changes.count() == 2
     }
 
-    /// Triangulates the points, and improves the triangles by flips. Returns `None` if the points cannot be
-    /// triangulated or `is_cancelled` returns `true`.
+    /// Triangulates the polygon in `points`, and improves the triangles by flipping diagonals. Returns `None` if the
+    /// points cannot be triangulated or `is_cancelled` returns `true`.
     fn ears(&mut self, is_cancelled: &dyn Fn() -> bool) -> Option<Vec<Triangle>> {
         let n = self.points.len();
         let normal = doubled_area(&self.points).try_normalize()?;
@@ -237,17 +241,17 @@ fn clip(
 ) -> Option<Vec<Triangle>> {
     earcut.earcut_slice(points, &[], indices);
     let mut triangles = to_triangles(indices);
-    // Ear clipping skips corners that are collinear with their neighbors or coincide with them.
+    // Ear clipping skips a corner that is on one line with its neighbors, or at the position of a neighbor.
     insert_skipped_corners(points.len(), &mut triangles);
     triangles.sort_unstable();
     is_triangulation(points.len(), &triangles).then_some(triangles)
 }
 
-/// Translates the points so that the first is at the origin, and scales them by a power of two to a size near
-/// 1, so that products neither overflow nor underflow.
+/// Translates the points so that the first point is at the origin. Then scales them by a power of two to a size near 1,
+/// so that products of coordinates neither overflow nor underflow.
 fn normalize(points: &mut [DVec3]) {
     let first = points[0];
-    // Uses quarters, because the difference of two finite numbers can be infinite.
+    // Computes a quarter of each difference, because the difference of two very large finite numbers can be infinite.
     let quarter = |p: &DVec3| (0.25 * *p - 0.25 * first).abs().max_element();
     let extent = points.iter().map(quarter).fold(0.0, f64::max);
     if extent > 0.0 {
@@ -293,7 +297,7 @@ fn quad(points: [DVec3; 4], lowest: u32) -> Cut {
     }
 }
 
-/// Returns the fan of triangles at one corner, sorted.
+/// Returns the triangles of a fan around one corner of a polygon with `n` corners. The triangles are sorted.
 fn fan(n: usize, corner: u32) -> Vec<Triangle> {
     let n = u32::try_from(n).expect("corners fit 32 bits");
     let mut triangles: Vec<Triangle> = (1..n - 1)
@@ -303,7 +307,7 @@ fn fan(n: usize, corner: u32) -> Vec<Triangle> {
     triangles
 }
 
-/// Groups corner indices into triangles.
+/// Converts a list of corner indices, three for each triangle, to a list of triangles.
 fn to_triangles(indices: &[u32]) -> Vec<Triangle> {
     let triangles = indices.as_chunks().0;
     triangles
@@ -318,7 +322,7 @@ fn with_sorted_corners(mut triangle: Triangle) -> Triangle {
     triangle
 }
 
-/// Inserts each corner that no triangle uses, by splitting the triangle that has a side that skips this corner.
+/// Inserts each corner that no triangle uses. Such a corner is skipped by a side of a triangle; this triangle is split.
 ///
 /// ```text
 ///        c                c
@@ -367,8 +371,8 @@ fn insert_skipped_corners(n: usize, triangles: &mut Vec<Triangle>) {
             continue;
         };
         // The old triangle is split into several triangles, which all have the corner c. The first of the new triangles
-        // has the side from c to a. It replaces the old triangle in the list. The last of the new triangles has the
-        // side from b to c.
+        // has the side from c to a. This triangle replaces the old triangle in the list. The last of the new triangles
+        // has the side from b to c.
         let mut from = a;
         let mut part = t;
         while from != b {
@@ -388,8 +392,9 @@ fn insert_skipped_corners(n: usize, triangles: &mut Vec<Triangle>) {
     }
 }
 
-/// Whether sorted triangles are a triangulation of a polygon with `n` corners: there are n - 2 triangles, each
-/// side of the polygon belongs to one triangle, and each diagonal belongs to two triangles on opposite sides.
+/// Whether the given triangles, which must be sorted, are a triangulation of a polygon with `n` corners. In a
+/// triangulation, there are n - 2 triangles. Each side of the polygon belongs to one triangle. Each diagonal belongs to
+/// two triangles, which lie on opposite sides of the diagonal.
 fn is_triangulation(n: usize, triangles: &[Triangle]) -> bool {
     is_triangulation_unless(&|| false, n, triangles) == Some(true)
 }
@@ -407,7 +412,7 @@ fn is_triangulation_unless(
     let n = u32::try_from(n).expect("corners fit 32 bits");
     // Each triangle has two sides that run from a lower to a higher corner index, and one side that runs from a higher
     // to a lower index. The list `ascending` has the sides that run to a higher index, and the list `descending` has
-    // the others. In both lists, the lower corner of each side is written first.
+    // the others. In both lists, each side is stored with its lower corner first.
     let mut ascending: Vec<[u32; 2]> = triangles
         .iter()
         .flat_map(|&[a, b, c]| [[a, b], [b, c]])
@@ -415,8 +420,8 @@ fn is_triangulation_unless(
     let mut descending: Vec<[u32; 2]> = triangles.iter().map(|&[a, _, c]| [a, c]).collect();
     // The side of the polygon from corner n - 1 to corner 0 is removed from the list `descending`. All other sides of
     // the polygon are added to this list. If the triangles form a triangulation, the lists `ascending` and `descending`
-    // are then equal. Each diagonal is in both lists, because the two triangles beside it use it in opposite
-    // directions.
+    // are then equal. Each diagonal is in both lists, because the two triangles beside the diagonal run along it in
+    // opposite directions.
     let whole = [0, n - 1];
     let Some(place) = descending.iter().position(|&side| side == whole) else {
         return Some(false);

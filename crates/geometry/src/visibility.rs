@@ -10,22 +10,25 @@ use crate::deform::noise::random;
 use crate::deform::vertex_directions;
 use crate::surface_index::SurfaceIndex;
 
-/// The distance from the surface at which rays start, relative to the diagonal of the bounding box.
+/// Rays start a little away from the surface. This is their distance from the surface, as a fraction of the diagonal of
+/// the bounding box.
 const OFFSET: f64 = 1e-7;
-/// A ray for the thickness starts on the face, near the vertex. The distance from the vertex is at most twice this
-/// fraction of the length of the shorter of the two edges that meet at the corner.
+/// A ray that measures the thickness starts near a vertex, at a point of one of its faces. Let l be the length of the
+/// shorter of the two edges of the face at the vertex. The distance of the point from the vertex is at most twice this
+/// fraction of l.
 const INWARD: f64 = 1e-3;
-/// The number of vertices in a block. One thread processes a block.
+/// The number of vertices in a block. One thread computes the values of all vertices of a block.
 const BLOCK: usize = 256;
 
-/// Returns the thickness of the solid at each vertex, by index, in scene units. For each face around the vertex, a ray
-/// starts on the face near the vertex and runs inward at a right angle to the face until it leaves the solid. The
-/// thickness is the length of the shortest ray. The thickness is infinite if no ray meets the surface again, for
-/// example on a flat sheet, or if all faces around the vertex have zero area.
+/// Returns the thickness of the solid at each vertex, in scene units. Entry i belongs to the vertex with the index i.
+/// For each face around the vertex, a ray starts on the face near the vertex and runs inward at a right angle to the
+/// face until it leaves the solid. The thickness is the length of the shortest ray. The thickness is infinite if no ray
+/// meets the surface again, for example on a flat sheet, or if all faces around the vertex have zero area.
 ///
 /// For a plate, the thickness at every vertex is the distance between the two sides of the plate, even at its edges and
-/// corners. Where closed parts of the surface overlap, a ray does not end when it enters another part. Walls thinner
-/// than 1e-7 times the diagonal of the bounding box are not found. The mesh must be [dense](mesh::Mesh::is_dense).
+/// corners. Where closed parts of the surface overlap, a ray does not end at a point where it enters another part; it
+/// ends where it leaves a part. Walls thinner than 1e-7 times the diagonal of the bounding box are not found. The mesh
+/// must be [dense](mesh::Mesh::is_dense).
 ///
 /// # Errors
 ///
@@ -55,7 +58,8 @@ fn behind(mesh: &Mesh, index: &SurfaceIndex, h: HalfEdgeId, f: FaceId, offset: f
     let next = mesh.position(mesh.target(h)) - p;
     let last = mesh.position(mesh.origin(mesh.prev(h))) - p;
     let bisector = next.normalize_or_zero() + last.normalize_or_zero();
-    // At a reflex corner, the bisector of the two edges points out of the face.
+    // At a reflex corner, the sum of the directions of both edges points out of the face, so the sign of this sum is
+    // changed.
     let is_reflex = next.cross(last).dot(normal) < 0.0;
     let into = if is_reflex { -bisector } else { bisector };
     let origin = p + INWARD * next.length().min(last.length()) * into - offset * normal;
@@ -73,9 +77,9 @@ fn behind(mesh: &Mesh, index: &SurfaceIndex, h: HalfEdgeId, f: FaceId, offset: f
     }
 }
 
-/// Returns the ambient occlusion at each vertex, by index: the fraction of the rays from the vertex that meet the mesh,
-/// from 0 (open) to 1 (enclosed). The normal of a vertex is the direction of the sum of the area vectors of its faces.
-/// The occlusion is NaN for vertices without a normal.
+/// Returns the ambient occlusion at each vertex: the fraction of the rays from the vertex that meet the mesh, from 0
+/// (open) to 1 (enclosed). Entry i belongs to the vertex with the index i. The normal of a vertex is the direction of
+/// the sum of the area vectors of its faces. The occlusion is NaN for vertices without a normal.
 ///
 /// The directions of the rays are distributed about the normal, with a density proportional to the cosine of their
 /// angle to the normal. The same set of directions is used at each vertex, turned about the normal by a random angle
@@ -98,7 +102,7 @@ pub fn occlusion(
         return Ok(vec![f64::NAN; mesh.n_vertices()]);
     };
     let (offset, normals) = (offset(&index), vertex_directions(mesh));
-    // The directions about the z axis, before they are turned.
+    // The directions of the rays for a normal along the z axis. At each vertex, they are turned to its normal.
     let lattice: Vec<DVec3> = (0..rays)
         .map(|i| {
             let height = (f64::from(i) + 0.5) / f64::from(rays);

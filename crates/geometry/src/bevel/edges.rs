@@ -6,16 +6,19 @@
 //!      |             |                    | e              beveled edges, the vertex moves into the face (i).
 //! ```
 //!
-//! If a vertex is replaced by at least three new vertices, a new face joins them. The mesh is rebuilt from polygons,
-//! and the values of new vertices and corners are computed within the old faces.
+//! If a vertex is replaced by at least three new vertices, a new face joins these vertices. The new mesh is built from
+//! a list of polygons. The values (attributes) of each new vertex or corner are interpolated between corners of one old
+//! face.
 
 use mesh::build::{NonManifold, build};
 use mesh::{DVec3, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 
 use super::values::{Blend, blended};
 
-/// The lower limit of the sines by which the width is divided to find a cut. A smaller sine is replaced by this limit.
-/// Otherwise, an edge that is almost parallel to a beveled edge would be cut far from its end.
+/// The lower limit of the sine of the angle between an edge that is cut and a beveled edge. The distance from the end
+/// of the edge to its cut is the width divided by this sine. A smaller sine is replaced by this limit. Otherwise, an
+/// edge that is almost parallel to a beveled edge would be cut far from its end. Between two beveled edges, the limit
+/// applies to the sine of half their angle.
 const LEAST_SINE: f64 = 0.25;
 
 /// Why an edge cannot be beveled.
@@ -23,11 +26,12 @@ const LEAST_SINE: f64 = 0.25;
 pub enum BevelRefusal {
     /// One or both sides of the edge have no face.
     Boundary,
-    /// The vertex at this end of the edge has too few other edges: fewer than two new vertices would replace it.
+    /// The vertex at this end of the edge has too few other edges: fewer than two new vertices would replace the
+    /// vertex.
     FewEdges(VertexId),
-    /// The bevels at the two ends of an edge of a face would overlap.
+    /// The bevels at the two ends of an edge of an adjacent face would overlap, because this edge is too short.
     TooWide,
-    /// The result would not be a manifold.
+    /// The mesh with all bevels would not be a manifold.
     NonManifold,
 }
 
@@ -42,25 +46,26 @@ pub struct Beveled {
 
 /// Replaces edges by faces of constant width.
 ///
-/// A beveled edge is replaced by two new edges, one in each of its two faces. Each new edge is at the distance `width`,
-/// in scene units, from the old edge. Edges that meet at a vertex are beveled together, so the result does not depend
-/// on their order. The result has the symmetries that the mesh and the set of edges have in common. An edge that is not
-/// beveled is shortened if it ends at a vertex of a beveled edge. An edge that shares a face corner with a beveled edge
-/// is cut where its distance from the beveled edge is `width`. Any other edge is cut at the distance `width` from its
-/// end. The distance between a cut and the end of its edge is at most four times the width. The bevel is therefore
-/// narrower next to an edge that forms a small angle with the beveled edge.
+/// A beveled edge is replaced by a new face between two new edges; one new edge lies in each of the two faces of the
+/// beveled edge. Each new edge is at the distance `width`, in scene units, from the old edge. Edges that meet at a
+/// vertex are beveled together, so the result does not depend on their order. If both the mesh and the set of beveled
+/// edges have a symmetry, the result has this symmetry too. An edge that is not beveled is shortened if it ends at a
+/// vertex of a beveled edge. A shortened edge that shares a face corner with a beveled edge is cut at the point whose
+/// distance from the beveled edge is `width`. Any other edge at an end of a beveled edge is cut at the distance `width`
+/// from that end. The distance between a cut and the removed end of the edge that is cut is at most four times the
+/// width. The bevel is therefore narrower next to an edge that forms a small angle with the beveled edge.
 ///
-/// The ends of beveled edges are removed. In the result, the remaining vertices come first, in their old order,
-/// followed by the new vertices. Faces keep their ids. The faces that replace edges come after the old faces, in the
-/// order of the edges. The faces that replace vertices come last, in the order of the vertices. All edges get new ids;
-/// edges that remain keep their values.
+/// The vertices at the ends of beveled edges are removed. In the result, the remaining vertices come first, in their
+/// old order, followed by the new vertices. Faces keep their ids. The faces that replace edges come after the old
+/// faces, in the order of the edges. The faces that replace vertices come last, in the order of the vertices. All edges
+/// get new ids; edges that remain keep their values.
 ///
 /// Values of new vertices and corners are interpolated in the old faces, at the positions of the new vertices. Values
 /// that cannot be averaged are copied from one corner. The face that replaces an edge has the values of the face of the
 /// edge's first half-edge. The face that replaces a vertex has the values of one of the faces around the vertex.
 ///
-/// Edges that cannot be beveled do not change, and are listed in [`Beveled::refused`]. If the bevels at the two ends of
-/// an edge of a face would overlap, no edge at these two ends is beveled. If the result would not be a manifold, no
+/// Edges that cannot be beveled keep their shape, and are listed in [`Beveled::refused`]. If the bevels at the two ends
+/// of an edge would overlap, none of the edges at these two ends is beveled. If the result would not be a manifold, no
 /// edge is beveled.
 ///
 /// # Panics
@@ -101,7 +106,8 @@ pub fn bevel_edges(mesh: &Mesh, edges: &[EdgeId], width: f64) -> Beveled {
     }
 }
 
-/// Returns the length of the shortest edge at an end of one of these edges. Returns infinity if `edges` is empty.
+/// Returns the length of the shortest edge that shares a vertex with one of the given edges, including these edges
+/// themselves. Returns infinity if `edges` is empty.
 pub fn shortest_edge_at(mesh: &Mesh, edges: &[EdgeId]) -> f64 {
     let ends = edges.iter().flat_map(|&e| mesh.edge_vertices(e));
     let around = ends.flat_map(|v| mesh.vertex_half_edges(v));
@@ -112,17 +118,19 @@ pub fn shortest_edge_at(mesh: &Mesh, edges: &[EdgeId]) -> f64 {
 #[derive(Clone, Copy)]
 struct Corner {
     vertex: u32,
-    /// The old corners whose values are mixed. All of these corners belong to one face.
+    /// The old corners whose values are averaged to get the values of this corner, with their weights. All of these old
+    /// corners belong to one face.
     values: Blend<HalfEdgeId>,
 }
 
-/// A new vertex near the start of a half-edge: on the half-edge, or inside the corner of its face.
+/// A new vertex near the start of a half-edge: either on the half-edge, or inside the corner of its face between two
+/// beveled edges.
 #[derive(Clone, Copy)]
 struct Point {
     position: DVec3,
-    /// The weight of the target of the half-edge, for the interpolation of values.
+    /// The weight of the values at the target of the half-edge when the values of the new vertex are interpolated.
     along: f64,
-    /// The weight of the origin of the previous half-edge of the face.
+    /// The weight of the values at the origin of the previous half-edge of the face.
     before: f64,
 }
 
@@ -130,7 +138,7 @@ struct Bevel<'m> {
     mesh: &'m Mesh,
     chosen: &'m [bool],
     width: f64,
-    /// For each vertex, its new index if it remains.
+    /// For each old vertex, its index in the new mesh; `None` if the vertex is removed.
     kept: Vec<Option<u32>>,
     n_kept: usize,
     /// For each half-edge, the new vertex near its origin.
@@ -183,12 +191,14 @@ impl<'m> Bevel<'m> {
         self.mesh.position(self.mesh.target(h)) - self.mesh.position(self.mesh.origin(h))
     }
 
-    /// Returns the half-edge after `h` counter-clockwise around its origin, if there is a face between them.
+    /// Returns the half-edge that comes after `h` counter-clockwise around the origin of `h`. Returns `None` if there
+    /// is no face between the two half-edges.
     fn left(&self, h: HalfEdgeId) -> Option<HalfEdgeId> {
         self.mesh.face(h).map(|_| self.mesh.prev(h).twin())
     }
 
-    /// Returns the half-edge before `h` counter-clockwise around its origin, if there is a face between them.
+    /// Returns the half-edge that comes before `h` counter-clockwise around the origin of `h`. Returns `None` if there
+    /// is no face between the two half-edges.
     fn right(&self, h: HalfEdgeId) -> Option<HalfEdgeId> {
         self.mesh.face(h.twin()).map(|_| self.mesh.next(h.twin()))
     }
@@ -212,8 +222,9 @@ impl<'m> Bevel<'m> {
         }
     }
 
-    /// Returns the vertex in the corner of the face of `h`, if both edges of the corner are beveled. The distance of
-    /// this vertex from both edges is the width, or less if the angle of the corner is small.
+    /// Returns the new vertex inside the corner of the face of `h` at the origin of `h`, if both edges of this corner
+    /// are beveled. The distance of this vertex from both edges is the width, or less if the angle of the corner is
+    /// small.
     fn inset(&self, h: HalfEdgeId) -> Option<Point> {
         let g = self.left(h).filter(|&g| self.is_chosen(g))?;
         let [a, b] = [h, g].map(|h| self.direction(h));
@@ -222,12 +233,12 @@ impl<'m> Bevel<'m> {
         let normal = self.mesh.area_vector(self.mesh.face(h)?);
         let cross = a.cross(b);
         let is_reflex = cross.dot(normal) < 0.0;
-        // Half of the angle from a to b through the face.
+        // The sine and the cosine of half the angle from a to b, measured through the face.
         let cosine = a.dot(b).clamp(-1.0, 1.0);
         let half_sine = (0.5 - 0.5 * cosine).sqrt();
         let half_cosine = (0.5 + 0.5 * cosine).sqrt();
         let half_cosine = if is_reflex { -half_cosine } else { half_cosine };
-        // The normal of the corner, or of the face if both edges are on one line.
+        // The normal of the plane of both edges, or the normal of the face if both edges are on one line.
         let normal = if cross.length() > 1e-6 {
             if is_reflex { -cross } else { cross }
         } else {
@@ -239,8 +250,9 @@ impl<'m> Bevel<'m> {
         let sine = 2.0 * half_sine * half_cosine;
         let weight = |length: f64| {
             let weight = self.width / (sine * length);
-            // The weight of an edge is too large if both edges are almost on one line, or if the edge is too short. If
-            // both weights are 0, the point gets the values of the vertex.
+            // The weight of an edge is 1 or more if both edges are almost on one line, or if the edge is too short.
+            // Such a weight is replaced by 0. If the weights of both edges are 0, the point gets the values of the old
+            // vertex.
             if weight.abs() < 1.0 { weight } else { 0.0 }
         };
         Some(Point {
@@ -279,7 +291,8 @@ impl<'m> Bevel<'m> {
         corners
     }
 
-    /// Returns the new polygon of an old face, with the old edges of its sides.
+    /// Returns the corners of the new polygon of an old face. For each side of the polygon, also returns the old edge
+    /// that the side comes from, or [`EdgeId::NONE`].
     fn face(&self, f: FaceId) -> (Vec<Corner>, Vec<EdgeId>) {
         let (mut corners, mut sides) = (Vec::new(), Vec::new());
         for h in self.mesh.face_half_edges(f) {
@@ -295,7 +308,7 @@ impl<'m> Bevel<'m> {
         (corners, sides)
     }
 
-    /// Returns the new polygon of a beveled edge.
+    /// Returns the polygon that replaces a beveled edge.
     ///
     /// ```text
     ///        face of h
@@ -316,8 +329,9 @@ impl<'m> Bevel<'m> {
         strip.to_vec()
     }
 
-    /// Returns the new polygon of a vertex, counter-clockwise. The polygon has fewer than three corners if no face is
-    /// needed. Also returns an old face at the vertex.
+    /// Returns the corners, in counter-clockwise order, of the polygon that replaces a vertex. If there are fewer than
+    /// three corners, no face replaces the vertex. Also returns an old face at the vertex, whose values the new face
+    /// copies.
     fn cap(&self, v: VertexId) -> (Vec<Corner>, Option<FaceId>) {
         let mesh = self.mesh;
         let mut around: Vec<HalfEdgeId> = mesh.vertex_half_edges(v).collect();
@@ -327,7 +341,8 @@ impl<'m> Bevel<'m> {
         let points = around.iter().filter(|h| self.points[h.index()].is_some());
         for &h in points {
             let vertex = self.numbers[h.index()];
-            // Uses the corner in the face to the left of h or, if there is none, in the face to the right.
+            // Uses the corner in the face to the left of h. If there is no face to the left, uses the corner in the
+            // face to the right.
             let corners = match (mesh.face(h), self.right(h)) {
                 (Some(_), _) => self.corners(h),
                 (None, Some(right)) => self.corners(right),
@@ -347,7 +362,7 @@ impl<'m> Bevel<'m> {
         self.kept[v.index()].is_none()
     }
 
-    /// Returns the chosen edges that cannot be beveled, with the reasons.
+    /// Returns the edges in `chosen` that cannot be beveled, each with the reason.
     fn blocked(&self) -> Vec<(EdgeId, BevelRefusal)> {
         let mut blocked = Vec::new();
         let mut block = |v: VertexId, refusal| {
@@ -390,7 +405,7 @@ impl<'m> Bevel<'m> {
         blocked
     }
 
-    /// Returns the ends of the side that replaces `h`, a half-edge with a face.
+    /// Returns the positions of the two ends of the polygon side that replaces `h`, a half-edge with a face.
     fn side(&self, h: HalfEdgeId) -> [DVec3; 2] {
         let point = |h: HalfEdgeId| self.points[h.index()].map(|point| point.position);
         let from = point(h).or_else(|| point(self.mesh.prev(h).twin()));
@@ -407,7 +422,7 @@ impl<'m> Bevel<'m> {
         ]
     }
 
-    /// Builds the new mesh. Returns `None` if it would not be a manifold.
+    /// Builds the new mesh. Returns `None` if the new mesh would not be a manifold.
     fn build(&self) -> Option<Mesh> {
         let mesh = self.mesh;
         let mut faces: Vec<FaceId> = Vec::new();

@@ -1,4 +1,5 @@
-//! Bevels a set of edges at once, and computes where separate bevels cut an edge that they shorten from both ends.
+//! Bevels a set of edges at once. Also computes where to cut an edge that is shortened at both ends, by one bevel after
+//! another.
 
 mod edges;
 mod values;
@@ -7,9 +8,9 @@ use mesh::{EdgeId, FaceId, Mesh};
 
 pub use edges::{BevelRefusal, Beveled, bevel_edges, shortest_edge_at};
 
-/// The remaining lengths of edges that are cut by several bevels. A position that is given as a fraction of the
-/// original length of an edge is converted to a fraction of its current length. Therefore the result does not depend on
-/// which end of an edge is cut first.
+/// The remaining lengths of edges that several bevels cut, one after another. A position that is given as a fraction of
+/// the original length of an edge is converted to a fraction of its current length. Therefore the result does not
+/// depend on which end of an edge is cut first.
 ///
 /// ```text
 ///    a---+---------------+---b      both cuts at a quarter of a-b: the second cut is at a third
@@ -17,21 +18,21 @@ pub use edges::{BevelRefusal, Beveled, bevel_edges, shortest_edge_at};
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Cuts {
-    /// The remaining fraction of each edge, by index. Edges beyond the end of the list are uncut: their
-    /// fraction is 1.
+    /// For each edge index, the current length divided by the original length. Edges beyond the end of the list are
+    /// uncut: their fraction is 1.
     remaining: Vec<f64>,
 }
 
 impl Cuts {
-    /// Returns where a cut of the edge `e` lies, as a fraction of the current length of `e`. `fraction` is the position
-    /// of the cut as a fraction of the length of `e` before all bevels. The result is 1 or more if the current length
-    /// is too short for the cut.
+    /// Returns where the next bevel cuts the edge `e`: the distance of the cut from the end that the bevel removes, as
+    /// a fraction of the current length of `e`. `fraction` is the same distance as a fraction of the length of `e`
+    /// before all bevels. The result is 1 or more if the current length is too short for the cut.
     pub fn fraction(&self, e: EdgeId, fraction: f64) -> f64 {
         fraction / self.remaining.get(e.index()).unwrap_or(&1.0)
     }
 
-    /// Records a bevel of a vertex or an edge. `new` is the face that the bevel added. Every edge outside `new` that
-    /// ends at a corner of `new` was shortened by `fraction` of its original length.
+    /// Records a bevel of a vertex or an edge. `new` is the face that the bevel added. Every edge that ends at a corner
+    /// of `new`, but is not a side of `new`, was shortened by `fraction` of its original length.
     pub fn cut(&mut self, mesh: &Mesh, new: FaceId, fraction: f64) {
         for h in mesh.face_half_edges(new) {
             let e = mesh.next(h.twin()).edge();

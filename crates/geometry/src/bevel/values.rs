@@ -1,13 +1,15 @@
-//! The values of a mesh whose edges are beveled.
+//! Computes the values (attributes) of a mesh whose edges are beveled.
 
 use mesh::{Attributes, Domain, EdgeId, FaceId, HalfEdgeId, Id, Rule, VertexId};
 
-/// A weighted mean of values at vertices or corners: the sources and their weights, which add up to 1.
+/// A weighted mean of the values at three vertices or corners: each of the three sources with its weight. The weights
+/// add up to 1.
 pub(super) type Blend<I> = [(I, f64); 3];
 
-/// Returns the attributes of the beveled mesh. For each element of the beveled mesh, the lists contain the elements of
-/// the old mesh that its values come from. The entry of a half-edge without a face is `None`. The entry of an edge that
-/// does not come from an old edge is [`EdgeId::NONE`]. Values that cannot be averaged are copied from the first source.
+/// Returns the attributes of the beveled mesh. For each element of the beveled mesh, the four lists name the elements
+/// of the old mesh from which its values are computed. The entry of a half-edge without a face is `None`. The entry of
+/// an edge that does not come from an old edge is [`EdgeId::NONE`]. Values that cannot be averaged are copied from the
+/// first source.
 pub(super) fn blended(
     old: &Attributes,
     vertices: &[Blend<VertexId>],

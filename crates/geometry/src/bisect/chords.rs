@@ -10,7 +10,8 @@
 
 use mesh::{DVec3, polygon_parts};
 
-/// A corner of a polygon, in coordinates relative to a line near the plane of the polygon.
+/// A corner of a polygon, in coordinates relative to the line that cuts the polygon. The line lies near the plane of
+/// the polygon.
 pub(super) struct Corner {
     /// The signed distance from the line: positive to the left of the line, 0 on the line.
     height: f64,
@@ -29,11 +30,11 @@ impl Corner {
     }
 }
 
-/// Returns chords that cut the polygon so that no part has corners on both sides of the line. The polygon must have
-/// corners on both sides of the line. `normal` is the normal of the polygon.
+/// Returns chords, as pairs of corner indices, that cut the polygon so that no part has corners on both sides of the
+/// line. The polygon must have corners on both sides of the line. `normal` is the normal of the polygon.
 ///
-/// If the chords inside the polygon cannot be determined, or do not separate the two sides, each part to the left of
-/// the line is cut off separately.
+/// It can happen that the chords inside the polygon cannot be determined, or that they do not separate the two sides of
+/// the line. In this case, each chain of corners to the left of the line is cut off separately.
 pub(super) fn chords_along_line(corners: &[Corner], normal: DVec3) -> Vec<[u32; 2]> {
     let n = corners.len();
     let is_good = |chords: &[[u32; 2]]| {
@@ -56,8 +57,8 @@ pub(super) fn chords_along_line(corners: &[Corner], normal: DVec3) -> Vec<[u32; 
     left_chords(corners)
 }
 
-/// Returns the chords inside the polygon. Returns `None` if the corners contradict each other about which parts of the
-/// line are inside.
+/// Returns the chords inside the polygon, as pairs of corner indices. Returns `None` if the corners on the line
+/// contradict each other about which parts of the line are inside the polygon.
 fn inside_chords(corners: &[Corner], normal: DVec3) -> Option<Vec<[u32; 2]>> {
     let n = corners.len();
     let mut on_line: Vec<usize> = (0..n).filter(|&i| corners[i].height == 0.0).collect();
@@ -78,7 +79,7 @@ fn inside_chords(corners: &[Corner], normal: DVec3) -> Option<Vec<[u32; 2]>> {
             }
         })
         .collect();
-    // Among corners at the same position, those that end an inside interval come first.
+    // Among corners at the same place on the line, corners that end an inside interval come first.
     let rank = |i: usize| match sees_inside[i] {
         [true, false] => 0,
         [false, true] => 2,
@@ -134,14 +135,15 @@ fn sees_inside(before: &Corner, corner: &Corner, after: &Corner, normal: DVec3) 
     [contains(2) || contains(6), contains(4)]
 }
 
-/// Returns, for each chain of corners to the left of the line, the chord that cuts the chain off.
+/// Returns, for each chain of consecutive corners to the left of the line, the chord that cuts the chain off.
 fn left_chords(corners: &[Corner]) -> Vec<[u32; 2]> {
     let n = corners.len();
     let is_left = |i: usize| corners[i % n].height > 0.0;
     let mut chords: Vec<[u32; 2]> = (0..n)
         .filter(|&i| !is_left(i) && is_left(i + 1))
         .map(|i| {
-            // The polygon also has corners that are not to the left of the line, so each chain of left corners ends.
+            // The search finds an end of the chain, because the polygon also has corners that are not to the left of
+            // the line.
             let end = (i + 1..=i + n)
                 .find(|&j| !is_left(j))
                 .expect("a chain ends")

@@ -12,16 +12,18 @@ use crate::bounds;
 use chords::Corner;
 pub use symmetrize::{SymmetrizeError, Symmetrized, symmetrize};
 
-/// A vertex counts as on the plane if its distance is at most this fraction of the largest extent of the mesh.
+/// A vertex counts as on the plane if its distance from the plane is at most this fraction of the largest extent of the
+/// mesh.
 const RELATIVE_TOLERANCE: f64 = 1e-9;
-/// A vertex also counts as on the plane if its distance is at most this fraction of the largest absolute coordinate of
-/// the mesh and of the point of the plane. Coordinates far from the origin have rounding errors of this size.
+/// A vertex also counts as on the plane if its distance from the plane is at most this fraction of a certain
+/// coordinate: the largest absolute coordinate of all vertices and of the given point of the plane. Coordinates far
+/// from the origin have rounding errors of this size.
 const ROUNDING_TOLERANCE: f64 = 1e-14;
 
 /// The result of [`bisect`].
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Bisection {
-    /// The edges on the plane, in order of their ids.
+    /// The edges that lie on the plane, in the order of their ids.
     pub edges: Vec<EdgeId>,
     /// The faces on the side that the normal points to, in order of their ids.
     pub front: Vec<FaceId>,
@@ -40,12 +42,12 @@ pub struct Bisection {
 /// ```
 ///
 /// Every edge that crosses the plane gets a vertex at the crossing point. Every face that crosses the plane is cut
-/// along the plane; a concave face can be cut several times. The parts remain connected. A vertex counts as on the
-/// plane if its distance from the plane is at most the larger of two tolerances. One tolerance is 1e-9 times the
-/// largest extent of the mesh. The other tolerance is 1e-14 times the largest absolute coordinate of the mesh and
-/// `point`. A vertex on the plane is not moved, and an edge that ends at such a vertex is not split. The side of a
-/// vertex is determined once, and is the same for all its edges and faces. A crossing point does not depend on the
-/// direction of its edge.
+/// along the plane; a concave face can be cut several times. The parts of a face share the new edges, so the mesh
+/// remains connected. A vertex counts as on the plane if its distance from the plane is at most the larger of two
+/// tolerances. One tolerance is 1e-9 times the largest extent of the mesh. The other tolerance is 1e-14 times the
+/// largest absolute coordinate of the mesh and `point`. A vertex on the plane is not moved, and an edge that ends at
+/// such a vertex is not split. The side of the plane on which a vertex lies is determined once, and is the same for all
+/// edges and faces at the vertex. The crossing point of an edge does not depend on which end of the edge comes first.
 ///
 /// Ids change as follows. When an edge is split, the part at the origin of its first half-edge keeps the id of the
 /// edge. The other parts of split edges and the crossing points get new ids, in the order of the edges. The new edges
@@ -53,13 +55,14 @@ pub struct Bisection {
 /// first corner keeps the id of the face; the other parts are new.
 ///
 /// Values are interpolated at crossing points. Corner values are interpolated within their face, so that seams are
-/// preserved. The parts of a split edge or of a cut face copy its values. New edges on the plane have zero values.
+/// preserved. The parts of a split edge get copies of the values of the edge, and the parts of a cut face get copies of
+/// the values of the face. New edges on the plane have zero values.
 ///
-/// The plane meets a flat face in a line. This line crosses the sides of the face an even number of times, and the
-/// intervals between the crossings are alternately inside and outside of the face. If a face is twisted or intersects
-/// itself, the intervals can be inconsistent. Each part of such a face in front of the plane is then cut off
-/// separately. If two faces share both edges that the plane crosses, each face gets a separate edge between the same
-/// two crossing points.
+/// The plane meets a flat face in a line. This line crosses the sides of the face an even number of times. The
+/// intervals of the line between the crossings are alternately inside and outside of the face. If a face is not flat or
+/// intersects itself, its corners can contradict each other about which intervals are inside. If the corners contradict
+/// each other, each part of the face in front of the plane is cut off separately. If two faces share both edges that
+/// the plane crosses, each face gets a separate edge between the same two crossing points.
 ///
 /// A face that lies in the plane counts as in front of the plane if its normal points to the back. In this case, the
 /// solid that the face bounds lies in front of the plane. Any other face in the plane counts as behind the plane.
@@ -94,8 +97,8 @@ pub fn bisect(mesh: &mut Mesh, point: DVec3, normal: DVec3) -> Result<Bisection,
     })
 }
 
-/// Returns the signed distance of each vertex from the plane. The value is 0 for vertices that count as on the plane,
-/// and for dead (removed) vertices.
+/// Returns the height of each vertex: the signed distance from the plane. The height is 0 for vertices that count as on
+/// the plane, and for dead (removed) vertices.
 fn heights(mesh: &Mesh, point: DVec3, normal: DVec3) -> Result<Vec<f64>, EditError> {
     if let Some(&bad) = point.to_array().iter().find(|x| !x.is_finite()) {
         return Err(EditError::BadNumber(bad));
@@ -110,8 +113,8 @@ fn heights(mesh: &Mesh, point: DVec3, normal: DVec3) -> Result<Vec<f64>, EditErr
             return Ok(0.0);
         }
         let height = (mesh.position(v) - point).dot(normal);
-        // The difference of two heights must be finite too. The difference is at most twice the larger absolute
-        // height.
+        // The difference of the heights of any two vertices must be finite too. Its absolute value is at most twice the
+        // larger absolute height.
         if !(2.0 * height).is_finite() || !near.is_finite() {
             return Err(EditError::BadNumber(height));
         }
@@ -133,7 +136,7 @@ fn split_across(mesh: &mut Mesh, heights: &mut Vec<f64>) -> Result<(), EditError
     for e in crossing {
         let [a, b] = mesh.edge_vertices(e);
         let [low, high] = [a, b].map(|v| heights[v.index()]);
-        // The weights are identical bit for bit if a and b are swapped.
+        // If a and b are swapped, each of them keeps its weight, identical bit for bit.
         let (weight_a, weight_b) = (high / (high - low), low / (low - high));
         let p = weight_a * mesh.position(a) + weight_b * mesh.position(b);
         let new = mesh.insert_vertex(e, weight_b)?;

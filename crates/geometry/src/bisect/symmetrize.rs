@@ -9,8 +9,8 @@ use crate::{merge_clusters, parts};
 /// The result of [`symmetrize`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Symmetrized {
-    /// The number of faces of the original mesh that have no part in front of the plane. Faces in the plane are
-    /// counted, and so are faces behind the plane that touch it. Faces that cross the plane are not counted.
+    /// The number of faces of the original mesh that have no part in front of the plane. These are the faces behind the
+    /// plane, even if they touch the plane, and the faces in the plane. Faces that cross the plane are not counted.
     pub removed: usize,
     /// The number of vertices on the plane at which the two halves are joined.
     pub joined: usize,
@@ -29,7 +29,7 @@ pub enum SymmetrizeError {
     Join(#[from] MergeError),
 }
 
-/// Replaces the half of a dense mesh behind a plane by the mirror image of the half in front of it.
+/// Replaces the half of a dense mesh that lies behind a plane by the mirror image of the half in front of the plane.
 ///
 /// ```text
 ///     +---.   |  .                     +---.   |   .---+
@@ -41,9 +41,10 @@ pub enum SymmetrizeError {
 ///
 /// The mesh is cut as in [`bisect`]. Faces behind the plane and faces in the plane are removed. The remaining vertices
 /// that count as on the plane are moved onto the plane, by at most the tolerance of `bisect`. The two halves share the
-/// boundary vertices on the plane. The original half comes first and keeps its order; the elements of the second half
-/// follow in the same order. Values are copied; deltas of morph targets are mirrored, and normals are removed. Like
-/// `bisect`, this function can connect two vertices on the plane by a second edge.
+/// boundary vertices on the plane. In the result, the elements of the original half come first and keep their order.
+/// The elements of the second half follow in the same order. The second half gets copies of the values of the first
+/// half. The deltas of morph targets are mirrored, and stored normals are removed from both halves. Like `bisect`, this
+/// function can connect two vertices on the plane by a second edge.
 ///
 /// # Errors
 ///
@@ -119,8 +120,8 @@ pub fn symmetrize(
     })
 }
 
-/// Returns a mesh with the elements of `a`, followed by those of `b`. Both meshes must be dense and have the same
-/// attributes.
+/// Returns a mesh with the elements of `a`, followed by the elements of `b`. Both meshes must be dense and have the
+/// same attributes.
 fn both(a: &Mesh, b: &Mesh) -> Mesh {
     let mut connectivity = a.connectivity().clone();
     connectivity.append(b.connectivity());

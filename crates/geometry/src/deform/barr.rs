@@ -4,37 +4,37 @@ use mesh::DVec3;
 
 use crate::sin_cos_degrees;
 
-/// The coordinates of a deformation: an origin and three orthogonal unit vectors, which form a right-handed system. The
-/// third vector is the axis, along which heights are measured. The amount of the deformation changes only between the
-/// heights `from` and `to`. Points below the height `from` or above the height `to` move rigidly or, for [`Taper`], are
-/// scaled by a constant factor.
+/// The coordinate system of a deformation: an origin and three orthogonal unit vectors, which form a right-handed
+/// system. The third vector is the axis. The height of a point is its coordinate along the axis. The amount of the
+/// deformation changes only between the heights `from` and `to`. Points below the height `from` or above the height
+/// `to` move rigidly or, for [`Taper`], are scaled by a constant factor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
     /// The origin.
     pub origin: DVec3,
-    /// The unit vectors.
+    /// The three unit vectors; the last one is the axis.
     pub axes: [DVec3; 3],
     /// The height at which the deformation starts.
     pub from: f64,
-    /// The height at which the deformation is complete, which is at least `from`.
+    /// The height at which the deformation reaches its full amount. This height is at least `from`.
     pub to: f64,
 }
 
 impl Frame {
-    /// Returns the coordinates of a point.
+    /// Converts a point from scene coordinates to the coordinates of this frame.
     fn local(&self, p: DVec3) -> DVec3 {
         let p = p - self.origin;
         DVec3::from_array(self.axes.map(|axis| axis.dot(p)))
     }
 
-    /// Returns the point with these coordinates.
+    /// Converts a point from the coordinates of this frame to scene coordinates.
     fn global(&self, p: DVec3) -> DVec3 {
         let [x, y, z] = self.axes;
         self.origin + p.x * x + p.y * y + p.z * z
     }
 
-    /// Returns the fraction of the deformation that applies at a height, from 0 to 1. If `from` equals `to`, the
-    /// fraction jumps from 0 to 1 at this height.
+    /// Returns the fraction of the full amount of the deformation that applies at the given height. The fraction is
+    /// from 0 to 1. If `from` equals `to`, the fraction jumps from 0 to 1 at this height.
     fn part(&self, height: f64) -> f64 {
         if height <= self.from {
             0.0
@@ -53,7 +53,7 @@ impl Frame {
 pub struct Twist {
     /// The coordinates.
     pub frame: Frame,
-    /// The angle at `to`, in degrees.
+    /// The angle of rotation at the height `to`, in degrees.
     pub angle: f64,
 }
 
@@ -78,7 +78,7 @@ pub struct Taper {
 }
 
 impl Taper {
-    /// Returns the factor at a height.
+    /// Returns the scale factor at the given height.
     fn factor_at(&self, height: f64) -> f64 {
         let part = self.frame.part(height);
         (1.0 - part) + self.factor * part
@@ -93,7 +93,7 @@ impl Taper {
     }
 }
 
-/// Bends the axis of the [`Frame`] into an arc of a circle, towards the first of its three unit vectors:
+/// Bends the axis of the [`Frame`] into an arc of a circle, towards the first of the three unit vectors of the frame:
 ///
 /// ```text
 ///     to    |                     .--  to      The axis keeps its length. d is z - from, clamped to [0, to - from].
@@ -104,9 +104,9 @@ impl Taper {
 ///                                              angle in radians.
 /// ```
 ///
-/// Points at `from` or below do not move. Between the heights `from` and `to`, volumes are multiplied by 1 - k x, where
-/// k is the curvature. The center of the circle is at x = 1 / k. Beyond the center, the factor 1 - k x is negative, and
-/// the result is inside out.
+/// Points at the height `from` or below do not move. Between the heights `from` and `to`, volumes are multiplied by 1 -
+/// k x, where k is the curvature. The center of the circle is at x = 1 / k. For points beyond the center, the factor
+/// 1 - k x is negative: there, the bent shape is turned inside out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bend {
     /// The coordinates.

@@ -2,9 +2,9 @@
 
 use mesh::{DVec3, parallel};
 
-/// Returns a weight for each point: 1 for selected points, (1 - (d / radius)²)² for a point at a distance d
-/// from the nearest selected point, and 0 if d is `radius` or more. The weight and its derivative are
-/// continuous at the distances 0 and `radius`.
+/// Returns a weight for each point. Let d be the distance of the point from the nearest selected point. The weight is
+/// (1 - (d / radius)²)² if d is less than `radius`, and 0 otherwise. Selected points have the weight 1. The weight and
+/// its derivative are continuous at the distances 0 and `radius`.
 pub fn falloff(points: &[DVec3], is_selected: &[bool], radius: f64) -> Vec<f64> {
     let selected = points.iter().zip(is_selected).filter(|p| *p.1);
     let mut selected: Vec<DVec3> = selected.map(|p| *p.0).collect();
@@ -22,12 +22,13 @@ pub fn falloff(points: &[DVec3], is_selected: &[bool], radius: f64) -> Vec<f64> 
     })
 }
 
-/// The largest number of points in a part of the tree that is searched point by point.
+/// A part of the tree with at most this number of points is not divided further. The search compares all points of such
+/// a part.
 const LEAF: usize = 16;
 
-/// Sorts points as a balanced tree. The middle point divides each part in two halves along `axis`, and the halves are
-/// divided along the next axis. Source: Bentley, "Multidimensional Binary Search Trees Used for Associative
-/// Searching", 1975.
+/// Sorts points into the order of a balanced k-d tree. The median point along `axis` divides the points in two halves.
+/// Each half is then divided in the same way along the next axis. Source: Bentley, "Multidimensional Binary Search
+/// Trees Used for Associative Searching", 1975.
 fn sort(points: &mut [DVec3], axis: usize) {
     if points.len() > LEAF {
         let middle = points.len() / 2;
@@ -38,7 +39,8 @@ fn sort(points: &mut [DVec3], axis: usize) {
     }
 }
 
-/// Returns the squared distance to the nearest point of a tree, or `best` if no point is nearer.
+/// Returns the squared distance from `p` to the nearest point of the tree. Returns `best`, also a squared distance, if
+/// no point of the tree is nearer than that.
 fn nearest(tree: &[DVec3], p: DVec3, best: f64, axis: usize) -> f64 {
     if tree.len() <= LEAF {
         let squares = tree.iter().map(|q| q.distance_squared(p));

@@ -8,13 +8,13 @@ use mesh::DVec3;
 /// Solid Geometric Models", 1986. Points outside the box do not move.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lattice {
-    /// The lowest corner.
+    /// The corner of the box with the smallest coordinates.
     pub min: DVec3,
-    /// The highest corner.
+    /// The corner of the box with the largest coordinates.
     pub max: DVec3,
     /// The number of control points along x, y and z. Each of these numbers is at least 1.
     pub size: [usize; 3],
-    /// The offsets of the control points. The offset of the control point (i, j, k) has the index
+    /// The vectors by which the control points are moved. The offset of the control point (i, j, k) has the index
     /// `(i * size[1] + j) * size[2] + k`.
     pub offsets: Vec<DVec3>,
 }

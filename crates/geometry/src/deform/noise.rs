@@ -1,6 +1,6 @@
-//! Numbers that look random but depend only on their arguments. They are computed only with integer operations and
-//! basic floating-point operations, which every machine rounds in the same way. The numbers are therefore identical bit
-//! for bit on every machine.
+//! Functions that return numbers that look random but depend only on the arguments. The numbers are computed only with
+//! integer operations and basic floating-point operations, which every machine rounds in the same way. The numbers are
+//! therefore identical bit for bit on every machine.
 
 use mesh::DVec3;
 
@@ -8,7 +8,7 @@ use mesh::DVec3;
 /// `SplitMix64` of Steele, Lea, Flood, "Fast Splittable Pseudorandom Number Generators", 2014.
 pub fn random(seed: u64, index: u64) -> f64 {
     let bits = mixed(mixed(seed).wrapping_add(index));
-    // Keeps 53 bits, which an f64 represents exactly.
+    // Keeps 53 bits, because an f64 represents every integer of 53 bits exactly.
     (bits >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
 }
 
@@ -42,7 +42,7 @@ pub fn gradient(seed: u64, p: DVec3) -> f64 {
 /// Returns the dot product of two vectors: the offset from a corner of the lattice, and the gradient at this corner.
 /// The gradient is one of the twelve vectors from the center of a cube to the midpoints of its edges.
 fn slope(seed: u64, corner: DVec3, offset: DVec3) -> f64 {
-    // Adding 0 turns -0 into 0, because both must give the same gradient.
+    // The numbers -0 and 0 have different bits but must give the same gradient. Adding 0 turns -0 into 0.
     let cell = corner.to_array().map(|x| (x + 0.0).to_bits());
     let hash = cell
         .iter()

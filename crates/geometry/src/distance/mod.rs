@@ -1,9 +1,9 @@
-//! The distance between two surfaces: the largest distance, with a bound on its error, and the mean distance.
+//! Measures the distance between two surfaces: the largest distance, with an upper bound, and the mean distance.
 //!
 //! The Hausdorff distance is the largest distance from a point of one surface to the other surface. The largest
 //! distance can be at a point inside a face: for example, a spike of the other surface can end over the middle of a
-//! face. Therefore triangles are cut into pieces. The cutting stops when no point of a piece can be further away than
-//! the largest distance found so far plus a tolerance:
+//! face. Therefore triangles are cut into pieces. The cutting stops when no point of any piece can be further from the
+//! other surface than the largest distance found so far plus a tolerance:
 //!
 //! ```text
 //!     c              c
@@ -30,28 +30,29 @@ use crate::{Scaled, area, bounds};
 
 use piece::{Farthest, Piece, Sample, refine};
 
-/// The distances between two surfaces, in both directions. Lengths are in scene units.
+/// The distances between two surfaces, measured in both directions: from the first surface to the second, and back.
+/// Lengths are in scene units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Distance {
-    /// From the first surface to the second.
+    /// The distances from the points of the first surface to the second surface.
     pub forth: OneSided,
-    /// From the second surface to the first.
+    /// The distances from the points of the second surface to the first surface.
     pub back: OneSided,
 }
 
 /// The distances from the points of one surface to another surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OneSided {
-    /// The largest distance found, exact up to rounding. If very many triangles are almost equally near to a point, the
-    /// search for the nearest triangle stops early. In this case, the value is only a lower bound of the largest
-    /// distance.
+    /// The largest distance found: the distance from the point `from` to the other surface, exact up to rounding. If
+    /// very many triangles are almost equally near to this point, the search for the nearest triangle stops early. In
+    /// this case, the value is only a lower bound of the distance from this point.
     pub largest: f64,
     /// An upper bound of the distances from all points of this surface to the other surface.
     pub at_most: f64,
-    /// The distance averaged over the area of this surface, computed from samples at the corners and inside the
-    /// triangles. If the area of the surface is zero, this value is the mean over the vertices.
+    /// The distance averaged over the area of this surface, computed from samples at the corners of triangles and
+    /// inside triangles. If the area of the surface is zero, this value is the mean over the vertices.
     pub mean: f64,
-    /// The point of this surface with the largest distance.
+    /// The point of this surface at which the largest distance was found.
     pub from: SurfacePoint,
     /// The point of the other surface that is nearest to `from`.
     pub to: SurfacePoint,
@@ -66,21 +67,21 @@ pub struct SurfacePoint {
     pub on: Element,
 }
 
-/// The default tolerance, as a fraction of the diagonal of the bounding box of both surfaces.
+/// The default tolerance, as a fraction of the diagonal of the common bounding box of both surfaces.
 pub const TOLERANCE: f64 = 1e-5;
 
 /// The text that progress reports show for the measurement.
 const WHAT: &str = "measure the distance";
 
-/// Asks the progress listener whether to continue. The measurement calls this function at least every few
-/// milliseconds.
+/// A function that asks the progress listener whether to continue. The measurement calls this function at least once
+/// every few milliseconds.
 type Ask<'a> = dyn Fn() -> Result<(), Cancelled> + Sync + 'a;
 
 impl Distance {
-    /// Measures the distance between two surfaces. `tolerance` is the largest allowed error of the Hausdorff
-    /// distance, in scene units. If `None`, the tolerance is [`TOLERANCE`] times the [`diagonal`]. The search
-    /// can stop before it reaches a very small tolerance; even then, [`at_most`](Self::at_most) is a valid
-    /// bound. Returns `None` if one of the meshes has no faces.
+    /// Measures the distance between two surfaces. `tolerance` is the largest allowed error of the Hausdorff distance,
+    /// in scene units. If `None`, the tolerance is [`TOLERANCE`] times the [`diagonal`]. If the tolerance is very
+    /// small, the search can stop before the error is within the tolerance. Even then, [`at_most`](Self::at_most) is a
+    /// valid upper bound. Returns `None` if one of the meshes has no faces.
     pub fn between(a: &Mesh, b: &Mesh, tolerance: Option<f64>) -> Option<Self> {
         let found = Self::between_with(a, b, tolerance, &NoProgress);
         found.expect("never canceled")
@@ -116,8 +117,8 @@ impl Distance {
         }))
     }
 
-    /// Whether the largest distance from the first surface to the second is at least the largest distance from
-    /// the second to the first.
+    /// Whether the direction from the first surface to the second has the larger value of
+    /// [`largest`](OneSided::largest). Also true if both directions have equal values.
     pub fn is_worst_forth(&self) -> bool {
         self.forth.largest >= self.back.largest
     }
@@ -131,7 +132,7 @@ impl Distance {
         }
     }
 
-    /// Returns the largest distance found. The Hausdorff distance is at least the largest distance found, and at most
+    /// Returns the largest distance found in both directions. The Hausdorff distance is between this value and
     /// [`at_most`](Self::at_most).
     pub fn largest(&self) -> f64 {
         self.worst().largest
@@ -167,17 +168,18 @@ impl std::fmt::Display for SurfacePoint {
 /// The approximate number of samples for the mean distance of a surface that has only a few large triangles.
 const SAMPLES: f64 = 50_000.0;
 
-/// The number of faces in a block. One thread measures the faces of a block. The number of faces in a block is
-/// constant, so that the sums are the same for any number of threads.
+/// The number of faces in a block. One thread measures all faces of a block. The blocks do not depend on the number of
+/// threads, so the sums over the blocks do not depend on it either.
 const BLOCK: usize = 1024;
 
 /// The result of measuring one block of faces.
 #[derive(Default)]
 struct Block {
-    /// The pieces that are possibly cut later: their bounds exceed the largest distance of a vertex by more than the
-    /// tolerance.
+    /// The pieces (triangles) that must possibly be cut later: their upper bounds exceed the largest distance of a
+    /// vertex by more than the tolerance.
     pieces: Vec<Piece>,
-    /// An upper bound of the distances of all points that are not in one of the `pieces`.
+    /// An upper bound of the distances from all those points of the block that are in none of the `pieces` to the other
+    /// surface.
     ceiling: f64,
     farthest: Option<Farthest>,
     /// The sum of the areas of the triangles.
@@ -196,7 +198,7 @@ impl OneSided {
         let hits = vertex_hits(from, to, ask)?;
         let slots = from.domain_len(Domain::Face);
         let mut farthest = farthest_vertex(from, &hits).expect("a mesh with faces has vertices");
-        // The largest area that one sample represents.
+        // A triangle with more than this area gets several samples, so that no sample represents a larger area.
         let area_per_sample = area(from) / SAMPLES;
         let threshold = farthest.lower_bound() + tolerance;
         let blocks: Result<Vec<Block>, Cancelled> = parallel::map(slots.div_ceil(BLOCK), |b| {
@@ -249,7 +251,7 @@ impl OneSided {
 }
 
 impl OneSided {
-    /// Returns the distances in scene units.
+    /// Converts the distances from the scaled unit of length to scene units.
     fn restored(self, scaled: &Scaled) -> Self {
         let point = |point: SurfacePoint| SurfacePoint {
             position: scaled.restored_point(point.position),
@@ -291,7 +293,8 @@ impl Block {
         let distance = if rows > 1.0 {
             self.mean_over(&piece, triangle, rows, to, ask)?
         } else {
-            // This quadrature is exact if the distance is a quadratic function of the position.
+            // The mean of the distance over the triangle, from its values at the center and the corners. The formula is
+            // exact if the distance is a quadratic function of the position.
             let sum: f64 = corners.iter().map(|s| s.hit.distance).sum();
             0.75 * middle.hit.distance + sum / 12.0
         };
@@ -327,8 +330,8 @@ impl Block {
         for i in 0..n {
             ask()?;
             for j in 0..n - i {
-                // Cell (i, j) has a smaller triangle with the orientation of the large triangle. Except at the
-                // end of a row, the cell also has an inverted small triangle.
+                // Cell (i, j) has a smaller triangle with the orientation of the large triangle. Each cell except the
+                // last one of a row also has an inverted small triangle.
                 let n_parts = if i + j + 2 <= n { 2 } else { 1 };
                 for shift in [third, 2.0 * third].into_iter().take(n_parts) {
                     let (u, v) = (f64::from(i) + shift, f64::from(j) + shift);
@@ -349,7 +352,8 @@ impl Block {
     }
 }
 
-/// Returns the nearest point of `to` for each vertex, by vertex index. Isolated vertices are included.
+/// Returns, for each vertex of `from`, the nearest point of the surface `to`. Entry i belongs to the vertex with the
+/// index i. Isolated vertices also get an entry.
 fn vertex_hits(
     from: &Mesh,
     to: &SurfaceIndex,
@@ -362,14 +366,14 @@ fn vertex_hits(
     to.nearest_to_all(from.domain_len(Domain::Vertex), position, &|_| ask())
 }
 
-/// Returns the distance from each vertex of `from` to the surface of `to`, by vertex index. The distance is NaN for
-/// dead (removed) vertices. Returns `None` if `to` has no faces.
+/// Returns the distance from each vertex of `from` to the surface of `to`. Entry i belongs to the vertex with the index
+/// i. The distance is NaN for dead (removed) vertices. Returns `None` if `to` has no faces.
 pub fn vertex_distances(from: &Mesh, to: &Mesh) -> Option<Vec<f64>> {
     let found = vertex_distances_with(from, to, &NoProgress);
     found.expect("never canceled")
 }
 
-/// Returns the distances like [`vertex_distances`], and reports progress.
+/// Returns the same distances as [`vertex_distances`], and reports progress.
 ///
 /// # Errors
 ///

@@ -1,4 +1,5 @@
-//! Pieces of triangles, with upper bounds on their distance to the other surface.
+//! Pieces of the triangles of the measured surface, with upper bounds on the distances of their points from the other
+//! surface.
 
 use mesh::{DVec3, Element, FaceId, parallel};
 use progress::Cancelled;
@@ -14,7 +15,7 @@ pub(super) struct Sample {
     pub(super) hit: Nearest,
 }
 
-/// A triangle or a part of a triangle.
+/// A triangle of the measured surface, or a part of such a triangle.
 #[derive(Clone)]
 pub(super) struct Piece {
     corners: [Sample; 3],
@@ -23,22 +24,22 @@ pub(super) struct Piece {
     pub(super) upper: f64,
 }
 
-/// The furthest sample found so far.
+/// The sample with the largest distance from the other surface that was found so far.
 #[derive(Clone, Copy)]
 pub(super) struct Farthest {
     pub(super) on: Element,
     pub(super) sample: Sample,
 }
 
-/// The number of pieces in a block. One thread cuts the pieces of a block.
+/// The number of pieces in a block. One thread cuts all pieces of a block.
 const BLOCK: usize = 64;
 
-/// The maximum number of pieces that are cut in one round. If there are more pieces, those with the largest bounds are
-/// kept.
+/// The maximum number of pieces that are cut in one round. If there are more pieces, only the pieces with the largest
+/// upper bounds are cut.
 const MAX_PIECES: usize = 1 << 18;
 
-/// The search stops after it has visited this number of nodes in the tree of the other surface. This takes a few
-/// seconds.
+/// The search stops after it has visited this number of nodes in the tree of the other surface. So many visits take a
+/// few seconds.
 const MAX_VISITS: u64 = 1 << 28;
 
 impl Farthest {
@@ -47,7 +48,7 @@ impl Farthest {
         self.sample.hit.lower
     }
 
-    /// Returns the sample that is further away, or `self` if both are equally far away.
+    /// Returns the sample that is further from the other surface, or `self` if both are equally far.
     pub(super) fn or(self, other: Option<Self>) -> Self {
         match other {
             Some(other) if other.lower_bound() > self.lower_bound() => other,
@@ -64,7 +65,8 @@ impl Farthest {
 }
 
 impl Piece {
-    /// Creates the piece with the given corners and computes its bound.
+    /// Creates the piece with the given corners. Computes the upper bound of the distances from the piece to the other
+    /// surface.
     pub(super) fn new(corners: [Sample; 3], face: FaceId, to: &SurfaceIndex) -> Self {
         let mut piece = Self {
             corners,
@@ -78,15 +80,18 @@ impl Piece {
     /// Returns an upper bound of the distances from all points of the piece to the other surface. The result is the
     /// minimum of these bounds:
     ///
-    /// 1. The largest distance from a corner of the piece to one triangle of the other surface. The distance to a
-    ///    triangle is a convex function of the point, so its maximum over the piece is at a corner.
+    /// 1. The largest distance from a corner of the piece to one triangle of the other surface, the same triangle for
+    ///    all corners. The distance to a triangle is a convex function of the point, so its maximum over the piece is
+    ///    at a corner.
     /// 2. d + e, if the nearest points of the three corners lie on two triangles with a common edge. The length d is
-    ///    the largest distance from a corner to its nearest point. Therefore no point of the piece is further than d
-    ///    from the triangle that the three nearest points span. Two sides of this spanned triangle lead from one of the
-    ///    two triangles to the other. The length e is the larger of the distances of these two sides from the common
-    ///    edge. Therefore no point of the spanned triangle is further than e from the two triangles.
-    /// 3. The largest distance from a corner to its nearest point, plus 1/√3 times the longest side. No point of the
-    ///    piece is further than 1/√3 times the longest side from the nearest corner.
+    ///    the largest distance from a corner of the piece to the nearest point of the other surface. Therefore no point
+    ///    of the piece is further than d from the triangle that the three nearest points span. Two sides of this
+    ///    spanned triangle lead from one of the two triangles of the other surface to the other one. The length e is
+    ///    the larger of the distances of these two sides from the common edge. Therefore no point of the spanned
+    ///    triangle is further than e from the two triangles.
+    /// 3. The length d plus 1/√3 times the longest side of the piece, where d is the largest distance from a corner of
+    ///    the piece to the nearest point of the other surface. This is a bound because the distance from a point of the
+    ///    piece to the nearest corner is at most 1/√3 times the longest side.
     fn bound(&self, to: &SurfaceIndex) -> f64 {
         let [a, b, c] = self.corners;
         let far = self.corners.iter().fold(0.0, |d, s| s.hit.distance.max(d));
@@ -114,7 +119,7 @@ impl Piece {
         bound
     }
 
-    /// Returns the largest distance from the piece to one triangle.
+    /// Returns the largest distance from a point of the piece to the given triangle of the other surface.
     fn to_triangle(&self, to: &SurfaceIndex, triangle: u32) -> f64 {
         let distance = |s: &Sample| {
             if s.hit.triangle == triangle {
@@ -126,8 +131,8 @@ impl Piece {
         self.corners.iter().map(distance).fold(0.0, f64::max)
     }
 
-    /// Whether it is useful to cut the piece. Cutting does not help if the distance of a corner is inexact and the
-    /// bound exceeds the largest corner distance by at most `tolerance`.
+    /// Whether cutting the piece can lower its upper bound. Cutting does not help if two conditions hold: the distance
+    /// of a corner is inexact, and the upper bound exceeds the largest corner distance by at most `tolerance`.
     fn can_improve(&self, tolerance: f64) -> bool {
         let hits = self.corners.map(|s| s.hit);
         let far = hits.iter().fold(0.0, |d, hit| hit.distance.max(d));
@@ -135,7 +140,7 @@ impl Piece {
         is_exact || self.upper > far + tolerance
     }
 
-    /// Returns the corner where the longest side starts, and the length of that side.
+    /// Returns the index of the corner at which the longest side starts, and the length of that side.
     fn longest_side(&self) -> (usize, f64) {
         let length = |i: usize| self.corners[i].at.distance(self.corners[(i + 1) % 3].at);
         let sides = [0, 1, 2].map(|i| (i, length(i)));
@@ -153,13 +158,14 @@ impl Piece {
         Sample { at, hit }
     }
 
-    /// Lowers the upper bound if the triangle nearest to the center of the piece gives a smaller bound. `middle` is
-    /// the sample at the center.
+    /// Lowers the upper bound of the piece, if the triangle of the other surface that is nearest to the center of the
+    /// piece gives a smaller bound. `middle` is the sample at the center.
     pub(super) fn lower(&mut self, middle: &Sample, to: &SurfaceIndex) {
         self.upper = self.upper.min(self.to_triangle(to, middle.hit.triangle));
     }
 
-    /// Returns `sample`, which lies in the piece, as a candidate for the furthest sample.
+    /// Returns `sample`, which must lie in the piece, as a candidate for the sample that is furthest from the other
+    /// surface.
     pub(super) fn at(&self, sample: Sample) -> Farthest {
         Farthest {
             on: Element::Face(self.face),
@@ -188,11 +194,11 @@ impl Piece {
     }
 }
 
-/// Cuts pieces until no piece can be more than `tolerance` further away than the furthest sample, or until
-/// [`MAX_VISITS`] nodes were visited. Pieces that cutting cannot improve are not cut. If a round has too many pieces,
-/// the pieces with the smallest bounds are left uncut. Returns the furthest sample and an upper bound of the distances
-/// of all points of the surface, including the points of pieces that were not cut. `ceiling` is an upper bound for the
-/// points that are not in one of the `pieces`.
+/// Cuts pieces in two until no point of a piece can be more than `tolerance` further from the other surface than the
+/// furthest sample. Stops earlier if [`MAX_VISITS`] nodes were visited. Pieces whose bounds cutting cannot lower are
+/// not cut. If a round has too many pieces, the pieces with the smallest bounds are left uncut. Returns the furthest
+/// sample and an upper bound of the distances of all points of the surface, including the points of pieces that were
+/// not cut. `ceiling` is an upper bound of the distances of the points that are in none of the `pieces`.
 pub(super) fn refine(
     mut pieces: Vec<Piece>,
     mut farthest: Farthest,
@@ -202,10 +208,10 @@ pub(super) fn refine(
     ask: &Ask,
 ) -> Result<(Farthest, f64), Cancelled> {
     let mut visits_left = MAX_VISITS;
-    // Limits the number of pieces in a round, so that the round does not exceed the remaining visits. The
-    // number of visits of a search is estimated from earlier searches.
+    // Limits the number of pieces in a round, so that the round does not visit more nodes than the rest of the limit
+    // allows. The number of nodes that a search visits is estimated from earlier searches.
     let visits = pieces.iter().map(|p| u64::from(p.corners[0].hit.visits));
-    // Cutting a piece takes at most three searches. The factor 5 leaves a margin.
+    // Cutting a piece takes at most three searches for nearest points. The factor 5 instead of 3 leaves a margin.
     let per_piece = 5 * (visits.sum::<u64>() / (pieces.len() as u64).max(1)).max(1);
     let affordable = |visits: u64, per_piece: u64| {
         usize::try_from(visits / per_piece).map_or(MAX_PIECES, |n| n.clamp(1, MAX_PIECES))

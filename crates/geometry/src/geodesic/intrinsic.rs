@@ -1,4 +1,5 @@
-//! A triangulation that is defined only by the side lengths of its triangles. Its edges can be flipped.
+//! A triangulation that is defined only by the side lengths of its triangles. The edges of this triangulation can be
+//! flipped.
 //!
 //! ```text
 //!          k                    k
@@ -17,12 +18,12 @@ use rayon::prelude::*;
 
 use crate::triangulate::Cutter;
 
-/// Marks a side that is not glued to another side.
+/// In the table `glued`, marks a side that is not glued to another side.
 const NONE: u32 = u32::MAX;
-/// In every triangle, the sum of any two sides must exceed the third side by at least this fraction of the mean length
-/// of a side. If necessary, all sides are lengthened by the same length.
+/// In every triangle, the sum of any two sides must exceed the third side by at least this fraction of the mean side
+/// length. If one triangle fails this test, all sides of all triangles are lengthened by the same length.
 const SLACK: f64 = 1e-5;
-/// The largest number of flips, divided by the number of sides of all triangles.
+/// The limit on the number of edge flips, divided by the number of sides of all triangles.
 const MAX_FLIPS: usize = 100;
 
 /// Triangles that are glued along their sides. Side k of a triangle joins its corners k and k + 1. The index of the
@@ -32,14 +33,14 @@ pub(super) struct Intrinsic {
     pub(super) corners: Vec<[u32; 3]>,
     /// The lengths of the sides.
     pub(super) lengths: Vec<[f64; 3]>,
-    /// For each side, the side that it is glued to. The entry of a side that is not glued is [`NONE`].
+    /// For each side, the index of the side to which it is glued. The entry of a side that is not glued is [`NONE`].
     glued: Vec<[u32; 3]>,
 }
 
 impl Intrinsic {
     /// Creates the triangulation of a mesh whose vertices have the given positions. Polygons are cut into triangles. If
-    /// a triangle is degenerate or almost degenerate, the same small length is added to all sides, so that all
-    /// triangles have a positive area.
+    /// a triangle is degenerate or almost degenerate, the same small length is added to all sides of all triangles.
+    /// After that, all triangles have a positive area.
     pub(super) fn new(mesh: &Mesh, points: &[DVec3]) -> Self {
         let mut corners = Vec::with_capacity(mesh.n_faces());
         // Sides with equal keys are glued: sides on the same edge of the mesh, or on the same diagonal of a face.
@@ -102,8 +103,8 @@ impl Intrinsic {
         if n == 0 { 0.0 } else { sum / (3 * n) as f64 }
     }
 
-    /// Adds the same length to all sides, so that in every triangle the sum of two sides exceeds the third side by at
-    /// least [`SLACK`] times the mean length.
+    /// Adds the same length to all sides of all triangles. After that, in every triangle, the sum of any two sides
+    /// exceeds the third side by at least [`SLACK`] times the mean side length.
     fn mollify(&mut self) {
         let mean = self.mean_length();
         let slack = if mean > 0.0 { SLACK * mean } else { 1.0 };
@@ -144,8 +145,8 @@ impl Intrinsic {
         Ok(())
     }
 
-    /// Flips the edge of a side if the edge is not Delaunay. Returns the four other sides of the two triangles at the
-    /// edge. Returns `None` if the edge was not flipped.
+    /// Flips the edge that contains the given side, if the edge is not Delaunay. Returns the four other sides of the
+    /// two triangles at the edge, which must be tested next. Returns `None` if the edge was not flipped.
     fn flip_if_not_delaunay(&mut self, side: u32) -> Option<[u32; 4]> {
         let (t, k) = place(side);
         let other = self.glued[t][k];
@@ -156,7 +157,7 @@ impl Intrinsic {
         if t == u {
             return None;
         }
-        // The corners of the two triangles are i, j, k and j, i, l.
+        // The corners of the two triangles are i, j, k and j, i, l. The edge joins i and j.
         let turned = |of: [f64; 3], k: usize| [of[k], of[(k + 1) % 3], of[(k + 2) % 3]];
         let (a, b) = (turned(self.lengths[t], k), turned(self.lengths[u], m));
         let (cot, cut) = (cotangent(a), cotangent(b));
@@ -221,19 +222,19 @@ fn place(side: u32) -> (usize, usize) {
     ((side / 3) as usize, (side % 3) as usize)
 }
 
-/// Returns the area of a triangle with these sides, by Heron's formula.
+/// Returns the area of a triangle with these side lengths, by Heron's formula.
 pub(super) fn area([a, b, c]: [f64; 3]) -> f64 {
     0.25 * ((a + b + c) * (b + c - a) * (c + a - b) * (a + b - c))
         .max(0.0)
         .sqrt()
 }
 
-/// Returns the cotangent of the angle opposite the first side.
+/// Returns the cotangent of the angle opposite the first side of a triangle with these side lengths.
 pub(super) fn cotangent([a, b, c]: [f64; 3]) -> f64 {
     (b * b + c * c - a * a) / (4.0 * area([a, b, c]))
 }
 
-/// Returns the positions of the vertices of a mesh, multiplied by 2 to the power of `exponent`.
+/// Returns the positions of all vertices of a mesh, multiplied by 2 to the power of `exponent`.
 pub(super) fn scaled_points(mesh: &Mesh, exponent: i32) -> Vec<DVec3> {
     let points = mesh.positions();
     parallel::collect(points.len(), |v| {

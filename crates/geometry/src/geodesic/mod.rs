@@ -22,12 +22,13 @@ use crate::laplacian::exponent;
 use crate::sparse::{Factor, SolveError, SymmetricMatrix};
 use intrinsic::{Intrinsic, area, cotangent, scaled_points};
 
-/// The smallest heat at which directions are accurate. It is well above the smallest positive `f64`.
+/// The smallest heat at which the directions of its gradient are accurate. This heat is well above the smallest
+/// positive `f64`.
 const LEAST_HEAT: f64 = 1e-280;
 
-/// Returns the distance along the surface from each vertex to the nearest source, by vertex index, in scene units.
-/// `is_source` tells which vertices are sources. The distance is infinite for vertices that no path of edges connects
-/// to a source, and for dead (removed) vertices.
+/// Returns the distance along the surface from each vertex to the nearest source, in scene units. Entry i belongs to
+/// the vertex with the index i. Entry i of `is_source` tells whether this vertex is a source. The distance is infinite
+/// for vertices that no path of edges connects to a source, and for dead (removed) vertices.
 ///
 /// The distances are approximate: on fine meshes of smooth surfaces, the mean error is below 1 %. The distances of
 /// connected vertices are finite for any finite positions, even if triangles are degenerate. Polygons are cut into
@@ -52,7 +53,7 @@ pub fn geodesic_distances(
     let mut surface = Intrinsic::new(mesh, &scaled_points(mesh, -exponent));
     surface.flip_to_delaunay(progress)?;
     let (stiffness, areas) = laplacian(&surface, n);
-    // Vertices without a face have no equation.
+    // Vertices without a face, or in a component without a source, have no equation.
     let is_fixed: Vec<bool> = (0..n).map(|v| !is_reached[v] || areas[v] <= 0.0).collect();
     let is_pinned: Vec<bool> = (0..n).map(|v| is_fixed[v] || is_source[v]).collect();
     let is_hot = |v: usize| is_source[v] && !is_fixed[v];
@@ -73,7 +74,7 @@ pub fn geodesic_distances(
     Ok(distances)
 }
 
-/// Returns, for each vertex, whether its component has a source.
+/// Returns, for each vertex, whether its connected component has a source.
 fn reached(mesh: &Mesh, is_source: &[bool]) -> Vec<bool> {
     let component = components(mesh);
     let mut has_source = vec![false; component.len()];
@@ -102,11 +103,11 @@ fn laplacian(surface: &Intrinsic, n: usize) -> (SymmetricMatrix, Vec<f64>) {
     (SymmetricMatrix::from_entries(n, entries), areas)
 }
 
-/// Returns the heat of the vertices after a short time. The pinned vertices keep the heat that they have in `start`.
-/// All sources are therefore equally hot, even at the ends of a line of sources.
+/// Returns the heat of each vertex after a short time. The pinned vertices, which include all sources, keep the heat
+/// that they have in `start`. All sources are therefore equally hot, even at the ends of a line of sources.
 ///
-/// The heat flows for a time equal to the square of the mean length of an edge. If a vertex is so far from all sources
-/// that no heat arrives, the heat flows for a longer time.
+/// The heat flows for a time equal to the square of the mean edge length. If a vertex is so far from all sources that
+/// no heat arrives there in this time, the computation is repeated with a longer time.
 fn heat(
     surface: &Intrinsic,
     stiffness: &SymmetricMatrix,
@@ -123,8 +124,8 @@ fn heat(
         let mut heat = start.to_vec();
         Factor::with_pins(&matrix, is_pinned, progress)?.solve(&none, &mut heat)?;
         let arrives = |(heat, is_pinned): (&f64, &bool)| *is_pinned || *heat > LEAST_HEAT;
-        // At this limit, the square root of the time is 1e8 times the mean length of an edge. No path in practice is
-        // that long.
+        // At this limit, the square root of the time is 1e8 times the mean edge length. The heat then reaches vertices
+        // at about this distance; in practice, no path is that long.
         let is_longest = time > length * length * 1e16;
         if is_longest || heat.iter().zip(is_pinned).all(arrives) {
             return Ok(heat);
@@ -133,15 +134,16 @@ fn heat(
     }
 }
 
-/// Returns, for each vertex, a sum over the triangles around the vertex. Each triangle adds its area times the dot
-/// product of two vectors: the gradient of the hat function of the vertex, and the direction in which the heat
-/// decreases.
+/// Returns the right side of the equation for the distances. The entry of a vertex is a sum over the triangles around
+/// the vertex. Each triangle adds its area times the dot product of two vectors: the gradient of the hat function of
+/// the vertex, and the direction in which the heat decreases.
 fn flow(surface: &Intrinsic, heat: &[f64], n: usize) -> Vec<f64> {
     let of_triangle = |(corners, &[a, b, c]): (&[u32; 3], &[f64; 3])| {
-        // The corners are at (0, 0), (a, 0) and (x, y).
+        // The triangle is laid out in a plane, with its corners at (0, 0), (a, 0) and (x, y).
         let x = (a * a + c * c - b * b) / (2.0 * a);
         let y = 2.0 * area([a, b, c]) / a;
-        // The gradients of the hat functions, times twice the area, are the opposite sides, turned by 90°.
+        // A hat function is 1 at one corner and 0 at the two others. Its gradient, times twice the area, is the side
+        // opposite this corner, turned by 90°.
         let hats = [[-y, x - a], [y, -x], [0.0, a]];
         let values = corners.map(|v| heat[v as usize]);
         let largest = values.iter().fold(0.0, |max: f64, u| max.max(u.abs()));

@@ -1,7 +1,7 @@
 //! Clusters of points that are connected by steps of at most a given distance.
 //!
-//! Points are sorted into a tree of boxes (a k-d tree: every box is split at the median along its longest
-//! side), and pairs of boxes are compared from the root down:
+//! Points are sorted into a tree of boxes (a k-d tree: every box is split at the median along its longest side). Pairs
+//! of boxes are then compared. A comparison has three possible results:
 //!
 //! ```text
 //!    +-----+        +---+      smallest distance above the limit: nothing to do
@@ -9,23 +9,23 @@
 //!    +-----+        +---+      otherwise: compare the halves of the box with more points
 //! ```
 //!
-//! A grid of cells as wide as the distance would be simpler. However, its cell indices overflow for tiny distances, and
-//! a million points in one cell would need about 10^12 comparisons. In the tree, a box of equal or very close points
-//! becomes a cluster immediately, for any number of points. Only differences of coordinates are computed, which neither
-//! overflow nor lose precision for nearby points.
+//! A grid whose cells are as wide as the given distance would be simpler. However, the cell indices of a grid overflow
+//! for tiny distances, and a million points in one cell would need about 10^12 comparisons. In the tree, a box of equal
+//! or very close points becomes a cluster immediately, for any number of points. The search only computes differences
+//! of coordinates. For nearby points, these differences neither overflow nor lose precision.
 
 use mesh::DVec3;
 use progress::{Cancelled, Meter, Progress};
 
 use super::union_find::UnionFind;
 
-/// The maximum number of points in a box that is not split, because comparing all pairs is faster.
+/// A box with at most this number of points is not split, because comparing all pairs of its points is faster.
 const LEAF: usize = 8;
 /// The maximum number of points in a box whose halves are processed one after the other. The halves of larger boxes are
 /// processed in parallel.
 const TASK: usize = 8192;
 
-/// Returns for each point the lowest index of the points in its cluster. A cluster is a set of points that are
+/// Returns, for each point, the lowest index of all points in the same cluster. A cluster is a set of points that are
 /// connected by steps of at most `distance`.
 ///
 /// Two points are one step apart if the rounded length of their difference is at most `distance`. `distance` must be
@@ -66,8 +66,8 @@ struct Point {
     index: u32,
 }
 
-/// Sorts points into the order of the tree: the points are split at the median along the longest side of their
-/// box, recursively.
+/// Sorts points into the order of the tree: the points are split at the median along the longest side of their box, and
+/// both halves are sorted in the same way.
 fn sort_into_tree(points: &mut [Point]) {
     let (min, max) = bounds(points);
     if points.len() <= LEAF || min == max {
@@ -86,7 +86,7 @@ fn sort_into_tree(points: &mut [Point]) {
     run_both(n, || sort_into_tree(low), || sort_into_tree(high));
 }
 
-/// Runs the two halves of a task on `n` points, in parallel if there are more than [`TASK`] points.
+/// Runs the two halves of a task that processes `n` points. The halves run in parallel if `n` is more than [`TASK`].
 fn run_both<T: Send>(
     n: usize,
     low: impl FnOnce() -> T + Send,
@@ -99,7 +99,7 @@ fn run_both<T: Send>(
     }
 }
 
-/// Returns the minimum and the maximum of the coordinates of points.
+/// Returns the bounding box of points: the minimum and the maximum of each coordinate.
 fn bounds(points: &[Point]) -> (DVec3, DVec3) {
     let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     points
@@ -107,12 +107,12 @@ fn bounds(points: &[Point]) -> (DVec3, DVec3) {
         .fold(start, |(min, max), p| (min.min(p.at), max.max(p.at)))
 }
 
-/// A box around points in the order of the tree.
+/// A box of the tree: the bounding box of some points, which are in the order of the tree.
 struct Tree<'p> {
     min: DVec3,
     max: DVec3,
     points: &'p [Point],
-    /// Whether every two points of the box are at most one step apart.
+    /// Whether the whole box is at most one step across, so that all its points belong to one cluster.
     is_cluster: bool,
     halves: Option<Box<[Tree<'p>; 2]>>,
 }
@@ -139,10 +139,10 @@ impl<'p> Tree<'p> {
     }
 }
 
-/// Tests whether the difference of two positions is at most one step long.
+/// Tests whether the difference of two positions is at most one step (the given distance) long.
 #[derive(Clone, Copy)]
 struct Reach {
-    /// A power of two that scales the distance to near 1, so that squares neither overflow nor underflow.
+    /// A power of two. The distance times this power is near 1, so that its square neither overflows nor underflows.
     scale: f64,
     /// The square of the scaled distance; 0 for the distance 0.
     squared: f64,
@@ -159,11 +159,11 @@ impl Reach {
         }
     }
 
-    /// Whether the length of the difference is at most the distance. If the result is true for a difference, it is also
-    /// true for every difference whose coordinates have smaller absolute values.
+    /// Whether the length of `difference` is at most the distance. If the result is true for one difference, the result
+    /// is also true for every difference whose coordinates have smaller absolute values.
     fn covers(&self, difference: DVec3) -> bool {
         if self.squared == 0.0 {
-            // Squares are not compared, because the square of a tiny difference is also 0.
+            // The squared lengths are not compared, because the square of a tiny difference can be rounded to 0.
             difference == DVec3::ZERO
         } else {
             (self.scale * difference).length_squared() <= self.squared
@@ -179,7 +179,8 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Joins the sets of all points in the box of a tree that are connected by steps, directly or through other points.
+    /// Joins the sets of all points in one box that are connected by steps, directly or through other points of the
+    /// box.
     fn join_within(&self, tree: &Tree) -> Result<(), Cancelled> {
         if let (false, Some([a, b])) = (tree.is_cluster, tree.halves.as_deref()) {
             let (low, high) = run_both(
@@ -235,14 +236,15 @@ impl Search<'_> {
         }
     }
 
-    /// Joins `q` to all points of a box. The caller must know that these points belong to the cluster of `q`.
+    /// Joins the set of `q` with the sets of all points of a box. The caller must know that these points belong to the
+    /// cluster of `q`.
     fn join_all(&self, tree: &Tree, q: Point) {
         for p in tree.points {
             self.sets.join(p.index, q.index);
         }
     }
 
-    /// Joins `q` to the points that are one step away from it.
+    /// Joins the set of `q` with the set of each of the `points` that is at most one step away from `q`.
     fn join_near(&self, points: &[Point], q: Point) {
         for p in points {
             if self.reach.covers(p.at - q.at) {

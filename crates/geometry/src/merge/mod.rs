@@ -25,7 +25,7 @@ pub use cluster::clusters;
 /// The result of merging: counts of merged vertices and changed faces.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Merged {
-    /// The number of vertices that were merged into a different vertex.
+    /// The number of vertices that disappeared, because they were merged into another vertex.
     pub vertices: usize,
     /// The number of faces that lost corners but kept at least three.
     pub smaller_faces: usize,
@@ -48,11 +48,11 @@ pub enum MergeError {
     Build(#[from] BuildError),
 }
 
-/// Merges vertices that are at most `distance` apart, and all vertices that are connected by steps of at most
-/// `distance`.
+/// Merges vertices that are at most `distance` apart. Also merges vertices that are further apart, if a chain of
+/// vertices connects them in steps of at most `distance`.
 ///
-/// The order of the vertices does not affect which vertices merge, and the number of threads does not affect the
-/// result. A distance of 0 merges only vertices with equal positions.
+/// Which vertices merge does not depend on the order of the vertices. The result does not depend on the number of
+/// threads. A distance of 0 merges only vertices with equal positions.
 ///
 /// [`merge_clusters`] describes what happens to vertices, edges, faces and attributes. If no two vertices
 /// merge, the mesh is unchanged.
@@ -100,19 +100,19 @@ pub fn merge_vertices(
 ///
 /// The merged vertex has the position and the values of the vertex with the lowest index in the cluster. The other
 /// vertices of the cluster are removed. Ids are renumbered without gaps. Edges between the same two vertices become one
-/// edge, which has the values of the edge with the lowest id. Faces keep their order and values, and corners keep their
-/// values, so that seams are preserved. Columns with [`Rule::Drop`](mesh::Rule::Drop) are removed.
+/// edge, which has the values of the edge with the lowest id. Faces keep their order and values. Corners keep their
+/// values, so that seams are preserved. Attribute columns with [`Rule::Drop`](mesh::Rule::Drop) are removed.
 ///
 /// A face loses each corner that merges with the next corner of the face. A face is dropped if fewer than three of its
 /// corners are left, or if it would contain a vertex twice. After the merge, connected faces can have opposite
-/// orientations. If all orientations can be made to agree, [`build()`] reverses the smaller group of faces, and normals
-/// are dropped. If the result is still not a manifold, `build` splits edges and vertices. For example, if three faces
-/// share an edge, the third face gets a copy of the edge.
+/// orientations. If all orientations can be made to agree, [`build()`] reverses the smaller group of faces, and stored
+/// normals are removed. If the result is still not a manifold, `build` splits edges and vertices. For example, if three
+/// faces share an edge, the third face gets a copy of the edge.
 ///
 /// # Errors
 ///
-/// Returns [`BuildError`] if a position is not finite, or if the result could have more vertices than there are ids.
-/// After an error, the mesh is unchanged.
+/// Returns [`BuildError`] if a position is not finite, or if the result could have more vertices than 32-bit ids can
+/// number. After an error, the mesh is unchanged.
 ///
 /// # Panics
 ///
@@ -143,7 +143,7 @@ pub fn merge_clusters(mesh: &mut Mesh, lowest: &[u32]) -> Result<Merged, BuildEr
 
 /// The faces of a mesh, with the vertices that remain after merging.
 struct Polygons {
-    /// The old ids of the vertices that remain.
+    /// For each vertex that remains, its old id.
     kept: Vec<VertexId>,
     offsets: Vec<u32>,
     corners: Vec<u32>,
@@ -160,7 +160,8 @@ impl Polygons {
         let mut kept = Vec::new();
         let mut number = vec![0; lowest.len()];
         for (v, (&low, i)) in lowest.iter().zip(0_u32..).enumerate() {
-            // The lowest vertex comes before all other vertices of its cluster.
+            // The vertex with the lowest index of a cluster comes first, so its new number is known when the other
+            // vertices of the cluster follow.
             if low == i {
                 number[v] = to_u32(kept.len());
                 kept.push(VertexId::new(v));
@@ -185,7 +186,7 @@ impl Polygons {
                 }
             }
             reduced += usize::from(is_smaller && corners.len() - first >= 3);
-            // There are at most as many corners as before, so there are enough ids.
+            // The mesh has at most as many corners as before the merge, so 32-bit numbers are enough.
             offsets.push(to_u32(corners.len()));
         }
         Self {
@@ -197,13 +198,13 @@ impl Polygons {
         }
     }
 
-    /// Returns the built mesh with the attributes of the old mesh.
+    /// Returns the built mesh, and copies the attributes of the old mesh to it.
     fn with_attributes(self, old: &Mesh, built: BuildOutput) -> Mesh {
         let edges_of_sides = built.edges_of_sides(&self.offsets);
         let has_reversed = !built.report.reversed_faces.is_empty();
         let mut mesh = built.mesh;
         let mut vertices = self.kept;
-        // Copies come after all other vertices, in the order of this list.
+        // The copies of split vertices come after all other vertices, in the order of this list.
         for (original, _) in &built.report.split_vertices {
             vertices.push(vertices[original.index()]);
         }
@@ -213,7 +214,8 @@ impl Polygons {
         for (&old_h, (&e, &h)) in self.half_edges.iter().zip(sides) {
             if h != HalfEdgeId::NONE {
                 corners[h.index()] = old_h;
-                // `NONE` is greater than all ids, so any edge replaces it.
+                // The edge with the lowest old id gives its values. `NONE` is greater than all ids, so the first edge
+                // always replaces it.
                 let edge = &mut edges[e.index()];
                 *edge = old_h.edge().min(*edge);
             }

@@ -2,17 +2,18 @@
 
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
-/// Disjoint sets of the numbers below n. The root of a set is its lowest number.
+/// Disjoint sets of the numbers from 0 to n - 1. Each set is a tree, whose root is the lowest number of the set.
 ///
-/// The final sets depend only on the joined pairs, not on their order. A parent is always lower than its child,
-/// so that no cycle can arise. A join is one compare-and-swap at a root, repeated if another thread changed the
-/// root first. Source: Anderson and Woll, "Wait-free Parallel Algorithms for the Union-Find Problem", 1991.
+/// The final sets depend only on which pairs were joined, not on the order of the joins. A parent is always lower than
+/// its child, so that no cycle can arise. A join replaces the parent of one root by a compare-and-swap operation. The
+/// join is repeated if another thread changed the root first. Source: Anderson and Woll, "Wait-free Parallel Algorithms
+/// for the Union-Find Problem", 1991.
 pub(crate) struct UnionFind {
     parent: Vec<AtomicU32>,
 }
 
 impl UnionFind {
-    /// Creates one set for each number below `n`.
+    /// Creates a separate set for each number below `n`.
     pub(crate) fn new(n: u32) -> Self {
         Self {
             parent: (0..n).map(AtomicU32::new).collect(),
@@ -27,8 +28,8 @@ impl UnionFind {
                 return v;
             }
             let above = self.parent[parent as usize].load(Relaxed);
-            // Halves the path to the root, which makes later calls faster. A parent is only replaced by one of
-            // its own ancestors.
+            // Halves the path to the root, which makes later calls faster. The parent of `v` is only replaced by an
+            // ancestor of this parent.
             let _ = self.parent[v as usize].compare_exchange(parent, above, Relaxed, Relaxed);
             v = above;
         }
@@ -53,7 +54,7 @@ impl UnionFind {
     /// Returns for each number the lowest number of its set.
     pub(crate) fn into_lowest(self) -> Vec<u32> {
         let mut lowest: Vec<u32> = self.parent.into_iter().map(AtomicU32::into_inner).collect();
-        // Parents are lower than their children, so their entries are already final.
+        // A parent is lower than its children, so the loop has already replaced the entry of the parent by its root.
         for v in 0..lowest.len() {
             lowest[v] = lowest[lowest[v] as usize];
         }

@@ -1,4 +1,4 @@
-//! Collapsing edges that are too short.
+//! Collapses edges that are too short.
 
 use mesh::{DVec3, EdgeId, FaceId, HalfEdgeId, VertexId, parallel};
 use progress::{Cancelled, Progress};
@@ -11,21 +11,23 @@ use super::size::{LONG, SHORT};
 use super::work::{Work, cross, is_bent, is_turned, quality};
 use super::{Refused, WHAT};
 
-/// The lowest quality to which a collapse is allowed to reduce the quality of a triangle.
+/// A collapse is not allowed to reduce the quality of a triangle below this value. The quality is from 0 (degenerate)
+/// to 1 (equilateral).
 const QUALITY: f64 = 0.3;
 
-/// A collapse is refused if an end of the edge would be further from the new triangles than this fraction of the target
-/// length. Without this limit, collapses cut off tips. On the bunny of `scenes/assets`, the limit reduces the largest
-/// distance between the original and the result from 2.9 % to 1.6 % of the diagonal of the bounding box.
+/// A collapse is refused if an old end of the collapsed edge would be further from the new triangles than this fraction
+/// of the target length. Without this limit, collapses cut off pointed tips of the surface. On the bunny of
+/// `scenes/assets`, the limit reduces the largest distance between the original and the result from 2.9 % to 1.6 % of
+/// the diagonal of the bounding box.
 const TIP: f64 = 0.15;
 
-/// Two edges that a collapse merges into one, on one side of the collapsed edge. The apex is the vertex that both edges
-/// have in common.
+/// Two edges of the triangle on one side of the collapsed edge. The collapse merges these two edges into one edge. The
+/// apex is the vertex that both edges have in common.
 struct Merged {
     edges: [EdgeId; 2],
     apex: VertexId,
-    /// The line that contains the merged edge, if any, and whether the direction away from the apex is the direction of
-    /// this line.
+    /// The line that contains the merged edge, if there is one, and whether the line runs along this edge away from the
+    /// apex.
     track: Option<Track>,
 }
 
@@ -61,7 +63,7 @@ impl Work<'_> {
         Ok(n_collapses)
     }
 
-    /// Collapses an edge to one of its ends or its middle. Returns the remaining vertex.
+    /// Collapses an edge to a point: one of its two ends, or its midpoint. Returns the vertex that remains.
     fn collapse(&mut self, e: EdgeId) -> Result<VertexId, Refused> {
         let ends = self.mesh.edge_vertices(e);
         let [a, b] = ends.map(|v| self.places[v.index()]);
@@ -122,7 +124,7 @@ impl Work<'_> {
             }
             let next = self.mesh.next(h);
             let last = self.mesh.next(next);
-            // The two half-edges whose tracks are compared both start at the apex of the triangle.
+            // The tracks (locations on lines) of two half-edges, which both start at the apex of the triangle.
             let tracks = [self.track_of(next.twin()), self.track_of(last)];
             if tracks.iter().all(Option::is_some) {
                 return Err(Refused::Lines);
@@ -136,8 +138,9 @@ impl Work<'_> {
         Ok(merged)
     }
 
-    /// Returns the length of the longest edge that a collapse to `point` would make, divided by its target length. If
-    /// the collapse is not allowed, returns the reason as an error.
+    /// Returns the largest relative length of the edges that a collapse to `point` would make. The relative length is
+    /// the length of an edge divided by its target length. If the collapse is not allowed, returns the reason as an
+    /// error.
     fn longest_after(&self, e: EdgeId, point: DVec3) -> Result<f64, Refused> {
         let ends = self.mesh.edge_vertices(e);
         let size = self.sizes[ends[0].index()].min(self.sizes[ends[1].index()]);

@@ -1,4 +1,4 @@
-//! Flipping edges, so that vertices have six edges and angles are large.
+//! Flips edges, so that most vertices have six edges, and so that the smallest angles of triangles become larger.
 
 use mesh::{EdgeId, HalfEdgeId, VertexId};
 use progress::{Cancelled, Progress};
@@ -7,9 +7,9 @@ use super::work::{Work, cross, is_bent, is_turned, quality};
 use super::{Refused, WHAT};
 
 impl Work<'_> {
-    /// Flips each edge for which a flip improves the valences of vertices, or improves the angles and does not worsen
-    /// the valences. Flips that would make a thin triangle, turn a triangle too far or move the surface too far are
-    /// left out. Returns the number of flips.
+    /// Flips edges to improve the valences: the numbers of edges at vertices. An edge is also flipped if the flip
+    /// improves the shapes of the triangles and leaves the valences equally good. Flips that would make a thin
+    /// triangle, turn a triangle too far or move the surface too far are left out. Returns the number of flips.
     pub(super) fn flip_all(&mut self, progress: &dyn Progress) -> Result<usize, Cancelled> {
         let mut valences: Vec<i32> = vec![0; self.places.len()];
         for h in self.mesh.half_edges() {
@@ -18,7 +18,8 @@ impl Work<'_> {
         let mut n_flips = 0;
         let mut edges: Vec<EdgeId> = self.mesh.edges().filter(|&e| !self.is_line(e)).collect();
         let mut is_waiting = vec![false; self.tracks.len()];
-        // Each flip improves the mesh, so the loop would end even without a limit. The limit bounds its time.
+        // Each flip improves the mesh, so the loop would end even without a limit. The limit of eight rounds bounds the
+        // running time.
         for _ in 0..8 {
             let mut again = Vec::new();
             for (i, &e) in edges.iter().enumerate() {

@@ -1,8 +1,8 @@
 //! The limit on the distance between the original surface and the result.
 //!
-//! While the mesh changes, the distances from samples of new triangles to the original surface are limited, and so are
-//! the distances from removed points to the new triangles. At the end, the distance is measured for all points of both
-//! surfaces.
+//! While the mesh changes, two distances are limited: from sample points of new triangles to the original surface, and
+//! from removed points to the new triangles. At the end, the Hausdorff distance is measured, which takes all points of
+//! both surfaces into account.
 
 use mesh::{DVec3, FaceId, Mesh};
 use progress::{Cancelled, Progress};
@@ -15,21 +15,23 @@ use crate::distance::Distance;
 use crate::surface_index::SurfaceIndex;
 use crate::surface_index::triangle::nearest_on_triangle;
 
-/// The largest allowed distance of a sample from the other surface, as a fraction of the limit for all points. The rest
-/// of the limit is a margin for the points between the samples.
+/// The largest allowed distance of a sample point from the other surface, as a fraction of the limit that applies to
+/// all points. The rest of the limit is a margin for the points between the samples.
 const SHARE: f64 = 0.7;
 
 /// The largest distance of samples of a new triangle from the original surface, as a fraction of the target length.
-/// This bound also applies if there is no error limit. It keeps edges from crossing ridges that are not features.
+/// This bound also applies if the caller gives no error limit. The bound prevents new edges from cutting through ridges
+/// of the surface that are not marked as features.
 const SOFT: f64 = 0.1;
 
-/// The tolerance of the measured distance, as a fraction of the limit.
+/// The tolerance of the distance that is measured at the end, as a fraction of the error limit.
 const TOLERANCE: f64 = 0.01;
 
 impl Work<'_> {
     /// Whether a step that replaces triangles could move the surface too far: further than the limit allows, or further
     /// than [`SOFT`] times the target length. `new` lists the new triangles, each with an existing face of the same
-    /// chart. `gone` are points of the old triangles.
+    /// chart (a region between lines). `gone` lists points of the old triangles; their distances from the new triangles
+    /// are tested.
     pub(super) fn is_far(&self, new: &[(FaceId, [DVec3; 3])], gone: &[DVec3]) -> bool {
         let sizes = new.iter().flat_map(|&(f, _)| self.mesh.face_vertices(f));
         let size = sizes.fold(f64::INFINITY, |size, v| size.min(self.sizes[v.index()]));
@@ -53,8 +55,8 @@ impl Work<'_> {
     }
 }
 
-/// Measures the distance between the original and the result. If an upper bound of the distance is above the limit,
-/// returns this bound; otherwise `None`.
+/// Measures the distance between the original and the result. Returns an upper bound of the distance if this bound is
+/// above the limit, and `None` otherwise.
 pub(super) fn excess(
     source: &Mesh,
     result: &Mesh,
@@ -69,7 +71,7 @@ pub(super) fn excess(
     Ok((at_most > limit).then_some(at_most))
 }
 
-/// Halves the target lengths where the result is far from the original.
+/// Halves the target lengths where the distance between the result and the original is more than half the limit.
 pub(super) fn refine(
     original: &Original,
     sizes: &mut Sizes,

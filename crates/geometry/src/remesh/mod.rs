@@ -1,9 +1,10 @@
 //! Remeshing: nearly equilateral triangles of a given size for the same surface.
 //!
-//! Each pass splits long edges, collapses short edges, flips edges so that vertices have six edges, and moves vertices
-//! along the surface. Source: Botsch, Kobbelt, "A Remeshing Approach to Multiresolution Modeling", 2004. Each movement
-//! of a vertex ends on the original surface, at a point of the chart or line to which the vertex belongs. A vertex of
-//! the result is off the original surface only if it is new and all of its movements were refused.
+//! Remeshing repeats a pass of four steps: split long edges, collapse short edges, flip edges so that most vertices
+//! have six edges, and move vertices along the surface. Source: Botsch, Kobbelt, "A Remeshing Approach to
+//! Multiresolution Modeling", 2004. Each movement of a vertex ends on the original surface, at a point of the chart or
+//! line to which the vertex belongs. Only a vertex that a split or a collapse has placed can be off the original
+//! surface. The first movement of such a vertex puts it on the surface, unless all of its movements are refused.
 //!
 //! ```text
 //!     +---+-----------+            +-----+-----+
@@ -15,8 +16,9 @@
 //!     +-+----------+--+            +-----+-----+
 //! ```
 //!
-//! The target length is the same everywhere, or it follows the curvature. Source for lengths that follow the curvature:
-//! Dunyach, Vanderhaeghe, Barthe, Botsch, "Adaptive Remeshing for Real-Time Mesh Deformation", 2013.
+//! The target length is either the same everywhere, or shorter where the surface is curved. Source for lengths that
+//! follow the curvature: Dunyach, Vanderhaeghe, Barthe, Botsch, "Adaptive Remeshing for Real-Time Mesh
+//! Deformation", 2013.
 
 mod collapse;
 mod flip;
@@ -38,7 +40,7 @@ use work::Work;
 /// The text that progress reports show during remeshing.
 const WHAT: &str = "remesh";
 
-/// A pass is the last one if it changes no edge and moves no vertex by more than this fraction of the target
+/// Remeshing stops after a pass that changes no edge and moves each vertex by less than this fraction of the target
 /// length at the vertex.
 const QUIET: f64 = 0.05;
 
@@ -51,13 +53,14 @@ const ATTEMPTS: u32 = 4;
 pub enum Length {
     /// The same length everywhere. This length must be positive.
     Uniform(f64),
-    /// Shorter edges where the surface is curved, longer edges where it is flat.
+    /// Shorter edges where the surface is curved, longer edges where the surface is flat.
     Curvature {
-        /// The target distance between the surface and the centers of triangles. This distance must be positive.
+        /// Target lengths are chosen so that the centers of triangles are at about this distance from the surface. This
+        /// distance must be positive.
         error: f64,
-        /// The smallest length, which must be positive.
+        /// The smallest target length, which must be positive.
         min: f64,
-        /// The largest length, which must not be below `min`.
+        /// The largest target length, which must not be below `min`.
         max: f64,
     },
 }
@@ -69,19 +72,19 @@ pub struct Options<'a> {
     pub length: Length,
     /// The largest allowed Hausdorff distance between the original and the new surface, in scene units. If `None`,
     /// there is no limit. With a limit, target lengths are reduced where edges of the given length could deviate from
-    /// the surface by more than the limit. Steps that seem to exceed the limit are refused. At the end, the distance is
-    /// measured in both directions with a guaranteed bound. If the bound is above the limit, remeshing starts again
-    /// with shorter edges where the distance is too large. If the bound is still above the limit after four attempts,
-    /// remeshing fails.
+    /// the surface by more than the limit. Collapses, flips and movements that seem to exceed the limit are refused. At
+    /// the end, the distance is measured in both directions. The measurement gives a guaranteed upper bound. If the
+    /// bound is above the limit, remeshing starts again with shorter edges where the distance is too large. If the
+    /// bound is still above the limit after four attempts, remeshing fails.
     pub error: Option<f64>,
-    /// Edges that are preserved as lines. These edges are always preserved: boundaries, seams, edges between faces with
-    /// different tags, materials or other whole numbers, tagged edges, and creases.
+    /// Additional edges that are preserved as lines. Boundaries, seams, tagged edges and creases are always preserved.
+    /// Edges between faces with different tags, materials or other whole numbers are also always preserved.
     pub features: &'a [EdgeId],
     /// Vertices that keep their positions.
     pub pinned: &'a [VertexId],
-    /// The largest number of passes. Ten are usually enough.
+    /// The largest number of passes. Ten passes are usually enough.
     pub passes: u32,
-    /// The largest number of faces that the mesh is allowed to have at any time.
+    /// The largest number of faces that the mesh is allowed to have at any time during remeshing.
     pub max_faces: usize,
 }
 
@@ -90,11 +93,11 @@ pub struct Options<'a> {
 pub struct Remeshed {
     /// The new mesh, which is [dense](mesh::Mesh::is_dense).
     pub mesh: Mesh,
-    /// How many steps were performed and refused.
+    /// How many splits, collapses and flips were performed, and how many were refused.
     pub counts: Counts,
 }
 
-/// How many steps [`remesh`] performed in its last attempt.
+/// How many passes, splits, collapses and flips [`remesh`] performed in its last attempt.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
     /// The number of passes.
@@ -114,7 +117,7 @@ pub struct Counts {
 
 impl Counts {
     /// Returns each reason for which splits, collapses or flips were refused in the last pass, with the number of
-    /// refused steps. Flips that would not improve the mesh are not counted.
+    /// refused steps. A flip that would not improve the mesh does not count as refused.
     pub fn refused(&self) -> impl Iterator<Item = (Refused, usize)> {
         let counts = Refused::ALL.into_iter().zip(self.refused);
         counts.filter(|&(_, count)| count > 0)
@@ -128,9 +131,9 @@ impl Counts {
 /// Why a split, a collapse or a flip was refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Refused {
-    /// The step would merge lines, move a vertex off its line, or move a corner of a line.
+    /// The collapse would merge lines, move a vertex off its line, or move a corner of a line.
     Lines,
-    /// The step would make an edge that is too long.
+    /// The collapse would make an edge that is longer than 4/3 of its target length.
     Long,
     /// A triangle would turn by more than 60° or become degenerate.
     Turned,
@@ -173,7 +176,7 @@ pub enum RemeshError {
     /// Only meshes of triangles can be remeshed.
     #[error("{0} is not a triangle")]
     NotTriangle(FaceId),
-    /// The target length is too small for the size of the mesh.
+    /// The target length is so small, relative to the size of the mesh, that there would be too many faces.
     #[error(
         "the target lengths need up to about {} faces during remeshing, but at most {max} are possible; use a longer \
          target length", readable(*.needed)
@@ -181,7 +184,7 @@ pub enum RemeshError {
     TooManyFaces {
         /// An estimate of the largest number of faces during remeshing.
         needed: f64,
-        /// The largest number of faces.
+        /// The largest allowed number of faces.
         max: usize,
     },
     /// The result would be too far from the original.
@@ -190,7 +193,7 @@ pub enum RemeshError {
         readable(*.reached), readable(*.limit)
     )]
     TooFar {
-        /// The bound of the distance in the last attempt, in scene units.
+        /// The upper bound of the distance in the last attempt, in scene units.
         reached: f64,
         /// The allowed error, in scene units.
         limit: f64,
@@ -203,8 +206,8 @@ pub enum RemeshError {
 /// Remeshes a mesh of triangles: replaces its triangles by nearly equilateral triangles with edges of a target length.
 ///
 /// The topology is preserved: the Euler characteristic, the boundary loops and the graph that the lines form do not
-/// change. No step turns a triangle by more than 60°. Isolated vertices are preserved. These vertices keep their exact
-/// positions:
+/// change. No split, collapse, flip or movement turns a triangle by more than 60°. Isolated vertices are preserved.
+/// These vertices keep their exact positions:
 ///
 /// - the ends and meeting points of lines, and the corners of lines, where a line turns by more than 40°;
 /// - vertices on a line at which the attributes of the edges of the line change;
@@ -212,13 +215,14 @@ pub enum RemeshError {
 /// - vertices with a tag; a tagged vertex can move only if all corners of an adjacent triangle also have the tag, or if
 ///   the vertex is on a line and both of its neighbors on the line also have the tag.
 ///
-/// Attributes are taken from the same location on the original surface, and never from the other side of a line. Vertex
-/// and corner attributes are interpolated at this location. A new vertex has a tag if all original vertices around its
-/// location have the tag. The integers of a new vertex are copied from the nearest of these original vertices. A new
-/// face gets the values of the original face at its center. A new edge on a line gets the values of the original edge
-/// of the line that contains the midpoint of the new edge. Any other new edge gets its values from the original
-/// triangle at the midpoint of the new edge. The values are those of the edge of this triangle that is nearest to the
-/// midpoint and not on a line. If all edges of the original triangle are on lines, the values of the new edge are zero.
+/// Each new element gets its attributes from the original surface at the location of the element, and never from the
+/// other side of a line. Vertex and corner attributes are interpolated at this location. A new vertex has a tag if all
+/// original vertices around its location have the tag. The integers of a new vertex are copied from the nearest of
+/// these original vertices. A new face gets the values of the original face at its center. A new edge on a line gets
+/// the values of the original edge of the line that contains the midpoint of the new edge. Any other new edge gets its
+/// values from the original triangle at the midpoint of the new edge. The new edge gets the values of one edge of this
+/// triangle: of the edges that are not on a line, the edge nearest to the midpoint. If all edges of the original
+/// triangle are on lines, the values of the new edge are zero.
 ///
 /// All elements get new ids.
 ///
@@ -273,7 +277,7 @@ pub fn remesh(
     unreachable!("the last attempt returns")
 }
 
-/// Runs all passes for these target lengths.
+/// Runs all passes of one attempt, with the given target lengths.
 fn run(
     original: &Original,
     sizes: &Sizes,
@@ -282,7 +286,7 @@ fn run(
 ) -> Result<(Mesh, Counts), RemeshError> {
     let max_faces = options.max_faces.min(MAX_FACES);
     let needed = sizes.n_faces(original);
-    // The estimate can be NaN if the lengths are extreme.
+    // The estimate can be NaN if the target lengths are extreme. The comparison is then false, which gives an error.
     let is_possible = needed <= max_faces as f64;
     if !is_possible {
         return Err(RemeshError::TooManyFaces {
@@ -309,16 +313,16 @@ fn run(
     Ok((work.finish(progress)?, counts))
 }
 
-/// Edges are no longer split when the number of faces reaches this multiple of its estimate, so that the splitting ends
-/// for every input.
+/// Edges are no longer split when the number of faces reaches the estimated number times this factor. This limit
+/// ensures that splitting ends for every input.
 const ENOUGH: f64 = 4.0;
 
-/// The largest number of faces during remeshing. All half-edges must have ids, including those that are removed during
-/// a pass.
+/// The largest number of faces during remeshing. With this limit, 32-bit ids are enough for all half-edges, including
+/// half-edges that are removed during a pass.
 pub const MAX_FACES: usize = u32::MAX as usize / 12;
 
 impl Default for Options<'_> {
-    /// Returns options with ten passes, edges of length 1 and no limits.
+    /// Returns options with ten passes, edges of length 1, no error limit and no limit on the number of faces.
     fn default() -> Self {
         Self {
             length: Length::Uniform(1.0),

@@ -1,4 +1,5 @@
-//! The original surface: its charts and lines, and the location of a vertex on them.
+//! The original surface of a remesh: its charts (regions between lines), its lines, and the location of each vertex on
+//! them.
 //!
 //! ```text
 //!     X-------+-------+-------X      Lines divide the surface into charts. A chain (+) is the part of a line between
@@ -16,10 +17,10 @@ use super::Options;
 use crate::lines::{Kind, inverse_power_of_two, kinds, labels, lines};
 use crate::surface_index::SurfaceIndex;
 
-/// Marks a face whose chart is not known yet.
+/// Marks a face that has not been assigned to a chart yet.
 const NONE: u32 = u32::MAX;
 
-/// The cosine of 40°. A vertex on a line is a corner if the line turns by more than 40° there.
+/// The cosine of 40°. A vertex on a line is a corner if the line turns by more than 40° at this vertex.
 const STRAIGHT: f64 = 0.766_044_443_118_978;
 
 /// The original surface.
@@ -27,34 +28,35 @@ pub(super) struct Original<'a> {
     /// The original mesh, which is [dense](mesh::Mesh::is_dense).
     pub(super) source: &'a Mesh,
     /// The same mesh without attributes, in coordinates relative to `center`, scaled by a power of two. In these
-    /// coordinates, very small and very large meshes give the same result.
+    /// coordinates, the size of the mesh does not matter: very small and very large meshes of the same shape give the
+    /// same result.
     pub(super) mesh: Mesh,
     center: DVec3,
     pub(super) scale: f64,
-    /// For each vertex, its location.
+    /// For each vertex, its location on the original surface.
     pub(super) places: Vec<Place>,
-    /// For each vertex, the number of edges that it should have.
+    /// For each vertex, the number of edges that flips aim at.
     pub(super) valences: Vec<u8>,
-    /// For each edge, its chain, if the edge is a part of a line.
+    /// For each edge that is a part of a line, its location on a chain (a line between two corners).
     pub(super) tracks: Vec<Option<Track>>,
-    /// For each face, its chart.
+    /// For each face, the index of its chart.
     pub(super) charts: Vec<u32>,
     pub(super) chains: Vec<Chain>,
     /// For each chart, the spatial index of its triangles.
     pub(super) indexes: Vec<SurfaceIndex>,
-    /// For each face, its triangle in the spatial index of its chart.
+    /// For each face, the index of its triangle in the spatial index of its chart.
     pub(super) triangles: Vec<u32>,
 }
 
 /// Where a vertex lies on the original surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Place {
-    /// At this vertex of the original mesh. The location never changes.
+    /// At this vertex of the original mesh. Such a vertex never moves.
     Corner(VertexId),
     /// On the line `chain`, at the arc length `at` from the start of the line.
     Line { chain: u32, at: f64 },
-    /// Inside a chart, at the point of the chart that is nearest to the vertex. The value is the index of a triangle
-    /// near this point of the chart.
+    /// Inside a chart, at the point of the chart that is nearest to the vertex. The value is the index of a triangle of
+    /// the chart that is near this point.
     Inside(u32),
 }
 
@@ -70,15 +72,15 @@ pub(super) struct Track {
 pub(super) struct Chain {
     /// The half-edges, in the direction of the chain.
     pub(super) half_edges: Vec<HalfEdgeId>,
-    /// The arc length at which each half-edge starts.
+    /// For each half-edge, the arc length from the start of the chain to the origin of the half-edge.
     starts: Vec<f64>,
     pub(super) length: f64,
     pub(super) is_closed: bool,
 }
 
 impl Chain {
-    /// Returns the half-edge at an arc length, and the parameter along this half-edge: 0 at its origin, 1 at its
-    /// target.
+    /// Returns the half-edge of the chain that contains the point at the arc length `at`. Also returns the position of
+    /// this point along the half-edge: from 0 at its origin to 1 at its target.
     pub(super) fn locate(&self, at: f64) -> (HalfEdgeId, f64) {
         let i = self.starts.partition_point(|&start| start <= at).max(1) - 1;
         let end = self.starts.get(i + 1).map_or(self.length, |&end| end);
@@ -91,9 +93,9 @@ impl Chain {
         (self.half_edges[i], t)
     }
 
-    /// Returns the arc length from one parameter to another, in the direction of the chain. For equal parameters, the
-    /// result is 0, and never the full length of a closed chain. No edge goes all the way around a closed chain,
-    /// because the chain has at least three vertices.
+    /// Returns the arc length from one parameter of the chain to another, measured in the direction of the chain. If
+    /// both parameters are equal, the result is 0, not the full length of a closed chain. No edge goes all the way
+    /// around a closed chain, because the chain has at least three vertices.
     pub(super) fn way(&self, from: f64, to: f64) -> f64 {
         if self.is_closed && to < from {
             to - from + self.length
@@ -102,7 +104,8 @@ impl Chain {
         }
     }
 
-    /// Returns the parameter at the arc length `way` after `from`, in the direction of the chain.
+    /// Returns the parameter of the point that lies the arc length `way` after the parameter `from`, in the direction
+    /// of the chain.
     pub(super) fn after(&self, from: f64, way: f64) -> f64 {
         let at = from + way;
         if self.is_closed && at >= self.length {
@@ -157,12 +160,12 @@ impl<'a> Original<'a> {
         Ok(this)
     }
 
-    /// Converts a point to the coordinates of `source`.
+    /// Converts a point from scaled coordinates to the coordinates of `source`.
     pub(super) fn unscaled(&self, p: DVec3) -> DVec3 {
         p / self.scale + self.center
     }
 
-    /// Returns the point at parameter `at` of a chain.
+    /// Returns the point at the arc length `at` from the start of a chain.
     pub(super) fn on_chain(&self, chain: u32, at: f64) -> DVec3 {
         let (h, t) = self.chains[chain as usize].locate(at);
         let [a, b] = [self.mesh.origin(h), self.mesh.target(h)].map(|v| self.mesh.position(v));
@@ -299,15 +302,15 @@ impl<'a> Original<'a> {
 fn kinds_to_places(mesh: &Mesh, kinds: &[Kind]) -> Vec<Place> {
     let place = |v: VertexId| match kinds[v.index()] {
         Kind::Inside if mesh.vertex_half_edge(v).is_some() => Place::Inside(0),
-        // A vertex on a chain also gets the place `Corner` here. Its location on the chain is set after the chains are
-        // built.
+        // A vertex on a chain, between its ends, also gets the place `Corner` here. This place is replaced by the
+        // location on the chain when the chains are built.
         _ => Place::Corner(v),
     };
     mesh.vertices().map(place).collect()
 }
 
 /// Returns how each vertex is allowed to move. In addition to the fixed vertices of [`kinds`], these vertices keep
-/// their positions: corners of lines, sharp vertices, and vertices whose tags would be lost.
+/// their positions: corners of lines, vertices with sharpness, and vertices whose tags would be lost.
 fn fixed_kinds(source: &Mesh, mesh: &Mesh, lines: &[bool], pinned: &[VertexId]) -> Vec<Kind> {
     let kinds = kinds(source, lines, pinned);
     let tags: Vec<&[bool]> = labels(source, Domain::Vertex)
@@ -330,7 +333,8 @@ fn fixed_kinds(source: &Mesh, mesh: &Mesh, lines: &[bool], pinned: &[VertexId]) 
             mesh.position(v) - mesh.position(a),
             mesh.position(b) - mesh.position(v),
         );
-        // Zero-length edges have no direction.
+        // An edge of length zero has no direction, so the test is false beside such an edge, and the vertex is a
+        // corner.
         let is_straight = x.dot(y) > STRAIGHT * (x.length_squared() * y.length_squared()).sqrt();
         !is_straight
     };
@@ -354,7 +358,7 @@ fn fixed_kinds(source: &Mesh, mesh: &Mesh, lines: &[bool], pinned: &[VertexId]) 
     parallel::collect(mesh.n_vertices(), |v| kind(VertexId::new(v)))
 }
 
-/// Returns the half-edge of an edge that has the direction of the chain of the edge.
+/// Returns the half-edge of `e` that runs in the direction of its chain.
 pub(super) fn along(e: EdgeId, track: Track) -> HalfEdgeId {
     e.half_edges()[usize::from(!track.is_along)]
 }

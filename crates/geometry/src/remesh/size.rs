@@ -15,22 +15,23 @@ pub(super) const LONG: f64 = 4.0 / 3.0;
 /// An edge shorter than this multiple of its target length is collapsed.
 pub(super) const SHORT: f64 = 4.0 / 5.0;
 
-/// The most by which the target length is allowed to grow along an edge, as a fraction of the length of the edge. The
-/// target lengths of neighboring triangles differ by at most about this fraction.
+/// Along an edge, the target length is allowed to grow by at most this fraction of the length of the edge. The target
+/// lengths of neighboring triangles therefore differ by at most about this fraction.
 const GROWTH: f64 = 0.5;
 
 /// The target length at each point of the original surface, in its scaled coordinates.
 pub(super) enum Sizes {
     Uniform(f64),
-    /// A value for each vertex of the original surface.
+    /// A target length for each vertex of the original surface.
     Varying(Vec<f64>),
 }
 
 impl Sizes {
     /// Computes the target lengths from the requested `length`. `error` is the largest allowed distance between the
-    /// surfaces, if there is one. Where edges of the target length would deviate from the surface by more than this
-    /// distance, the target length is reduced. The reduced length is not below `min` or, for a uniform length, not
-    /// below `error`.
+    /// original surface and the result; `None` if there is no limit. Where edges of the target length would deviate
+    /// from the surface by more than this distance, the target length is reduced. The reduced length is not below the
+    /// smallest requested length `min`. For a uniform length, which has no `min`, the reduced length is not below
+    /// `error`.
     pub(super) fn new(original: &Original, length: Length, error: Option<f64>) -> Self {
         let (error, min, max) = match (length, error) {
             (Length::Uniform(length), None) => return Self::Uniform(length * original.scale),
@@ -48,7 +49,8 @@ impl Sizes {
         Self::Varying(sizes)
     }
 
-    /// Halves the target lengths at marked vertices of the original surface, and around them.
+    /// Halves the target lengths at marked vertices of the original surface, and lowers the target lengths around them
+    /// so that they grow gradually.
     pub(super) fn halve(&mut self, original: &Original, is_marked: &[bool]) {
         let sizes = is_marked.iter().enumerate().map(|(v, is_marked)| {
             let size = self.at_vertex(VertexId::new(v));
@@ -71,7 +73,7 @@ impl Sizes {
             let lengths = mesh.face_half_edges(f).map(|h| mesh.length(h));
             let longest = lengths.fold(0.0, f64::max);
             let share = mesh.face_area(f) / (0.25 * 3.0_f64.sqrt() * size * size);
-            // A very thin triangle has a small area, but must be split along its length.
+            // A very thin triangle has a small area, but its long sides must be split many times.
             let splits = longest / (LONG * size);
             1.0 + 2.0 * (share + splits.floor())
         })
@@ -98,7 +100,7 @@ impl Sizes {
         }
     }
 
-    /// Returns the target length at parameter `at` of a chain.
+    /// Returns the target length at the arc length `at` from the start of a chain.
     pub(super) fn on_chain(&self, original: &Original, chain: u32, at: f64) -> f64 {
         match self {
             Self::Uniform(size) => *size,
@@ -119,10 +121,11 @@ fn chord(curvature: f64, error: f64) -> f64 {
     if squared > 0.0 { squared.sqrt() } else { 0.0 }
 }
 
-/// Returns the largest absolute normal curvature at each vertex of the original surface: |H| + √(H² - K). Each value is
-/// averaged once with the values of the neighbors. The curvature of the surface is not used at vertices on lines,
-/// because the surface bends sharply at many lines. A vertex on a line gets the larger of two values: the mean of the
-/// values of its neighbors inside charts, and the curvature of the line.
+/// Returns the largest absolute normal curvature at each vertex of the original surface: |H| + √(H² - K). H is the mean
+/// curvature and K the Gaussian curvature. Each value is averaged once with the values of the neighboring vertices. The
+/// curvature of the surface is not used at vertices on lines, because the surface bends sharply at many lines. A vertex
+/// on a line gets the larger of two values: the mean of the values of its neighbors inside charts, and the curvature of
+/// the line.
 fn curvatures(original: &Original) -> Vec<f64> {
     let mesh = &original.mesh;
     let (gaussian, mean) = (gaussian_curvatures(mesh), mean_curvatures(mesh));
@@ -150,8 +153,8 @@ fn curvatures(original: &Original) -> Vec<f64> {
         .collect()
 }
 
-/// Returns the curvature of a line at a vertex on it: the angle by which the line turns, per unit of length. The
-/// curvature is 0 at corners.
+/// Returns the curvature of a line at one of its vertices: the angle by which the line turns at the vertex, divided by
+/// half the total length of the two edges there. The curvature is 0 at corners.
 fn line_curvature(original: &Original, v: VertexId) -> f64 {
     let Place::Line { .. } = original.places[v.index()] else {
         return 0.0;
@@ -177,7 +180,7 @@ fn line_curvature(original: &Original, v: VertexId) -> f64 {
 fn grade(original: &Original, sizes: &mut [f64]) {
     let mesh = &original.mesh;
     debug_assert_eq!(sizes.len(), mesh.domain_len(Domain::Vertex));
-    // Lengths are not negative, so they have the same order as their bits.
+    // The bits of a non-negative f64, read as an integer, have the same order as the numbers.
     let mut waiting: BinaryHeap<Reverse<(u64, usize)>> = sizes
         .iter()
         .enumerate()

@@ -1,4 +1,4 @@
-//! Moving vertices along the surface, so that triangles become nearly equilateral.
+//! Moves vertices along the surface, so that triangles become nearly equilateral.
 
 use mesh::{DVec3, VertexId, parallel};
 use progress::{Cancelled, Progress};
@@ -7,8 +7,8 @@ use super::WHAT;
 use super::original::Place;
 use super::work::{Work, cross, is_bent, is_turned};
 
-/// A vertex that would move by less than this fraction of its target length is not moved. Vertices that possibly lie
-/// off the original surface are always moved.
+/// A vertex that would move by less than this fraction of its target length is not moved. A vertex that possibly lies
+/// off the original surface is moved in any case.
 const STILL: f64 = 1e-2;
 
 /// The movement of a vertex.
@@ -19,10 +19,10 @@ struct Step {
     size: f64,
 }
 
-/// The number of values that one parallel job computes.
+/// The number of values in a block. One thread computes all values of a block.
 const BLOCK: usize = 256;
 
-/// Sets each value to the result of `value` for its index. Calls `ask` for each block of values.
+/// Sets the entry i of `values` to `value(i)`, for each index i. Calls `ask` for each block of values.
 fn fill<T: Send>(
     values: &mut [T],
     ask: &(dyn Fn() -> Result<(), Cancelled> + Sync),
@@ -43,14 +43,15 @@ impl Work<'_> {
     /// weighted mean of the centers of the triangles around it. The vertex then moves from the tangent plane to the
     /// nearest point of the original surface. A vertex on a line moves halfway towards the middle between its neighbors
     /// on the line. Movements that turn a triangle too far or move the surface too far are undone. Returns the largest
-    /// movement, as a fraction of the target length.
+    /// movement of a vertex, as a fraction of its target length.
     pub(super) fn smooth(&mut self, progress: &dyn Progress) -> Result<f64, Cancelled> {
         progress.report(WHAT, self.counts.passes, self.counts.max_passes)?;
         let n = self.places.len();
         let ask = || progress.report(WHAT, self.counts.passes, self.counts.max_passes);
         let mut steps: Vec<Option<Step>> = vec![None; n];
         fill(&mut steps, &ask, |v| self.step(VertexId::new(v)))?;
-        // Undoing the movement of a vertex can turn another triangle. Each round undoes at least one movement.
+        // Undoing the movement of a vertex can turn another triangle too far, so the test is repeated. The loop ends
+        // because each round undoes at least one movement.
         let mut is_changed = vec![true; n];
         loop {
             let position = |v: VertexId| {
@@ -138,7 +139,8 @@ impl Work<'_> {
             }
         }
         let size = self.sizes[v.index()];
-        // If each vertex moved all the way to the middle, the vertices would oscillate.
+        // A quarter of the sum is half the way to the middle. If all vertices moved the whole way at the same time,
+        // they would oscillate.
         let way = 0.25 * sum;
         if n != 2 || way.abs() < STILL * size {
             return None;

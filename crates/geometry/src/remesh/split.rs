@@ -1,4 +1,4 @@
-//! Splitting edges that are too long.
+//! Splits edges that are too long.
 
 use mesh::{EdgeId, HalfEdgeId, parallel};
 use progress::Progress;
@@ -10,8 +10,8 @@ use super::work::{Work, cross, is_turned};
 use super::{Refused, RemeshError, WHAT};
 
 impl Work<'_> {
-    /// Splits edges at their midpoints, the longest first, until no edge that can be split is too long or the mesh has
-    /// `enough` faces. Returns the number of splits.
+    /// Splits edges that are too long at their midpoints, the longest first. Stops when no such edge can be split, or
+    /// when the mesh has `enough` faces. Returns the number of splits.
     pub(super) fn split_long(
         &mut self,
         max_faces: usize,
@@ -44,9 +44,9 @@ impl Work<'_> {
         Ok(n_splits)
     }
 
-    /// Splits an edge at its midpoint. An edge on a line is split at the midpoint of its part of the line. Returns
-    /// false if the split would turn a triangle too far, or if the two triangles at the edge have the same opposite
-    /// vertex.
+    /// Splits an edge at its midpoint. If the edge is on a line of the original surface, the new vertex lies on this
+    /// line, in the middle between the ends of the edge. Returns false if the split would turn a triangle too far, or
+    /// if the two triangles at the edge have the same opposite vertex.
     fn split(&mut self, e: EdgeId) -> Result<bool, RemeshError> {
         let opposite = |h: HalfEdgeId| {
             let is_inner = self.mesh.face(h).is_some();
@@ -90,8 +90,8 @@ impl Work<'_> {
             Place::Inside(hint) => Some(hint),
             _ => None,
         };
-        // A vertex inside a chart stores a triangle of the original mesh that is near it. The new vertex takes this
-        // hint from a vertex around the edge.
+        // A vertex inside a chart stores a hint: the index of a nearby triangle of the original mesh. The new vertex
+        // takes its hint from a vertex of the two triangles at the edge.
         let [h, twin] = e.half_edges();
         let around = [h, twin, self.mesh.prev(h), self.mesh.prev(twin)];
         let hint = around.into_iter().find_map(hint).unwrap_or(0);
@@ -109,7 +109,8 @@ impl Work<'_> {
         self.sizes.push(size);
         self.valences.push(if is_boundary { 4 } else { 6 });
         self.is_off.push(track.is_none());
-        // The second part of the split edge has the same direction as the first part, so it gets the same track.
+        // The second half of the split edge has the same direction as the first half, so the second half gets the same
+        // track (location on a line).
         self.tracks.push(track);
         for chart in charts.into_iter().flatten() {
             self.tracks.push(None::<Track>);

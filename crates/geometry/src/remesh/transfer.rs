@@ -1,4 +1,4 @@
-//! The attributes and exact positions of the result.
+//! Computes the attributes and the exact positions of the result of remeshing.
 //!
 //! Each element of the result has a location on the original surface: a vertex inside a chart lies on a triangle, and a
 //! vertex on a line lies on an edge. Corners at a line get their values from the side of the line on which they lie, so
@@ -14,7 +14,8 @@ use super::WHAT;
 use super::original::{Original, Place, Track, along};
 use super::work::Work;
 
-/// The elements of the original mesh from which a new element gets its values, with the weights of these elements.
+/// Up to three elements of the original mesh from which a new element gets its values, with the weights of these
+/// elements.
 #[derive(Clone, Copy)]
 struct Blend {
     from: [usize; 3],
@@ -38,12 +39,12 @@ impl Blend {
     }
 }
 
-/// If a vertex is at most this fraction of the target length from its nearest point on the original surface, the
-/// distance is treated as a rounding error.
+/// If the distance of a vertex from the original surface is at most this fraction of the target length, the distance is
+/// treated as a rounding error.
 const ROUNDING: f64 = 1e-9;
 
 impl Work<'_> {
-    /// Returns the mesh in the coordinates of the original, with attributes. The mesh must be
+    /// Returns the remeshed mesh in the coordinates of the original mesh, with attributes. The mesh must be
     /// [dense](mesh::Mesh::is_dense).
     pub(super) fn finish(self, progress: &dyn Progress) -> Result<Mesh, Cancelled> {
         progress.report(WHAT, self.counts.passes, self.counts.max_passes)?;
@@ -96,7 +97,8 @@ impl Work<'_> {
         Ok(mesh)
     }
 
-    /// Returns the position of a vertex in the coordinates of the source, and the vertices of the source around it.
+    /// Returns the position of a vertex in the coordinates of the original mesh. Also returns the vertices of the
+    /// original mesh around this position, with their weights.
     fn vertex(&self, v: VertexId) -> (DVec3, Blend) {
         let Original { source, mesh, .. } = self.original;
         match self.places[v.index()] {
@@ -128,8 +130,8 @@ impl Work<'_> {
                     source.position(v)
                 } else if nearest.distance <= ROUNDING * self.sizes[v.index()] {
                     let [a, b, c] = triangle.vertices.map(|v| source.position(v));
-                    // This formula gives a position exactly in the plane of the triangle if the plane is perpendicular
-                    // to an axis.
+                    // If the plane of the triangle is perpendicular to an axis, this formula gives a position that is
+                    // exactly in the plane.
                     a + weights[1] * (b - a) + weights[2] * (c - a)
                 } else {
                     self.original.unscaled(p)
@@ -143,8 +145,8 @@ impl Work<'_> {
         }
     }
 
-    /// Returns the values of a column of vertices. A new vertex has a tag if all original vertices around its
-    /// location have the tag.
+    /// Returns the values that the new vertices have in a vertex attribute column. A new vertex has a tag if all
+    /// original vertices around its location have the tag.
     fn vertex_values(&self, column: &Column, vertices: &[(DVec3, Blend)]) -> Values {
         let n = vertices.len();
         let is_corner = |i: usize| match self.places[i] {
@@ -168,8 +170,8 @@ impl Work<'_> {
         }
     }
 
-    /// Returns the corners of the source from which a corner gets its values. Returns `None` if the half-edge has no
-    /// face.
+    /// Returns the corners of the original mesh from which the new corner of `h` gets its values, with their weights.
+    /// Returns `None` if the half-edge has no face.
     fn corner(&self, h: HalfEdgeId, vertices: &[(DVec3, Blend)]) -> Option<Blend> {
         self.mesh.face(h)?;
         let v = self.mesh.origin(h);
@@ -185,8 +187,8 @@ impl Work<'_> {
                 weights: vertices[v.index()].1.weights,
             });
         }
-        // The corner lies in a sector between two lines. The loop turns clockwise around the vertex to the first of
-        // these lines.
+        // The corner lies in a sector between two lines around the vertex. The loop turns clockwise around the vertex
+        // from `h` to the first line that it meets.
         let mut first = h;
         let track: Option<Track> = loop {
             if let Some(track) = self.track_of(first) {
@@ -231,10 +233,10 @@ impl Work<'_> {
         }
     }
 
-    /// Returns the edge of the source from which a new edge gets its values. For a new edge on a line, the result is an
-    /// edge of the line. For any other new edge, the result is an edge of the source triangle at the midpoint of the
-    /// new edge. Of the edges of this triangle that are not on a line, it is the edge nearest to the midpoint. Returns
-    /// `None` if all three edges of the triangle are on lines.
+    /// Returns the edge of the original mesh from which a new edge gets its values. For a new edge on a line, the
+    /// result is an edge of the line. For any other new edge, the result is an edge of the original triangle at the
+    /// midpoint of the new edge. Of the edges of this triangle that are not on a line, the result is the edge nearest
+    /// to the midpoint. Returns `None` if all three edges of the triangle are on lines.
     fn edge(&self, e: EdgeId) -> Option<EdgeId> {
         if let Some(track) = self.tracks[e.index()] {
             let h = along(e, track);
@@ -263,7 +265,7 @@ impl Work<'_> {
             .map(|(_, e)| e)
     }
 
-    /// Returns the face of the source that is nearest to the center of a face of the result.
+    /// Returns the face of the original mesh that is nearest to the center of the new face `f`.
     fn face(&self, f: FaceId) -> FaceId {
         let [a, b, c] = self.triangle(self.mesh.face_half_edge(f));
         let center = a / 3.0 + b / 3.0 + c / 3.0;
@@ -272,8 +274,8 @@ impl Work<'_> {
         index.triangle(nearest.triangle).face
     }
 
-    /// Returns the index of a triangle of the original surface that is near a face. Returns 0 if no such triangle is
-    /// known.
+    /// Returns the index of a triangle of the original surface that is near the face `f`. Returns 0, a valid index, if
+    /// no such triangle is known.
     pub(super) fn hint_of(&self, f: FaceId) -> u32 {
         let hint = |v: VertexId| match self.places[v.index()] {
             Place::Inside(hint) => Some(hint),
@@ -283,7 +285,7 @@ impl Work<'_> {
     }
 }
 
-/// Returns a column with these values, scaled to length 1 if they are normals.
+/// Returns a copy of an attribute column with the given values. If the values are normals, they are scaled to length 1.
 fn normalized(column: &Column, mut values: Values) -> Column {
     if let (Rule::Normal, Values::Vec3(normals)) = (column.rule, &mut values) {
         for normal in normals {

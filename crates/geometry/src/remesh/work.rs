@@ -1,4 +1,4 @@
-//! The mesh that is remeshed, and the location of each of its elements on the original surface.
+//! The mesh while it is remeshed, and the location of each of its elements on the original surface.
 
 use mesh::{DVec3, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 
@@ -6,27 +6,29 @@ use super::Counts;
 use super::original::{Original, Place, Track};
 use super::size::Sizes;
 
-/// The smallest cosine of the angle by which one step is allowed to turn a triangle.
+/// The smallest cosine of the angle by which one step (a split, a collapse, a flip or a movement) is allowed to turn a
+/// triangle: 0.5, for 60°.
 pub(super) const TURN: f64 = 0.5;
 
-/// The mesh between two steps.
+/// The state of the mesh between two steps of remeshing.
 pub(super) struct Work<'a> {
     pub(super) original: &'a Original<'a>,
     /// The mesh without attributes, in the scaled coordinates of [`Original::mesh`].
     pub(super) mesh: Mesh,
     pub(super) target: &'a Sizes,
     pub(super) limit: Option<f64>,
-    /// For each vertex, its location.
+    /// For each vertex, its location on the original surface.
     pub(super) places: Vec<Place>,
     /// For each vertex, the target length of the edges around it.
     pub(super) sizes: Vec<f64>,
-    /// For each vertex, the number of edges that it should have.
+    /// For each vertex, the number of edges that flips aim at.
     pub(super) valences: Vec<u8>,
-    /// For each vertex, whether it possibly lies off the original surface, because it is new.
+    /// For each vertex, whether it possibly lies off the original surface, because a split or a collapse placed it and
+    /// it has not moved since.
     pub(super) is_off: Vec<bool>,
-    /// For each edge, its location on a chain, if it is a part of a line.
+    /// For each edge that is a part of a line, its location on a chain (a line between two corners).
     pub(super) tracks: Vec<Option<Track>>,
-    /// For each face, its chart.
+    /// For each face, the index of its chart (a region between lines).
     pub(super) charts: Vec<u32>,
     pub(super) counts: Counts,
 }
@@ -49,7 +51,7 @@ impl<'a> Work<'a> {
         }
     }
 
-    /// Removes dead elements.
+    /// Removes the gaps that deleted elements have left in the lists.
     pub(super) fn compact(&mut self) {
         fn kept<I: mesh::Id + PartialEq, T: Copy>(new: &[I], values: &mut Vec<T>) {
             let mut alive = new.iter().map(|&id| id != I::NONE);
@@ -69,19 +71,20 @@ impl<'a> Work<'a> {
         self.tracks[e.index()].is_some()
     }
 
-    /// Returns the length of an edge, divided by its target length.
+    /// Returns the length of an edge, divided by the smaller of the target lengths at its two ends.
     pub(super) fn relative_length(&self, e: EdgeId) -> f64 {
         let [a, b] = self.mesh.edge_vertices(e);
         self.relative_distance(a, b)
     }
 
-    /// Returns the distance between two vertices, divided by the smaller of their target lengths.
+    /// Returns the distance between two vertices, divided by the smaller of the target lengths at the two vertices.
     pub(super) fn relative_distance(&self, a: VertexId, b: VertexId) -> f64 {
         let size = self.sizes[a.index()].min(self.sizes[b.index()]);
         self.mesh.position(a).distance(self.mesh.position(b)) / size
     }
 
-    /// Returns the line that contains the edge of `h`, if any, and whether `h` has the direction of this line.
+    /// Returns the line that contains the edge of `h`, if there is one, and whether `h` runs in the direction of this
+    /// line.
     pub(super) fn track_of(&self, h: HalfEdgeId) -> Option<Track> {
         let track = self.tracks[h.edge().index()]?;
         Some(Track {
@@ -90,7 +93,7 @@ impl<'a> Work<'a> {
         })
     }
 
-    /// Returns the parameter of the origin of a half-edge on the chain of this half-edge.
+    /// Returns the position of the origin of `h` on its chain: the arc length from the start of the chain.
     pub(super) fn start(&self, h: HalfEdgeId, track: Track) -> f64 {
         match self.places[self.mesh.origin(h).index()] {
             Place::Line { at, .. } => at,
@@ -99,8 +102,8 @@ impl<'a> Work<'a> {
         }
     }
 
-    /// Returns the signed arc length from the origin of `h` to its target along the chain, negative if `h` runs
-    /// against the chain.
+    /// Returns the arc length from the origin of `h` to its target, measured along the chain. The result is negative if
+    /// `h` runs against the direction of the chain.
     pub(super) fn way(&self, h: HalfEdgeId, track: Track) -> f64 {
         let chain = &self.original.chains[track.chain as usize];
         let back = Track {
@@ -115,7 +118,7 @@ impl<'a> Work<'a> {
         }
     }
 
-    /// Returns the corners of the triangle of `h`, beginning at the origin of `h`.
+    /// Returns the positions of the corners of the triangle of `h`, beginning at the origin of `h`.
     pub(super) fn triangle(&self, h: HalfEdgeId) -> [DVec3; 3] {
         let next = self.mesh.next(h);
         [h, next, self.mesh.next(next)].map(|h| self.mesh.position(self.mesh.origin(h)))
@@ -132,7 +135,8 @@ impl<'a> Work<'a> {
     }
 }
 
-/// Returns the vector in the direction of the normal of a triangle, with a length of twice its area.
+/// Returns a vector in the direction of the normal of a triangle. The length of the vector is twice the area of the
+/// triangle.
 pub(super) fn cross([a, b, c]: [DVec3; 3]) -> DVec3 {
     (b - a).cross(c - a)
 }
@@ -145,9 +149,10 @@ pub(super) fn is_turned(before: DVec3, after: DVec3) -> bool {
     before != DVec3::ZERO && !is_kept
 }
 
-/// The cosine of 20°. If the angle between two triangles is larger than 20°, the surface counts as bent. On a model of
-/// a rocker arm, the largest distance between the original and the result is 0.21 % of the diagonal of the bounding box
-/// with the limit 20°. With the limit 37°, it is 0.31 %.
+/// The cosine of 20°. If the angle between the normals of two triangles is larger than 20°, the surface counts as bent.
+/// Where it is bent, the distance between new triangles and the original surface is checked. On a model of a rocker
+/// arm, the largest distance between the original and the result is 0.21 % of the diagonal of the bounding box with the
+/// limit 20°. With the limit 37°, this distance is 0.31 %.
 const BENT: f64 = 0.94;
 
 /// Whether the surface is bent between two triangles; see [`BENT`]. The arguments are the [`cross`] products of the

@@ -1,10 +1,10 @@
-//! Attributes in the cost of a collapse.
+//! How attributes contribute to the cost of an edge collapse in simplification.
 //!
-//! Texture coordinates, normals, colors and other numbers are linear functions on each original triangle. The error of
-//! a value s at a point p is the mean squared difference between s and the linear functions at p. The mean is taken
-//! over the triangles that the vertex represents. For each point p, one value s has the least error. This least error
-//! is a quadratic function of p, a quadric. Source: Hoppe, "New Quadric Metric for Simplifying Meshes with Appearance
-//! Attributes", 1999.
+//! Texture coordinates, normals, colors and other numbers are linear functions on each original triangle. A vertex
+//! represents some original triangles. If the vertex is placed at the point p and gets the value s, its error is the
+//! mean squared difference between s and the linear functions of these triangles at p. For each point p, one value s
+//! has the least error. This least error is a quadratic function of p, a quadric. Source: Hoppe, "New Quadric Metric
+//! for Simplifying Meshes with Appearance Attributes", 1999.
 //!
 //! ```text
 //!           \   w0  /
@@ -24,15 +24,15 @@ use mesh::{
 use super::quadric::Quadric;
 use crate::lines::inverse_power_of_two;
 
-/// The weight of texture coordinates, relative to lengths on the surface. Texture coordinates are scaled so that
-/// triangles have the same total area in the texture as on the surface.
+/// The weight of texture coordinates, relative to lengths on the surface. Before this weight is applied, texture
+/// coordinates are scaled so that all triangles together have the same area in the texture as on the surface.
 const TEXTURE: f64 = 0.5;
 
-/// The weight of the difference of two unit normals, relative to the size of the mesh. The weight is small, because
-/// normals follow from the surface. For example, if a model of a rocker arm is simplified with five times this weight,
-/// the mean distance between the original and the simplified surface doubles. Normals do not affect the positions of
-/// vertices, because normals follow from the surface. If normals affected the positions, the largest distance for the
-/// rocker arm would be 3.9e-3 of the diagonal of the bounding box instead of 3.3e-3.
+/// The weight of normals: the difference of two unit normals, times this weight and the size of the mesh, counts as a
+/// distance. The weight is small, because normals follow from the surface. For example, if a model of a rocker arm is
+/// simplified with five times this weight, the mean distance between the original and the simplified surface doubles.
+/// For the same reason, normals do not affect the positions of vertices. If normals affected the positions, the largest
+/// distance for the rocker arm would be 3.9e-3 of the diagonal of the bounding box instead of 3.3e-3.
 const NORMAL: f64 = 0.002;
 
 /// The weight of all attributes except texture coordinates and normals. If the error of an attribute equals the
@@ -47,9 +47,9 @@ struct Taken {
     column: Column,
     /// The weight of the column: a power of two, so that scaled values can be scaled back exactly.
     weight: f64,
-    /// The index of the first component of the column among the components of all columns.
+    /// The index of the first component of this column in the list of the components of all columns.
     first: usize,
-    /// The number of components of the column.
+    /// The number of components of this column, for example 3 for a vector.
     n: usize,
 }
 
@@ -59,16 +59,18 @@ impl Taken {
     }
 }
 
-/// The attributes of a mesh while it is simplified.
+/// The interpolated attributes of a mesh during the simplification. A wedge is the set of face corners at a vertex that
+/// lie between two lines.
 pub(super) struct Appearance {
     taken: Vec<Taken>,
-    /// The names of the columns of vertices and corners, in their original order.
+    /// The names of all columns of vertices and corners, in their original order, which is restored at the end.
     order: Vec<(Domain, String)>,
     /// The number of components of all columns together. The components of normals come last.
     n: usize,
-    /// The number of components of columns that are not normals.
+    /// The number of components of the columns that are not normals. Only these columns affect the positions of
+    /// vertices.
     n_placing: usize,
-    /// For each half-edge with a face: the wedge of its corner.
+    /// For each half-edge with a face: the index of the wedge to which its corner belongs.
     wedges: Vec<u32>,
     /// For each wedge: a third of the area of its triangles.
     areas: Vec<f64>,
@@ -80,21 +82,22 @@ pub(super) struct Appearance {
     /// the triangles of the wedge. The first three numbers are the integral of the gradient, and the fourth is the
     /// integral of the offset.
     fits: Vec<DVec4>,
-    /// For each wedge and component: the value, times the weight of its column.
+    /// For each wedge and each component of the attributes: the value of the wedge, times the weight of the column.
     values: Vec<f64>,
-    /// For each component: a value that is subtracted from the linear functions, so that rounding errors are small.
+    /// For each component of the attributes: a typical value that is subtracted from the linear functions, so that
+    /// rounding errors are small.
     bases: Vec<f64>,
 }
 
-/// Two wedges that an edge joins: one at the first end and one at the second end of the edge.
+/// The indices of two wedges that an edge joins: one at the first end and one at the second end of the edge.
 pub(super) type Pair = [u32; 2];
 
 /// The corners of the faces around an edge before its collapse, with their wedges.
 pub(super) struct Around(Vec<(FaceId, [(VertexId, u32); 3])>);
 
 impl Appearance {
-    /// Takes the interpolated numbers of vertices and corners out of a mesh. Returns `None` if the mesh has no
-    /// interpolated numbers. `place` returns the scaled position of a vertex.
+    /// Removes the interpolated attributes of vertices and corners from a mesh, and stores them. Returns `None` if the
+    /// mesh has no such attributes. `place` returns the scaled position of a vertex.
     pub(super) fn take(
         mesh: &mut Mesh,
         lines: &[bool],
@@ -172,9 +175,9 @@ impl Appearance {
         Some(this)
     }
 
-    /// Adds up the linear functions on the triangles of the wedge whose first corner is given. Returns the area of the
-    /// wedge, the integral of the squared functions of all attributes except normals, and the same integral for
-    /// normals.
+    /// Adds the linear functions on the triangles of a wedge to `fits`. `first` is the first corner of the wedge.
+    /// Returns the area of the wedge, the integral of the squared functions of all attributes except normals, and the
+    /// same integral for normals.
     fn measure(
         &self,
         mesh: &Mesh,
@@ -192,7 +195,7 @@ impl Appearance {
             let twice_area = normal.length();
             if twice_area > 0.0 {
                 let area = twice_area / 6.0;
-                // The gradients of the barycentric coordinates at b and c.
+                // The gradients of the barycentric coordinates that belong to the corners b and c.
                 let normal = normal / twice_area;
                 let at_b = normal.cross(a - c) / twice_area;
                 let at_c = normal.cross(b - a) / twice_area;
@@ -220,8 +223,8 @@ impl Appearance {
         &self.values[first..first + self.n]
     }
 
-    /// Returns, for each side of an edge, the two wedges that the edge joins. For an edge that is not on a line, both
-    /// sides have the same two wedges, which are returned only once.
+    /// Returns, for each side of an edge, the two wedges that the edge joins. If the edge is not on a line, both sides
+    /// have the same two wedges, and the pair is returned only once.
     pub(super) fn pairs(&self, mesh: &Mesh, e: EdgeId, is_line: bool) -> [Option<Pair>; 2] {
         let [h, twin] = e.half_edges();
         let at = |h: HalfEdgeId| self.wedges[h.index()];
@@ -238,19 +241,21 @@ impl Appearance {
         self.areas[a as usize] + self.areas[b as usize]
     }
 
-    /// Returns a weighted sum of the linear functions of a component on the triangles of two wedges. The weight of a
+    /// Returns a weighted sum of the linear functions of component `i` on the triangles of two wedges. The weight of a
     /// triangle is the area that it contributes to its wedge. The weighted sum is also a linear function of the point.
     /// The first three numbers of the result are the gradient of this function, and the fourth number is its offset.
     fn fit(&self, [a, b]: Pair, i: usize) -> DVec4 {
         self.fits[self.n * a as usize + i] + self.fits[self.n * b as usize + i]
     }
 
-    /// Returns the integral of the squared error of the best values, normals excluded, as a function of the point.
+    /// Returns the integral of the squared error of all attributes except normals, as a function of the point at which
+    /// the vertex is placed. At each point, the vertex has the values with the least error.
     pub(super) fn placing(&self, pair: Pair) -> Quadric {
         self.least(pair, &self.placing, 0..self.n_placing)
     }
 
-    /// Returns the integral of the squared error of the best values of some components, as a function of the point.
+    /// Returns the integral of the squared error of the given components, as a function of the point at which the
+    /// vertex is placed. At each point, the vertex has the values with the least error.
     fn least(&self, pair: Pair, quadrics: &[Quadric], components: Range<usize>) -> Quadric {
         let [a, b] = pair.map(|wedge| quadrics[wedge as usize]);
         let area = self.area(pair);
@@ -264,7 +269,7 @@ impl Appearance {
         sum
     }
 
-    /// Returns the integral of the squared error at a point, for the best values.
+    /// Returns the integral of the squared error of all attributes at a point, for the values with the least error.
     pub(super) fn least_error(&self, pair: Pair, point: DVec3) -> f64 {
         let mut error = self.placing(pair).at(point);
         if self.n_placing < self.n {
@@ -274,8 +279,8 @@ impl Appearance {
         error
     }
 
-    /// Returns the integral of the squared error at a point, for values between those of the two wedges. `t` is the
-    /// weight of the second wedge.
+    /// Returns the integral of the squared error of all attributes at a point, for the interpolated values of the two
+    /// wedges. `t` is the weight of the second wedge, from 0 to 1.
     pub(super) fn error(&self, pair: Pair, point: DVec3, t: f64) -> f64 {
         let [a, b] = pair.map(|wedge| self.values_of(wedge));
         let area = self.area(pair);
@@ -288,7 +293,7 @@ impl Appearance {
         if error > 0.0 { error } else { 0.0 }
     }
 
-    /// Returns values between those of two wedges. `t` is the weight of the second wedge.
+    /// Interpolates between the values of two wedges. `t` is the weight of the second wedge, from 0 to 1.
     pub(super) fn mixed(&self, pair: Pair, t: f64) -> Vec<f64> {
         let [a, b] = pair.map(|wedge| self.values_of(wedge));
         let mix = |(a, b): (&f64, &f64)| {
@@ -346,7 +351,7 @@ impl Appearance {
         }
     }
 
-    /// Returns the faces around two vertices with their wedges.
+    /// Returns the faces around two vertices, with the wedges of the corners of these faces.
     pub(super) fn around(&self, mesh: &Mesh, [a, b]: [VertexId; 2]) -> Around {
         let mut faces = Vec::new();
         for (v, other) in [(a, b), (b, a)] {
@@ -366,8 +371,8 @@ impl Appearance {
         Around(faces)
     }
 
-    /// Whether a collapse would turn a triangle over in the texture. `merged` are the pairs of wedges that become one,
-    /// with their new values.
+    /// Whether a collapse would turn a triangle over in the texture. `merged` lists the pairs of wedges that become one
+    /// wedge, with their new values.
     pub(super) fn turns(&self, around: &Around, merged: &[(Pair, Vec<f64>)]) -> bool {
         let new = |wedge: u32| {
             let merged = merged.iter().find(|(pair, _)| pair.contains(&wedge));
@@ -389,7 +394,7 @@ impl Appearance {
         })
     }
 
-    /// Updates the wedges after a collapse to the vertex `v`. `around` are the faces before the collapse.
+    /// Updates the wedges after a collapse that leaves the vertex `v`. `around` has the faces before the collapse.
     pub(super) fn merge(
         &mut self,
         mesh: &Mesh,
@@ -433,8 +438,8 @@ impl Appearance {
         }
     }
 
-    /// Puts the values back into the mesh. After the call of [`take`](Self::take), elements can be removed from the
-    /// mesh, but must not be added or renumbered.
+    /// Puts the stored values back into the mesh. Between the call of [`take`](Self::take) and this call, elements can
+    /// be removed from the mesh, but must not be added or renumbered.
     pub(super) fn put_back(mut self, mesh: &mut Mesh) {
         for taken in std::mem::take(&mut self.taken) {
             let mut column = taken.column;
@@ -463,7 +468,8 @@ impl Appearance {
     }
 }
 
-/// Returns the weight of a column in the scaled coordinates: a power of two.
+/// Returns the weight by which the values of a column are multiplied: a power of two, for positions in scaled
+/// coordinates.
 fn weight(mesh: &Mesh, domain: Domain, column: &Column, place: impl Fn(VertexId) -> DVec3) -> f64 {
     if column.rule == Rule::Normal {
         return inverse_power_of_two(1.0 / NORMAL);
@@ -495,7 +501,7 @@ fn weight(mesh: &Mesh, domain: Domain, column: &Column, place: impl Fn(VertexId)
     inverse_power_of_two(range / OTHER)
 }
 
-/// Returns the wedge of each corner, and the first corner of each wedge.
+/// Returns, for each corner, the index of its wedge. Also returns the first corner of each wedge.
 fn wedges(mesh: &Mesh, lines: &[bool]) -> (Vec<u32>, Vec<HalfEdgeId>) {
     const NONE: u32 = u32::MAX;
     let mut wedges = vec![NONE; mesh.n_half_edges()];

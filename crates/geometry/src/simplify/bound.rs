@@ -1,11 +1,11 @@
 //! A bound on the distance by which a collapse moves the surface.
 //!
-//! The triangles around an edge, before and after its collapse, are projected along one direction. If the old and
-//! the new triangles cover the same region once, each point of the old triangles forms a pair with the point
-//! directly above or below it on the new triangles. The distance of a pair is largest at a corner of a cell,
-//! where a cell is the region that one old and one new triangle share. The largest distance of all pairs bounds
-//! the Hausdorff distance in both directions. Source: Cohen, Manocha, Olano, "Simplifying Polygonal Models Using
-//! Successive Mappings", 1997.
+//! The triangles around an edge, before and after its collapse, are projected along one direction. Suppose that both
+//! the old and the new triangles cover the same region exactly once. Then each point of the old triangles forms a pair
+//! with the point of the new triangles that is directly above or below it. A cell is the region that one old and one
+//! new triangle share. Within a cell, the distance between the two points of a pair is largest at a corner of the cell.
+//! The largest distance of all pairs bounds the Hausdorff distance in both directions. Source: Cohen, Manocha, Olano,
+//! "Simplifying Polygonal Models Using Successive Mappings", 1997.
 
 use mesh::{DVec3, EdgeId, FaceId};
 
@@ -60,8 +60,8 @@ impl Collapser<'_> {
         Ok(faces.into_iter().zip(bounds).collect())
     }
 
-    /// If `e` is a boundary edge, returns three positions: the end that the collapse removes, and the two ends of the
-    /// boundary edge that lies beside it after the collapse.
+    /// If `e` is a boundary edge, returns three positions: the end of `e` that the collapse removes, and the two ends
+    /// of the boundary edge that replaces the boundary at this end.
     fn cut(&self, e: EdgeId, target: &Target) -> Option<(DVec3, [DVec3; 2])> {
         let h = e
             .half_edges()
@@ -80,14 +80,14 @@ impl Collapser<'_> {
     }
 }
 
-/// The triangles around an edge before and after its collapse, counter-clockwise.
+/// The triangles around an edge before and after its collapse, each with its corners in counter-clockwise order.
 struct Patch {
     /// The triangles before the collapse, each with the bound on its distance to the original surface.
     old: Vec<([DVec3; 3], f64)>,
     /// The triangles after the collapse. The first corner of each triangle is the new vertex.
     new: Vec<[DVec3; 3]>,
-    /// For a boundary edge, the position of the removed end, and the positions of the two ends of the new boundary edge
-    /// beside it.
+    /// If the collapsed edge is a boundary edge: the position of the removed end, and the positions of the two ends of
+    /// the new boundary edge beside the removed end.
     cut: Option<(DVec3, [DVec3; 2])>,
 }
 
@@ -95,8 +95,9 @@ struct Patch {
 const SLACK: f64 = 1e-9;
 
 impl Patch {
-    /// Returns a bound on the distance to the original surface for each new triangle. Returns `None` if no bound
-    /// is found because the triangles, projected along their mean normal, do not cover the same region once.
+    /// Returns, for each new triangle, a bound on its distance to the original surface. Returns `None` if there is no
+    /// bound: the method needs old and new triangles that, projected along their mean normal, cover the same region
+    /// once.
     fn bounds(&self) -> Option<Vec<f64>> {
         let twice_area = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a);
         let sum: DVec3 = self
@@ -126,8 +127,8 @@ impl Patch {
         if !all().all(faces_ahead) || n_turns(&new) > 1 {
             return None;
         }
-        // A point between the old and the new boundary is covered by only one of the two surfaces. Its distance from
-        // the other surface is at most its distance from the boundary of that surface.
+        // Seen along the projection, a point between the old and the new boundary is covered by either the old or the
+        // new triangles only. Its distance from the other triangles is at most its distance from their boundary.
         let beyond = self.cut.map_or(0.0, |(removed, [p, q])| {
             let largest = self
                 .old
@@ -145,7 +146,8 @@ impl Patch {
     }
 }
 
-/// Returns the number of turns that the triangles make around their common first corner, rounded up or down.
+/// Returns how many full turns the triangles make around their common first corner, rounded up or down to a whole
+/// number.
 fn n_turns(triangles: &[[DVec3; 3]]) -> usize {
     // In each full turn around the corner, exactly one triangle crosses the half-line that starts at the corner in the
     // direction of the x axis.
@@ -153,8 +155,8 @@ fn n_turns(triangles: &[[DVec3; 3]]) -> usize {
     triangles.iter().filter(crosses).count()
 }
 
-/// Returns the largest difference of the heights of two triangles in the region that they share. Returns `None` if the
-/// triangles share no region.
+/// Two triangles are projected to the xy plane, and z is their height. Returns the largest difference of their heights
+/// in the region that both cover. Returns `None` if there is no such region.
 fn cell_gap(old: &[DVec3; 3], new: &[DVec3; 3]) -> Option<f64> {
     // Clips the old triangle by the side lines of the new triangle. Each cut adds at most one corner.
     let (mut cell, mut n) = ([DVec3::ZERO; 6], 3);
@@ -189,8 +191,8 @@ fn cell_gap(old: &[DVec3; 3], new: &[DVec3; 3]) -> Option<f64> {
     )
 }
 
-/// Adds a corner. Rounding can give more corners than a convex polygon has; in this case, the last corner is
-/// replaced.
+/// Appends a corner to the polygon. Because of rounding, the clipped polygon can get more than six corners; in this
+/// case, the new corner replaces the last one.
 fn push(corners: &mut [DVec3; 6], n: &mut usize, p: DVec3) {
     corners[(*n).min(5)] = p;
     *n = (*n + 1).min(6);

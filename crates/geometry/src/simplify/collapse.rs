@@ -1,14 +1,15 @@
-//! The loop that collapses edges.
+//! The main loop of simplification, which collapses edges.
 //!
 //! The edges of a pass are visited in batches. Each batch has four stages. The first and the third stage compute in
-//! parallel. The other stages change the state in the order of the batch, so that the result does not depend on the
-//! number of threads.
+//! parallel, without changing the mesh. The second and the fourth stage change the state, edge by edge in the order of
+//! the batch. Therefore the result does not depend on the number of threads.
 //!
 //! 1. The cost of an edge is computed again if one of its ends has changed.
-//! 2. An edge is chosen if its cost is low enough and no edge near it was chosen before in this pass.
+//! 2. An edge is chosen under two conditions: its cost is not above the cost level of the pass, and no edge near it was
+//!    chosen before in this pass.
 //! 3. For each chosen edge, the new position and values are computed, and the collapse is checked.
-//! 4. The chosen edges are collapsed. They are so far from each other that no collapse changes the results of the third
-//!    stage for another chosen edge.
+//! 4. The chosen edges are collapsed. The chosen edges are so far from each other that no collapse changes the results
+//!    of the third stage for another chosen edge.
 
 use mesh::{DVec3, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId, parallel};
 use progress::{Cancelled, Meter, Progress};
@@ -26,10 +27,10 @@ use super::{Blocked, Options};
 /// torus of 1,000,000 triangles takes 1.3 times as long on two processors.
 const BATCH: usize = 16_384;
 
-/// The number of edges between two progress reports of the preparation.
+/// The number of edges between two progress reports while the first costs are computed.
 const REPORT: usize = 4096;
 
-/// The state of an edge in the queue.
+/// Whether an edge waits in the queue, or why it cannot be collapsed.
 #[derive(Clone, Copy, PartialEq)]
 enum State {
     Queued,
@@ -46,36 +47,37 @@ pub(super) struct Node {
     pub(super) kind: Kind,
 }
 
-/// When a vertex changed.
+/// The passes in which a vertex or its surroundings last changed.
 #[derive(Clone, Copy, Default)]
 struct Mark {
-    /// The last pass in which the vertex or one of its neighbors was chosen to change.
+    /// The last pass in which an edge at the vertex or at one of its neighbors was chosen for a collapse.
     touched: u32,
-    /// The last pass in which the vertex changed.
+    /// The last pass in which an edge was collapsed to the vertex.
     changed: u32,
 }
 
 pub(super) struct Collapser<'a> {
     pub(super) mesh: Mesh,
     n_faces: usize,
-    /// The values of vertices and corners that are interpolated, if there are any.
+    /// The interpolated attributes of vertices and corners, if there are any.
     pub(super) appearance: Option<Appearance>,
     /// Distances are computed in coordinates relative to `center`, which are scaled by a power of two. In these
-    /// coordinates, very small and very large meshes give the same result.
+    /// coordinates, the size of the mesh does not matter: very small and very large meshes of the same shape give the
+    /// same result.
     center: DVec3,
     pub(super) scale: f64,
-    /// The node of each vertex.
+    /// For each vertex, the data from which the costs of its edges are computed.
     pub(super) nodes: Vec<Node>,
-    /// The mark of each vertex.
+    /// For each vertex, the passes in which it last changed.
     marks: Vec<Mark>,
-    /// If there is an error limit, a bound on the distance between each face and the original surface, by face
-    /// index.
+    /// For each face index, a bound on the distance between the face and the original surface. The list is empty if
+    /// there is no error limit.
     pub(super) errors: Vec<f64>,
-    /// Whether each edge belongs to a line, by index.
+    /// For each edge index, whether the edge is a part of a preserved line.
     pub(super) lines: Vec<bool>,
     states: Vec<State>,
     queue: Queue,
-    /// The boxes of the faces, if intersections are refused.
+    /// The tree of the boxes of the faces, if collapses that cause intersections are refused.
     contacts: Option<Contacts>,
     pub(super) options: &'a Options<'a>,
 }
@@ -87,17 +89,18 @@ pub(super) type Values = (Around, Vec<(Pair, Vec<f64>)>);
 /// The data that is computed for an allowed collapse before the mesh changes.
 struct Plan {
     target: Target,
-    /// The faces that remain, with new bounds on their distance to the original surface.
+    /// The faces around the edge that remain after the collapse, with new bounds on their distance to the original
+    /// surface.
     errors: Vec<(FaceId, f64)>,
     values: Option<Values>,
 }
 
-/// The cost of an edge at the beginning of a batch.
+/// What the first stage of a batch finds out about an edge.
 #[derive(Clone, Copy)]
 enum Cost {
-    /// The edge does not exist anymore.
+    /// An earlier collapse has removed the edge.
     Gone,
-    /// The edge is near an edge that was chosen in this pass.
+    /// The edge is near an edge that was chosen for a collapse earlier in this pass.
     Touched,
     Unchanged,
     New(Result<f64, Blocked>),
@@ -167,7 +170,7 @@ impl<'a> Collapser<'a> {
         let start = self.n_faces;
         let mut edges: Vec<Entry> = Vec::new();
         while self.n_faces > self.options.faces && self.queue.next_pass(&mut edges) {
-            // Edges that are near in the mesh are often near in memory too.
+            // Edges with near ids are often near in memory too, so visiting them in this order is faster.
             edges.sort_by_key(|entry| entry.edge);
             for batch in edges.chunks(BATCH) {
                 if self.n_faces <= self.options.faces {
@@ -181,7 +184,8 @@ impl<'a> Collapser<'a> {
         Ok(())
     }
 
-    /// Returns the number of blocked edges for each reason.
+    /// Returns, for each reason, the number of edges that cannot be collapsed for this reason. Reasons without edges
+    /// are left out.
     pub(super) fn blocked(&self) -> Vec<(Blocked, usize)> {
         let blocked = |e: EdgeId| match self.states[e.index()] {
             State::Blocked(reason) => Some(reason),
@@ -231,7 +235,7 @@ impl<'a> Collapser<'a> {
         Cost::New(self.target(edge).map(|target| target.cost))
     }
 
-    /// Returns the edges of a batch that are to be collapsed now, and puts the others back into the queue.
+    /// Returns the edges of a batch that are collapsed next. Puts the other edges of the batch back into the queue.
     fn choose(&mut self, batch: &[Entry], costs: &[Cost]) -> Vec<EdgeId> {
         let pass = self.queue.pass();
         let mut chosen = Vec::new();
@@ -250,8 +254,8 @@ impl<'a> Collapser<'a> {
                 Cost::New(_) | Cost::Unchanged => {}
             }
             let ends = self.mesh.edge_vertices(e);
-            // The cost of an edge grows when its neighbors collapse. Edges near a collapse wait for the next pass, so
-            // that the collapses of a pass are spread over the surface.
+            // The cost of an edge usually grows when edges near it collapse. Edges near a collapse wait for the next
+            // pass, so that the collapses of a pass are spread over the surface.
             if ends.iter().any(|v| self.marks[v.index()].touched == pass) {
                 let computed = match cost {
                     Cost::New(_) => pass,
@@ -281,7 +285,8 @@ impl<'a> Collapser<'a> {
         };
     }
 
-    /// Checks whether the collapse of an edge is allowed. The topology and intersections are not checked here.
+    /// Checks whether the collapse of an edge is allowed, and computes the data for the collapse. Topology and
+    /// intersections are checked later, in `collapse`.
     fn plan(&self, e: EdgeId) -> Result<Plan, Blocked> {
         let target = self.target(e)?;
         self.check(e, &target)?;
@@ -342,7 +347,8 @@ impl<'a> Collapser<'a> {
             },
         };
         self.marks[v.index()].changed = self.queue.pass();
-        // The collapse can make it possible to collapse edges that were blocked.
+        // After this collapse, edges at the vertex that were blocked can possibly be collapsed, so they are queued
+        // again.
         for e in self.mesh.vertex_half_edges(v).map(HalfEdgeId::edge) {
             let state = &mut self.states[e.index()];
             if *state != State::Queued {
@@ -357,7 +363,7 @@ impl<'a> Collapser<'a> {
     }
 }
 
-/// Returns the properties of all vertices. `place` returns the scaled position of a vertex.
+/// Returns the [`Node`] of each vertex. `place` returns the scaled position of a vertex.
 fn nodes(
     mesh: &Mesh,
     lines: &[bool],
@@ -401,9 +407,9 @@ fn nodes(
     })
 }
 
-/// Returns the squared distance to a plane, times the squared length of the side from `a` to `b` of a triangle. The
-/// plane contains this side and is perpendicular to the triangle. The returned quadric keeps the vertices of a line
-/// near the line.
+/// Returns a quadric: the squared distance to a plane, times the squared length of the side from `a` to `b` of a
+/// triangle. The plane contains this side and is perpendicular to the triangle. The returned quadric keeps the vertices
+/// of a line near the line.
 fn across_line([a, b, c]: [DVec3; 3]) -> Quadric {
     let along = b - a;
     let across = along.cross(c - a).cross(along).try_normalize();

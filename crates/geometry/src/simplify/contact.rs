@@ -6,20 +6,20 @@ use progress::{Cancelled, Progress};
 
 use crate::surface_index::{SurfaceIndex, triangles_intersect};
 
-/// The lowest and the highest corner of a box. In an empty box, the coordinates of the first corner exceed those of the
-/// second.
+/// The corner of a box with the smallest coordinates and the corner with the largest coordinates. In an empty box, the
+/// coordinates of the first corner exceed the coordinates of the second corner.
 type Bounds = [DVec3; 2];
 
 const EMPTY: Bounds = [DVec3::INFINITY, DVec3::NEG_INFINITY];
 
-/// The boxes of all faces in a complete binary tree. Each face keeps its leaf. When a face changes, the boxes above its
-/// leaf are updated.
+/// The bounding boxes of all faces, in a complete binary tree. Each face has a leaf, which never changes. When a face
+/// changes, the boxes of its leaf and of the nodes above this leaf are updated.
 pub(super) struct Contacts {
     /// The children of node i are 2 i and 2 i + 1. The second half of the nodes are the leaves.
     boxes: Vec<Bounds>,
-    /// The face of each leaf, in the order of a spatial index.
+    /// For each leaf, its face. Faces that are near each other in space are near each other in this list.
     faces: Vec<FaceId>,
-    /// The leaf of each face, as an index into `boxes`.
+    /// For each face, the index of its leaf in `boxes`.
     leaf_of_face: Vec<usize>,
 }
 
@@ -69,8 +69,8 @@ impl Contacts {
         }
     }
 
-    /// Whether the faces around `a` and `b` would intersect another face, or each other, if both vertices merged at
-    /// `point`.
+    /// Whether the faces around the vertices `a` and `b` would intersect each other or another face, if these two
+    /// vertices were merged at `point`.
     pub(super) fn arise(&self, mesh: &Mesh, [a, b]: [VertexId; 2], point: DVec3) -> bool {
         let mut changed: Vec<FaceId> = Vec::new();
         let mut new: Vec<[DVec3; 3]> = Vec::new();

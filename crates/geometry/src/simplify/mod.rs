@@ -1,24 +1,24 @@
 //! Simplification: fewer triangles for nearly the same surface.
 //!
-//! Edges are collapsed, the cheapest first. Each vertex represents a part of the original surface. Before the first
-//! collapse, this part is a third of the area of each triangle around the vertex. After a collapse, the new vertex
-//! represents the parts of both ends of the edge. The main part of the cost of a collapse is the squared distance from
-//! the new vertex to the planes of the original triangles that it represents. This squared distance is
+//! Edges are collapsed, those with the lowest cost first. Each vertex represents a part of the original surface. Before
+//! the first collapse, this part is a third of the area of each triangle around the vertex. After a collapse, the new
+//! vertex represents the parts of both ends of the edge. The main part of the cost of a collapse is the squared
+//! distance from the new vertex to the planes of the original triangles that it represents. This squared distance is
 //! integrated over the represented area, and divided by the square root of this area. Source of the squared distance:
 //! Garland, Heckbert, "Surface Simplification Using Quadric Error Metrics", 1997.
 //!
 //! The division by the square root of the area balances large and small details. Without any division, small details
 //! would count too little. With a division by the area instead of its square root, small details would count too much.
 //! For example, a model of a rocker arm was reduced to a tenth of its 20,088 triangles. Without any division, the
-//! largest distance between the original and the simplified surface is 0.5 % of the diagonal of the bounding box. With
-//! a division by the area or by its square root, the largest distance is 0.3 %. With a division by the square root of
-//! the area, the mean distance is 5 % smaller than with a division by the area.
+//! largest distance between the original and the simplified surface was 0.5 % of the diagonal of the bounding box. With
+//! a division by the area or by its square root, the largest distance was 0.3 %. With a division by the square root of
+//! the area, the mean distance was 5 % smaller than with a division by the area itself.
 //!
-//! A small part of the cost is the squared distance to the centers of the triangles instead of their planes. The
-//! distance to the centers keeps triangles round, similar to Trettner, Kobbelt, "Fast and Robust QEM Simplification of
-//! Large Meshes Using Probabilistic Quadrics", 2020.
+//! A small part of the cost is the squared distance to the centers of the original triangles instead of their planes.
+//! This part prevents thin triangles, similar to Trettner, Kobbelt, "Fast and Robust QEM Simplification of Large Meshes
+//! Using Probabilistic Quadrics", 2020.
 //!
-//! Errors of texture coordinates, normals, colors and other interpolated numbers are also a part of the cost; see
+//! Errors of interpolated attributes, such as texture coordinates, normals and colors, are also a part of the cost; see
 //! `appearance.rs`.
 //!
 //! Lines of the mesh keep their places:
@@ -48,21 +48,21 @@ use collapse::Collapser;
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Options<'a> {
     /// The number of faces at which simplification stops. The result has this number of faces, or one fewer if the last
-    /// collapse removed two faces. It has more faces if no further edge can be collapsed.
+    /// collapse removed two faces. The result has more faces if no further edge can be collapsed.
     pub faces: usize,
     /// The largest allowed Hausdorff distance between the original and the simplified surface, in scene units. If
-    /// `None`, there is no limit. The distance is guaranteed not to exceed the limit. Each triangle has a bound on its
-    /// distance to the original. A collapse moves the surface. A bound on this movement is added to the bounds of the
-    /// triangles around the collapsed edge. The sums of these bounds overestimate the distance: the true distance is
-    /// usually between a third of the limit and the limit.
+    /// `None`, there is no limit. The distance is guaranteed not to exceed the limit. To guarantee this, each triangle
+    /// has an upper bound on its distance to the original surface. For each collapse, an upper bound on the movement of
+    /// the surface is added to the bounds of the triangles around the collapsed edge. These sums overestimate the
+    /// distance: the true distance of the result is usually between a third of the limit and the limit.
     pub error: Option<f64>,
-    /// Edges that are preserved as lines. These edges are always preserved: boundaries, seams, edges between faces with
-    /// different tags, materials or other whole numbers, tagged edges, and creases.
+    /// Additional edges that are preserved as lines. Boundaries, seams, tagged edges and creases are always preserved.
+    /// Edges between faces with different tags, materials or other whole numbers are also always preserved.
     pub features: &'a [EdgeId],
     /// Vertices that keep their positions.
     pub pinned: &'a [VertexId],
-    /// Whether a collapse is refused if a changed triangle would intersect another one, as tested by
-    /// [`triangles_intersect`](crate::surface_index::triangles_intersect). If this option is true, faces that do not
+    /// Whether a collapse is refused if one of the triangles that it changes would intersect another triangle. The test
+    /// is [`triangles_intersect`](crate::surface_index::triangles_intersect). If this option is true, faces that do not
     /// intersect before the simplification do not intersect afterwards.
     pub refuse_intersections: bool,
 }
@@ -73,25 +73,25 @@ pub struct Simplified {
     /// The simplified mesh. The mesh is [dense](mesh::Mesh::is_dense): elements get new ids, in the order of their
     /// old ids.
     pub mesh: Mesh,
-    /// If the mesh has more faces than [`Options::faces`], the number of remaining edges that could not be
-    /// collapsed, for each reason.
+    /// Why the mesh has more faces than [`Options::faces`]: for each reason, the number of remaining edges that could
+    /// not be collapsed.
     pub blocked: Vec<(Blocked, usize)>,
 }
 
 /// Why an edge was not collapsed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Blocked {
-    /// The surface could move further than the allowed error.
+    /// After the collapse, the distance between the surface and the original could exceed the allowed error.
     Error,
     /// The collapse would merge preserved lines, or move a pinned vertex or the end of a preserved line.
     Lines,
-    /// The ends have different tags, whole numbers or sharpness.
+    /// The two ends of the edge have different tags, whole numbers or sharpness.
     Labels,
     /// A triangle would turn over or become degenerate, on the surface or in a texture.
     Turned,
     /// The topology of the surface would change.
     Topology,
-    /// Two triangles would intersect.
+    /// A triangle that the collapse changes would intersect another triangle.
     Intersections,
 }
 
@@ -135,14 +135,15 @@ pub enum SimplifyError {
 /// Simplifies a mesh of triangles by collapsing edges.
 ///
 /// The topology is preserved: the Euler characteristic, the boundary loops and the graph that the lines form do not
-/// change. No collapse turns a triangle by more than 78° on the surface, or turns a triangle over in the texture.
-/// Remaining vertices can move, except pinned vertices, the ends and meeting points of lines, and vertices at which the
-/// attributes of the edges of a line change.
+/// change. No collapse turns a triangle by more than 78° on the surface, or turns a triangle over in the texture. The
+/// vertices that remain can move. These vertices keep their positions: pinned vertices, the ends and meeting points of
+/// lines, and vertices on a line at which the attributes of the edges of the line change.
 ///
 /// Errors of interpolated attributes of vertices and corners, including normals, are a part of the cost of a collapse.
-/// A new vertex that is not on a line gets the values with the least error, within the range of the values around it. A
-/// new vertex on a line gets the values at the point of the collapsed edge that is nearest to the vertex. Each side of
-/// a seam gets its values separately. Isolated vertices are preserved.
+/// A vertex to which an edge is collapsed gets new values. If the edge is on a line, or if one of its ends keeps its
+/// position, these are the values at the point of the edge that is nearest to the vertex. In all other cases, these are
+/// the values with the least error, limited to the range of the values around the edge. Each side of a seam gets its
+/// values separately. Isolated vertices are preserved.
 ///
 /// # Errors
 ///
@@ -173,8 +174,8 @@ pub fn simplify(
     if let Some(f) = mesh.faces().find(|&f| !mesh.is_triangle(f)) {
         return Err(SimplifyError::NotTriangle(f));
     }
-    // The whole simplification runs in a thread of the pool. Such a thread can start a parallel loop without waiting
-    // for another thread.
+    // The whole simplification runs in a thread of the thread pool, because such a thread can start a parallel loop
+    // without waiting for another thread.
     let collapser = rayon::scope(|_| {
         let mut collapser = Collapser::new(mesh.clone(), options, progress)?;
         collapser.run(progress).map(|()| collapser)

@@ -1,4 +1,5 @@
-//! Quadrics: sums of squared distances, as functions of a point.
+//! Quadrics: quadratic functions of a point, for example the sum of the squared distances from the point to some
+//! planes.
 
 use std::ops::Add;
 
@@ -22,7 +23,7 @@ impl Quadric {
         Self::linear(n, -n.dot(point), weight)
     }
 
-    /// Returns the square of the linear function g·p + `offset`, times `weight`.
+    /// Returns the square of the linear function g·p + `offset` of a point p, times `weight`.
     pub(super) fn linear(g: DVec3, offset: f64, weight: f64) -> Self {
         Self {
             diagonal: weight * g * g,
@@ -32,13 +33,13 @@ impl Quadric {
         }
     }
 
-    /// Returns the value at `p`, which is at least 0.
+    /// Returns the value of the quadric at `p`. The result is at least 0.
     pub(super) fn at(&self, p: DVec3) -> f64 {
-        // Rounding can make the value negative.
+        // Because of rounding, the computed value can be negative.
         at_least_zero((self.times(p) + 2.0 * self.b).dot(p) + self.c)
     }
 
-    /// Returns A p.
+    /// Returns the product of the matrix A and the vector `p`.
     fn times(&self, p: DVec3) -> DVec3 {
         let m = self.mixed;
         let mixed = DVec3::new(
@@ -49,24 +50,24 @@ impl Quadric {
         self.diagonal * p + mixed
     }
 
-    /// Returns the point with the lowest value. If many points have nearly the lowest value, returns one of them at
-    /// which `weak`, a quadric with small coefficients, is low. Returns `None` if the sum of this quadric and `weak`
-    /// has its lowest value at many points.
+    /// Returns the point with the lowest value. If the value is nearly as low at many other points, `weak` decides
+    /// between these points: the result is a point at which `weak` is low too. `weak` is a quadric with small
+    /// coefficients. Returns `None` if the sum of this quadric and `weak` has its lowest value at many points.
     pub(super) fn lowest(&self, weak: &Self) -> Option<DVec3> {
         let sum = *self + *weak;
         let inverse = sum.inverse()?;
         let solve = |p: DVec3| p.x * inverse[0] + p.y * inverse[1] + p.z * inverse[2];
         let lowest = -solve(sum.b);
-        // `weak` moves the point a little in all directions. One Newton step for this quadric, with the matrix of the
-        // sum, moves the point back. The point keeps its displacement only in directions in which this quadric hardly
-        // changes.
+        // `weak` moves the lowest point a little away from the lowest point of this quadric. One Newton step for this
+        // quadric, with the matrix of the sum, moves the point back. The point stays moved only in directions in which
+        // this quadric hardly changes.
         Some(lowest - solve(self.times(lowest) + self.b))
     }
 
     /// Returns the columns of the inverse of A, or `None` if A is nearly singular.
     fn inverse(&self) -> Option<[DVec3; 3]> {
         let (d, m) = (self.diagonal, self.mixed);
-        // The columns of the adjugate of A. The adjugate is symmetric, as A is.
+        // The columns of the adjugate of A, which is a symmetric matrix like A.
         let x = DVec3::new(
             d.y * d.z - m.x * m.x,
             m.y * m.x - m.z * d.z,
@@ -94,14 +95,14 @@ impl Add for Quadric {
     }
 }
 
-/// The area of the original surface that a vertex represents, and two integrals over this area. The squared distance
-/// from any point, integrated over the area, is computed from these numbers.
+/// The size of the part of the original surface that a vertex represents, and two integrals over this part. These
+/// numbers give the integral, over the part, of the squared distance from any point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Spread {
     pub(super) area: f64,
-    /// The integral of the position over the area.
+    /// The integral of the position over the part of the surface.
     first: DVec3,
-    /// The integral of the squared length of the position over the area.
+    /// The integral of the squared length of the position vector over the part of the surface.
     second: f64,
 }
 

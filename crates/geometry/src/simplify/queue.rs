@@ -1,4 +1,4 @@
-//! A queue of edges, the cheapest first.
+//! A queue of edges, ordered by the cost of their collapse, the lowest cost first.
 
 use mesh::EdgeId;
 
@@ -9,8 +9,8 @@ pub(super) struct Entry {
     pub(super) computed: u32,
 }
 
-/// Edges in levels of nearly equal cost. The edges of a level are visited in passes: an edge that is added to the
-/// level during a pass waits for the next pass.
+/// The edges are sorted into levels: groups of edges with nearly equal cost. The edges of a level are visited in
+/// passes: an edge that is added to the level during a pass waits for the next pass.
 ///
 /// Levels are faster than a heap: on a mesh of 1,000,000 triangles, a version with a heap spent half of its
 /// time in the heap.
@@ -20,8 +20,8 @@ pub(super) struct Queue {
     pass: u32,
 }
 
-/// This number of low bits is dropped from a cost, which is a floating-point number, to get its level. The exponent and
-/// 3 bits of the fraction of the cost remain, so costs within a level differ by at most 12.5 %.
+/// The level of a cost is its bit pattern as an `f64`, without this number of low bits. The exponent and the highest 3
+/// bits of the fraction remain, so costs within a level differ by at most 12.5 %.
 const SHIFT: u32 = f64::MANTISSA_DIGITS - 1 - 3;
 
 impl Queue {
@@ -34,13 +34,13 @@ impl Queue {
         }
     }
 
-    /// Returns the number of the current pass, counted from 1. The number changes between two passes, and between two
-    /// levels.
+    /// Returns the number of the current pass. The number grows by 1 with each pass, over all levels.
     pub(super) fn pass(&self) -> u32 {
         self.pass
     }
 
-    /// Adds an edge with this cost. If the cost is below the current level, the edge goes to the current level.
+    /// Adds an edge with the given cost. If this cost belongs to a level before the current level, the edge goes to the
+    /// current level.
     pub(super) fn push(&mut self, entry: Entry, cost: f64) {
         let level = level_of(cost).max(self.level);
         self.levels[level].push(entry);
@@ -51,7 +51,7 @@ impl Queue {
         self.levels[self.level].push(entry);
     }
 
-    /// Whether an edge with this cost belongs to a level after the current one.
+    /// Whether an edge with the given cost belongs to a level after the current level.
     pub(super) fn is_later(&self, cost: f64) -> bool {
         level_of(cost) > self.level
     }
@@ -73,7 +73,8 @@ impl Queue {
     }
 }
 
-/// Returns the level of a cost, which must not be negative. A cost that is NaN has the last level.
+/// Returns the index of the level of a cost. The cost must not be negative. A cost that is NaN belongs to the last
+/// level.
 fn level_of(cost: f64) -> usize {
     let cost = if cost.is_nan() { f64::INFINITY } else { cost };
     usize::try_from(cost.to_bits() >> SHIFT).expect("14 bits")

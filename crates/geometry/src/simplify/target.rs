@@ -1,4 +1,5 @@
-//! Where an edge collapses to, what this costs, and whether it is allowed.
+//! Computes the position to which an edge collapses and the cost of this collapse, and checks whether the collapse is
+//! allowed.
 
 use mesh::{Column, DVec3, Domain, EdgeId, HalfEdgeId, VERTEX_SHARPNESS, VertexId};
 
@@ -11,27 +12,29 @@ use super::collapse::{Collapser, Values};
 use super::quadric::Quadric;
 
 /// The weight of the squared distance to the centers of the original triangles that a vertex represents. This weight is
-/// used to compare costs. The squared distance to the planes of these triangles has the weight 1. Without this weight,
-/// triangles become thin where the surface is flat or curved in one direction. As an example, a torus of 1,000,000
-/// triangles was reduced to a tenth. With the weight 1e-6, one percent of the triangles have an angle below 9°. With
-/// the weight 2e-5, one percent have an angle below 15°. The distance to the original is the same for both weights.
+/// a part of the cost of a collapse, in which the squared distance to the planes of these triangles has the weight 1.
+/// If this weight were 0, triangles would become thin where the surface is flat or curved in one direction only. As an
+/// example, a torus of 1,000,000 triangles was reduced to a tenth. With the weight 1e-6, one percent of the triangles
+/// have an angle below 9°. With the weight 2e-5, one percent of the triangles have an angle below 15°. The distance
+/// between the original and the simplified surface is the same for both weights.
 const ROUNDNESS: f64 = 2e-5;
 
 /// The weight that is used instead of [`ROUNDNESS`] when the new position of a vertex is chosen. This weight is so
-/// small that it matters only if many positions have the same distance to the planes.
+/// small that it matters only if many positions have nearly the same distance to the planes, for example on a flat
+/// surface.
 const FIRMNESS: f64 = 1e-8;
 
-/// The smallest cosine of the angle by which a collapse is allowed to turn a triangle.
+/// The smallest cosine of the angle by which a collapse is allowed to turn a triangle: 0.2, for 78°.
 const TURN: f64 = 0.2;
 
-/// The position of the vertex to which an edge would collapse.
+/// The vertex to which an edge would collapse: its position, its values and the cost.
 pub(super) struct Target {
     /// The position, in the scaled coordinates of the [`Collapser`].
     pub(super) point: DVec3,
     /// The end of the edge that keeps its position. `None` if both ends move.
     pub(super) end: Option<VertexId>,
-    /// The place on the edge whose values the vertex gets, from 0 at the first end of the edge to 1 at its second end.
-    /// If `None`, the vertex gets the values with the least error.
+    /// The position, along the edge, of the point whose values the vertex gets: from 0 at the first end of the edge to
+    /// 1 at its second end. If `None`, the vertex gets the values with the least error.
     t: Option<f64>,
     /// The cost of the collapse: the sum of these terms, divided by the square root of the area of the original
     /// triangles that the vertex represents:
@@ -44,7 +47,7 @@ pub(super) struct Target {
 }
 
 impl Collapser<'_> {
-    /// Returns where an edge collapses to, and the cost.
+    /// Returns the position to which an edge would collapse, and the cost of this collapse.
     pub(super) fn target(&self, e: EdgeId) -> Result<Target, Blocked> {
         let ends = self.mesh.edge_vertices(e);
         let [a, b] = ends.map(VertexId::index);
@@ -74,7 +77,8 @@ impl Collapser<'_> {
         }
         let weak = spread.quadric(FIRMNESS);
         let points = [from.point, to.point];
-        // To bound the distance, a boundary edge must collapse to one of its ends.
+        // If there is an error limit, a boundary edge must collapse to one of its ends. The bound on the distance is
+        // known only in this case.
         let end = end.or_else(|| {
             let is_bounded = self.options.error.is_some() && self.mesh.is_boundary_edge(e);
             let sum = placing + weak;
@@ -140,7 +144,8 @@ impl Collapser<'_> {
         largest * (lengths[0] + lengths[1])
     }
 
-    /// Returns the faces around an edge, and the wedges that its collapse merges, with their new values.
+    /// Returns the faces around an edge, and the pairs of wedges that the collapse of the edge merges, with their new
+    /// values. A wedge is the set of face corners at a vertex that lie between two lines.
     pub(super) fn values_after(
         &self,
         e: EdgeId,
@@ -221,15 +226,16 @@ impl Collapser<'_> {
     }
 }
 
-/// Returns the place on an edge that is nearest to `point`, from 0 at the first end to 1 at the second end.
+/// Returns the position, along an edge, of its point that is nearest to `point`: from 0 at the first end to 1 at the
+/// second end.
 fn along([a, b]: [DVec3; 2], point: DVec3) -> f64 {
     let t = (point - a).dot(b - a) / (b - a).length_squared();
     if t.is_nan() { 0.5 } else { t.clamp(0.0, 1.0) }
 }
 
 /// Returns the point where `quadric` is lowest; `weak` decides between points with nearly the same value. If there is
-/// no single lowest point, or if it is far from the edge between `ends`, returns the lowest of three points: the two
-/// ends and their middle.
+/// no single lowest point, or if this point is far from the edge between `ends`, only three points are compared: the
+/// two ends and the midpoint of the edge. The result is the point with the lowest sum of `quadric` and `weak`.
 fn lowest_near(quadric: &Quadric, weak: &Quadric, ends: [DVec3; 2]) -> DVec3 {
     let [a, b] = ends;
     let middle = 0.5 * (a + b);

@@ -1,4 +1,4 @@
-//! Denoising: filters the face normals, then moves the vertices so that the faces have the filtered normals.
+//! Denoising: filters the face normals, then moves the vertices so that the faces get the filtered normals.
 //!
 //! ```text
 //!     n(f) <- normalized sum over the faces g around f of
@@ -6,9 +6,9 @@
 //!     x(v) <- x(v) + mean over the faces f of v of  n(f) (n(f) . (c(f) - x(v)))
 //! ```
 //!
-//! Here a, c and n are areas, centers and normals of faces. The length s is the mean distance between the centers of
-//! adjacent faces. The number t = sin(angle / 2) is half the distance between the ends of two unit normals that enclose
-//! `angle`, the parameter of the method.
+//! Here x are positions of vertices, and a, c and n are areas, centers and normals of faces. The length s is the mean
+//! distance between the centers of adjacent faces. The number t = sin(angle / 2) comes from the parameter `angle` of
+//! the method. It is half the distance between the ends of two unit normals that enclose this angle.
 
 use mesh::{DVec3, Domain, FaceId, Mesh, VertexId, parallel};
 use progress::{Cancelled, Meter, Progress};
@@ -16,8 +16,8 @@ use progress::{Cancelled, Meter, Progress};
 use super::{SmoothError, Smoother};
 use crate::sin_cos_degrees;
 
-/// Two faces that share a vertex are neighbors. At a vertex with more edges than this number, two faces are neighbors
-/// only if they also share an edge. This rule keeps the work proportional to the number of faces.
+/// Two faces that share a vertex are neighbors. However, two faces that meet only at one vertex are not neighbors if
+/// this vertex has more edges than this number. This rule keeps the work proportional to the number of faces.
 const MAX_FAN: u8 = 64;
 /// The number of faces between two checks for cancellation.
 const CHECK: usize = 1024;
@@ -48,7 +48,7 @@ pub(super) fn denoise(
     Ok(())
 }
 
-/// Computes a value for each face index. Dead faces get the default value.
+/// Computes a value for each face index. Dead (removed) faces get the default value.
 fn of_faces<T: Send + Default>(mesh: &Mesh, value: impl Fn(&Mesh, FaceId) -> T + Sync) -> Vec<T> {
     parallel::collect(mesh.domain_len(Domain::Face), |f| {
         let f = FaceId::new(f);
@@ -81,7 +81,7 @@ fn filtered_normals(
     let spread = spread_of_centers(mesh, &centers);
     // Half of the distance between the ends of two unit normals that enclose this angle.
     let (tolerance, _) = sin_cos_degrees(0.5 * angle);
-    // exp(-|difference|² / 2 s²): a difference of 0 gives the weight 1 even if s is 0.
+    // The weight exp(-|difference|² / 2 s²). A difference of 0 gives the weight 1 even if s is 0.
     let falloff = |square: f64, spread: f64| {
         if square == 0.0 {
             1.0
@@ -120,8 +120,8 @@ fn filtered_normals(
     Ok(normals)
 }
 
-/// Replaces `around` by the face and all faces that share a vertex with it, in ascending order; see [`MAX_FAN`] for the
-/// exception.
+/// Replaces the contents of `around` by the face `f` and all faces that share a vertex with it, in ascending order. At
+/// vertices with many edges, fewer faces are neighbors; see [`MAX_FAN`].
 fn neighbors(mesh: &Mesh, fans: &[u8], f: FaceId, around: &mut Vec<FaceId>) {
     around.clear();
     if !mesh.has_face(f) {

@@ -1,4 +1,4 @@
-//! Steps of a vertex towards, or away from, the mean of its neighbors.
+//! Moves vertices towards the mean of their neighbors, or away from this mean.
 
 use mesh::{DVec3, Mesh, VertexId};
 use progress::Progress;
@@ -7,12 +7,13 @@ use super::{Role, SmoothError, Smoother, Weights};
 use crate::Laplacian;
 use crate::sparse::SymmetricMatrix;
 
-/// Returns the negative factor μ of a Taubin pass, for which 1 / factor + 1 / μ = `pass_band`.
+/// Returns the factor μ of the second, growing step of a Taubin pass. This factor is negative and satisfies 1 /
+/// factor + 1 / μ = `pass_band`.
 pub(super) fn growing_factor(factor: f64, pass_band: f64) -> f64 {
     factor / (pass_band * factor - 1.0)
 }
 
-/// Moves each vertex by `factor` towards the mean of its neighbors.
+/// Moves each vertex towards the weighted mean of its neighbors, by the fraction `factor` of the way.
 pub(super) fn step(
     smoother: &Smoother,
     mesh: &mut Mesh,
@@ -46,7 +47,7 @@ pub(super) fn step(
     Ok(())
 }
 
-/// Returns the vectors to the neighbors of `v`, with their weights.
+/// Returns the vectors from `v` to its neighbors, each with the weight of the neighbor.
 fn neighbors<'a>(
     matrix: &'a SymmetricMatrix,
     mesh: &'a Mesh,
@@ -59,8 +60,8 @@ fn neighbors<'a>(
     others.map(move |(w, entry)| (mesh.positions()[w as usize] - p, f64::max(0.0, -entry)))
 }
 
-/// Returns the vector to the weighted mean of the two neighbors on the boundary. `weight` returns the weight of a
-/// neighbor at a given distance.
+/// Returns the vector from `v` to the weighted mean of its two neighbors on the boundary. `weight` computes the weight
+/// of a neighbor from its distance.
 fn along_rim(mesh: &Mesh, v: VertexId, weight: impl Fn(f64) -> f64) -> DVec3 {
     let p = mesh.position(v);
     let rim = mesh
@@ -72,7 +73,8 @@ fn along_rim(mesh: &Mesh, v: VertexId, weight: impl Fn(f64) -> f64) -> DVec3 {
     }))
 }
 
-/// Returns the weighted mean. Returns zero if all weights are zero.
+/// Returns the weighted mean of vectors, which are given with their weights. Returns the zero vector if all weights are
+/// zero.
 fn mean(vectors: impl Iterator<Item = (DVec3, f64)>) -> DVec3 {
     let (mut sum, mut total) = (DVec3::ZERO, 0.0);
     for (vector, weight) in vectors {

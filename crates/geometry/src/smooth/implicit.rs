@@ -1,4 +1,4 @@
-//! A backward Euler step of mean curvature flow.
+//! Smooths a mesh by one backward Euler step of mean curvature flow.
 
 use mesh::{DVec3, Mesh, parallel};
 use progress::Progress;
@@ -7,11 +7,11 @@ use super::{Role, SmoothError, Smoother};
 use crate::sparse::{Factor, SymmetricMatrix};
 use crate::{Laplacian, bounds};
 
-/// The longest time, in multiples of the squared diagonal of the bounding box. After this time, a shape has shrunk to
-/// less than a thousandth of its size. The equations are still well conditioned.
+/// The longest time of the flow, in multiples of the squared diagonal of the bounding box. After this time, a shape has
+/// shrunk to less than a thousandth of its size. For this time, the equations are still well conditioned.
 const LONGEST: f64 = 1e3;
-/// The shortest length of a boundary edge in the equations, relative to the mean length. A shorter boundary edge counts
-/// as an edge of this length.
+/// The shortest length of a boundary edge in the equations, as a fraction of the mean length of the boundary edges. A
+/// shorter boundary edge counts as an edge of this length.
 const SHORTEST: f64 = 1e-5;
 
 /// Solves (M + time L) x' = M x for the new positions x', where L is the Laplacian, and M is the diagonal matrix of the
@@ -24,7 +24,7 @@ pub(super) fn step(
     progress: &dyn Progress,
 ) -> Result<(), SmoothError> {
     let diagonal = bounds(mesh).map_or(0.0, |[min, max]| min.distance(max));
-    // If all vertices coincide, the mesh does not change.
+    // If all vertices are at the same point, the mesh does not change.
     if diagonal == 0.0 {
         return Ok(());
     }
@@ -45,7 +45,8 @@ pub(super) fn step(
     )
 }
 
-/// Moves the vertices with the given role. All other vertices are pinned.
+/// Solves the equations for the vertices with the given role, and moves these vertices. All other vertices stay in
+/// place.
 fn solve(
     smoother: &Smoother,
     mesh: &mut Mesh,
@@ -77,8 +78,8 @@ fn solve(
     Ok(())
 }
 
-/// Returns the Laplacian of the boundary, which is treated as a set of curves. The weight of an edge is 1 /
-/// length. The mass of a vertex is half the length of its two edges.
+/// Returns the Laplacian of the boundary, which is treated as a set of curves. The weight of an edge is 1 / length. The
+/// mass of a vertex is half the total length of its two boundary edges.
 fn rim_laplacian(mesh: &Mesh) -> (SymmetricMatrix, Vec<f64>) {
     let edges = || mesh.edges().filter(|&e| mesh.is_boundary_edge(e));
     let lengths = edges().map(|e| mesh.length(e.half_edge()));

@@ -8,8 +8,8 @@
 //! | [`Method::Denoise`] | filter the normals of the faces, then fit the vertices | `denoise.rs` |
 //!
 //! The result is identical bit for bit for any number of threads. The implicit method uses the solver of
-//! [`sparse`](crate::sparse), whose results do not depend on the number of threads. In all methods except the implicit
-//! one, each new position is computed by one thread, from the positions of the previous iteration only.
+//! [`sparse`](crate::sparse), whose results do not depend on the number of threads. In all other methods, one thread
+//! computes each new position, and uses only positions from the previous iteration.
 
 mod denoise;
 mod explicit;
@@ -27,11 +27,11 @@ use crate::volume;
 /// How vertices are moved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Method {
-    /// Moves each vertex by `factor` towards the weighted mean of its neighbors.
+    /// Moves each vertex towards the weighted mean of its neighbors, by the fraction `factor` of the way.
     Laplacian {
         /// The weights of the neighbors.
         weights: Weights,
-        /// The fraction of the way that a vertex moves, from 0 to 1.
+        /// The fraction of the way to the mean by which a vertex moves, from 0 to 1.
         factor: f64,
     },
     /// Alternates a Laplacian step with `factor` and a Laplacian step with a negative factor μ, for which
@@ -43,8 +43,8 @@ pub enum Method {
         /// The factor of the first step, from 0 to 1. The method must be [stable](Method::is_stable) with the chosen
         /// `factor` and `pass_band`.
         factor: f64,
-        /// The frequency below which the filter removes nothing, from 0 to 1. The frequencies of a mesh are
-        /// between 0 and 2.
+        /// The pass band: the frequency below which the filter removes nothing, from 0 to 1. The frequencies of a mesh
+        /// are between 0 and 2.
         pass_band: f64,
     },
     /// Solves (M + time L) x' = M x for the new positions x', where x are the old positions, L is the
@@ -62,13 +62,13 @@ pub enum Method {
     Denoise {
         /// The angle between two normals at which their weight is exp(-2) = 0.14, in degrees from 0 to 180.
         angle: f64,
-        /// The number of passes that move the vertices.
+        /// The number of vertex passes: how often the vertices are moved after the normals were filtered.
         vertex_passes: u32,
     },
 }
 
 impl Method {
-    /// Whether the method is stable, which means that no frequency above the pass band grows from pass to pass.
+    /// Whether the method is stable. A method is stable if no frequency above the pass band grows from pass to pass.
     ///
     /// A Taubin pass multiplies the amplitude of the frequency k by (1 - factor k)(1 - μ k). At the highest frequency,
     /// k = 2, the absolute value of this product must be at most 1.
@@ -91,7 +91,7 @@ pub enum Weights {
     /// The same weight for all vertices that share an edge with the vertex.
     #[default]
     Uniform,
-    /// The weights of the cotangent Laplacian, recomputed for each step. Negative weights count as 0, so
+    /// The weights of the cotangent Laplacian, which are computed again for each step. Negative weights count as 0, so
     /// that a vertex stays between its neighbors.
     Cotangent,
 }
@@ -118,8 +118,8 @@ pub struct Smoothing<'a> {
     pub is_free: &'a [bool],
     /// How boundary vertices move.
     pub boundary: Boundary,
-    /// Whether the volume of the mesh is preserved: at the end, all free vertices are moved by the same distance
-    /// along their normals. The mesh must be closed.
+    /// Whether the volume of the mesh is preserved. If it is preserved, all free vertices are moved by the same
+    /// distance along their normals after smoothing. The mesh must then be closed.
     pub keep_volume: bool,
 }
 
@@ -129,7 +129,8 @@ pub enum SmoothError {
     /// The volume cannot be preserved, because the volume of a mesh with a boundary is not defined.
     #[error("the volume can be preserved only if the mesh is closed, but the mesh has a boundary")]
     NotClosed,
-    /// No distance along the normals restores the volume.
+    /// To restore the volume, all free vertices are moved along their normals. No distance of this movement gave the
+    /// old volume.
     #[error(
         "the volume was {}, and moving the free vertices along their normals gives {} at best; smooth less, or do \
          not keep the volume",
@@ -138,16 +139,16 @@ pub enum SmoothError {
     Volume {
         /// The volume before smoothing.
         before: f64,
-        /// The volume nearest to `before` that was found.
+        /// Of the volumes that were reached by moving the vertices, the volume nearest to `before`.
         after: f64,
     },
-    /// The factors of [`Method::Taubin`] amplify the highest frequency.
+    /// With the given factors, [`Method::Taubin`] would amplify the highest frequency.
     #[error(
         "this factor and pass band amplify noise: (1 - 2 factor)(1 - 2 μ) must be between -1 and 1, where \
          1 / μ = pass_band - 1 / factor; use a factor of at most 0.6"
     )]
     Unstable,
-    /// A coordinate would not be finite.
+    /// A coordinate of the smoothed mesh would not be finite.
     #[error("a coordinate would exceed the largest number, 1.8e308; scale the mesh down first")]
     Overflow,
     /// The equations of [`Method::Implicit`] were not solved.
@@ -182,8 +183,8 @@ pub fn smooth(
         return Err(SmoothError::NotClosed);
     }
     let before = mesh.positions().to_vec();
-    // Scales the coordinates to a size near 1, so that squares are finite. Scaling by a power of two does not
-    // change the result.
+    // Scales the coordinates to a size near 1, so that squares of lengths are finite. The scale is a power of two, so
+    // it causes no rounding errors.
     let exponent = exponent(&before);
     let scale = |points: &mut [DVec3], e: i32| {
         parallel::change(points, |p| *p = scaled(*p, e));
@@ -213,7 +214,7 @@ pub fn smooth(
     Ok(moved)
 }
 
-/// How a vertex moves.
+/// How the smoothing moves a vertex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Role {
     Pinned,
@@ -247,7 +248,7 @@ impl<'a> Smoother<'a> {
         }
     }
 
-    /// Smooths a mesh whose coordinates were divided by two to the power of `exponent`.
+    /// Smooths a mesh whose coordinates were divided by 2 to the power of `exponent`.
     fn run(
         &self,
         mesh: &mut Mesh,
@@ -292,7 +293,8 @@ impl<'a> Smoother<'a> {
         }
     }
 
-    /// Computes new positions for all vertices that are not pinned, from the old ones.
+    /// Computes the new positions of all vertices that are not pinned. Each new position is computed from the old
+    /// positions only.
     fn gather(&self, mesh: &mut Mesh, position: impl Fn(&Mesh, VertexId, Role) -> DVec3 + Sync) {
         let new: Vec<DVec3> = parallel::collect(self.roles.len(), |v| match self.roles[v] {
             Role::Pinned => mesh.positions()[v],
@@ -301,9 +303,10 @@ impl<'a> Smoother<'a> {
         mesh.positions_mut().copy_from_slice(&new);
     }
 
-    /// Moves the free vertices along their normals until the mesh has the volume `target`. The first step is
-    /// computed from the derivative of the volume, which is the area of the free vertices. `target` is a volume of the
-    /// mesh whose coordinates were divided by two to the power of `exponent`.
+    /// Moves all vertices that are not pinned by the same distance along their normals, so that the mesh has the volume
+    /// `target`. The first distance is computed from the derivative of the volume, which is the area around these
+    /// vertices. `target` is a volume in the scaled coordinates, which are scene coordinates divided by 2 to the power
+    /// of `exponent`.
     fn restore_volume(
         &self,
         mesh: &mut Mesh,
@@ -329,7 +332,7 @@ impl<'a> Smoother<'a> {
             volume(mesh)
         };
         let (mut distance, mut best) = (0.0, volume(mesh));
-        // The loop is the secant method, with the derivative as the first slope.
+        // The loop is the secant method. Its first slope is the derivative of the volume.
         let (mut at, mut error, mut slope) = (0.0, target - best, slope);
         for _ in 0..STEPS {
             if error.abs() <= 1e-14 * target.abs() || slope == 0.0 || !slope.is_finite() {

@@ -22,27 +22,28 @@ use front::{Front, Update};
 
 /// The largest number of entries of a factor. This number of entries takes 16 GiB.
 const MAX_ENTRIES: u64 = 1 << 31;
-/// The largest accepted residual, relative to the size of the terms of the equations.
+/// The largest residual with which a solution is accepted, relative to the size of the terms of the equations.
 const MAX_RESIDUAL: f64 = 1e-9;
-/// A solution is refined at most [`REFINEMENTS`] times, until its relative residual is at most this number or hardly
-/// decreases.
+/// The refinement of a solution stops when its relative residual is at most this number, when the residual hardly
+/// decreases, or after [`REFINEMENTS`] steps.
 const GOOD_RESIDUAL: f64 = 1e-14;
 const REFINEMENTS: usize = 3;
 /// The text that progress reports show for the factorization.
 const TASK: &str = "factor the matrix";
 
-/// The factorization of a symmetric positive definite matrix, for any number of right-hand sides. Unknowns can be
-/// pinned to given values.
+/// The factorization of a symmetric positive definite matrix. The same factorization solves the equations for any
+/// number of right-hand sides. Unknowns can be pinned to given values.
 #[derive(Debug)]
 pub struct Factor<'a> {
     matrix: &'a SymmetricMatrix,
-    /// The rows of the free unknowns.
+    /// The rows of the free unknowns: the unknowns that are not pinned.
     free: Vec<u32>,
     symbolic: Symbolic,
-    /// The entries of L of consecutive supernodes. The entries of a supernode are one slice, column by column.
+    /// The entries of L, in several parts, each for consecutive supernodes. A supernode is a range of columns with
+    /// entries in the same rows. The entries of a supernode are one slice of a part, column by column.
     values: Vec<Vec<f64>>,
-    /// For each supernode, the place of its entries: the index of a part of `values`, and the index of the first entry
-    /// in that part.
+    /// For each supernode, where its entries are: the index of a part of `values`, and the index of the first entry in
+    /// that part.
     places: Vec<(usize, usize)>,
     diagonal: Vec<f64>,
 }
@@ -137,8 +138,7 @@ impl<'a> Factor<'a> {
         self.symbolic.n_entries()
     }
 
-    /// Computes the entries of L and D. The entries are returned in parts, and each part belongs to consecutive
-    /// supernodes.
+    /// Computes the entries of L and of D. Returns both as lists of parts; each part belongs to consecutive supernodes.
     #[expect(clippy::type_complexity, reason = "two lists of parts")]
     fn eliminate<I: Iterator<Item = (u32, f64)>>(
         &self,
@@ -150,8 +150,8 @@ impl<'a> Factor<'a> {
         let total = supernodes.iter().map(Supernode::work).sum();
         let meter = Meter::new(progress, TASK, total).every(10_000_000);
         let n = self.free.len();
-        // First computes the subtrees in parallel, then the supernodes above them one after another. The
-        // parallel loops inside a large front compute each number in the same way for any number of threads.
+        // First eliminates the subtrees in parallel, then the supernodes above them, one after another. A large front
+        // is also processed in parallel; each of its numbers is computed in the same way for any number of threads.
         let subtrees: Result<Vec<_>, SolveError> = parallel::consume(&units, |_, unit| {
             let mut front = Front::new(n);
             if !unit.is_subtree {
@@ -189,8 +189,8 @@ impl<'a> Factor<'a> {
         Ok((values, diagonals))
     }
 
-    /// Creates the error for a pivot that is not positive. The column of the factor is converted to a row of the
-    /// matrix.
+    /// Creates the error for a pivot that is not positive. The error names the row of the matrix that belongs to the
+    /// column of the factor.
     fn at_row(&self, (column, pivot): (usize, f64)) -> SolveError {
         let row = self.free[self.symbolic.order[column] as usize] as usize;
         SolveError::NotPositiveDefinite { row, pivot }
@@ -203,7 +203,7 @@ impl<'a> Factor<'a> {
     ///
     /// Returns [`SolveError::Residual`] if the residual is larger than 1e-9 times the size of the terms. To compute the
     /// size of the terms, the absolute values of the terms of each equation are added up, and the largest of these sums
-    /// is taken. `x` is then unspecified.
+    /// is taken. After this error, the free entries of `x` are unspecified.
     ///
     /// # Panics
     ///
@@ -214,8 +214,7 @@ impl<'a> Factor<'a> {
         for &i in &self.free {
             x[i as usize] = T::default();
         }
-        // With the free unknowns at 0, the residual is the right-hand side minus the terms of the pinned
-        // unknowns.
+        // The free unknowns are 0 here, so the residual is the right-hand side minus the terms of the pinned unknowns.
         let (mut residual, _) = self.residual(b, x);
         let mut best = f64::INFINITY;
         for _ in 0..=REFINEMENTS {
@@ -243,8 +242,8 @@ impl<'a> Factor<'a> {
         }
     }
 
-    /// Returns b - A x for the free rows. Also adds up the absolute values of the terms of each row, and returns the
-    /// largest of these sums.
+    /// Returns the residual b - A x for the rows of the free unknowns. Also returns the size of the terms: for each
+    /// row, the absolute values of its terms are added up, and the result is the largest of these sums.
     fn residual<T: Entry>(&self, b: &[T], x: &[T]) -> (Vec<T>, f64) {
         let rows: Vec<(T, f64)> = parallel::collect(self.free.len(), |i| {
             let i = self.free[i] as usize;
@@ -260,7 +259,7 @@ impl<'a> Factor<'a> {
         (rows.into_iter().map(|r| r.0).collect(), size)
     }
 
-    /// Solves L D L^T x = b for the free unknowns.
+    /// Solves L D L^T x = b for the free unknowns by substitution, and returns x.
     fn substitute<T: Entry>(&self, b: &[T]) -> Vec<T> {
         let order = &self.symbolic.order;
         let mut x: Vec<T> = order.iter().map(|&i| b[i as usize]).collect();
@@ -302,18 +301,19 @@ impl<'a> Factor<'a> {
     }
 }
 
-/// Returns the larger number, or NaN if one is NaN.
+/// Returns the larger of two numbers, or NaN if one of them is NaN.
 fn f64_max(a: f64, b: f64) -> f64 {
     if a > b || a.is_nan() { a } else { b }
 }
 
-/// A subtree whose supernodes one thread eliminates, or one supernode above all subtrees.
+/// A unit of the elimination: a subtree, whose supernodes one thread eliminates, or a single supernode above the
+/// subtrees.
 struct Unit {
     range: std::ops::Range<usize>,
     is_subtree: bool,
 }
 
-/// Divides the tree into subtrees of limited work, and the supernodes above them.
+/// Divides the tree of supernodes into units: subtrees of limited work, and the single supernodes above these subtrees.
 fn units(supernodes: &[Supernode]) -> Vec<Unit> {
     let mut work: Vec<u64> = supernodes.iter().map(Supernode::work).collect();
     let mut first: Vec<usize> = (0..supernodes.len()).collect();

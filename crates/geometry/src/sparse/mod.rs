@@ -1,4 +1,4 @@
-//! Sparse symmetric matrices, and a direct solver for those that are positive definite.
+//! Sparse symmetric matrices, and a direct solver for positive definite ones.
 //!
 //! The solver is a sparse Cholesky factorization P A Pᵀ = L D Lᵀ, without square roots:
 //!
@@ -43,7 +43,7 @@ pub use factor::Factor;
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SymmetricMatrix {
-    /// The entries of row i have the indices from `starts[i]` to `starts[i + 1]`, exclusive.
+    /// The entries of row i have the indices from `starts[i]` up to but not including `starts[i + 1]`.
     starts: Vec<usize>,
     /// The column of each entry. Within each row, the columns are in ascending order.
     columns: Vec<u32>,
@@ -55,7 +55,7 @@ pub struct SymmetricMatrix {
 pub trait Entry:
     Copy + Default + Send + Sync + Add<Output = Self> + Sub<Output = Self> + Mul<f64, Output = Self>
 {
-    /// Returns the largest absolute value of the components.
+    /// Returns the largest absolute value of the components of the entry.
     fn magnitude(self) -> f64;
 }
 
@@ -86,12 +86,12 @@ pub enum SolveError {
          a positive diagonal"
     )]
     NotPositiveDefinite {
-        /// The row of the matrix.
+        /// The row of the matrix to which the pivot belongs.
         row: usize,
         /// The pivot, which can be NaN.
         pivot: f64,
     },
-    /// The solution does not satisfy the equations.
+    /// The computed solution does not satisfy the equations accurately enough.
     #[error(
         "the solution is not accurate: the relative residual is {0:e}, but at most 1e-9 is accepted"
     )]
@@ -147,8 +147,8 @@ impl SymmetricMatrix {
         })
     }
 
-    /// Creates a matrix with `n` rows. `row` appends the entries (column, value) of one row to an empty list,
-    /// in any order; entries of the same column are added up in this order. The entries at (i, j) and (j, i) must
+    /// Creates a matrix with `n` rows. `row` appends the entries (column, value) of one row to an empty list, in any
+    /// order. Entries of the same column are added up in the order of this list. The entries at (i, j) and (j, i) must
     /// be identical bit for bit.
     pub(crate) fn from_rows(n: usize, row: impl Fn(usize, &mut Vec<(u32, f64)>) + Sync) -> Self {
         let blocks = parallel::blocks(n, |rows| {
@@ -222,7 +222,7 @@ impl SymmetricMatrix {
         }
     }
 
-    /// Returns the product with a vector.
+    /// Returns the product of this matrix and the vector `x`.
     ///
     /// # Panics
     ///

@@ -1,8 +1,8 @@
 //! A fill-reducing ordering: approximate minimum degree.
 //!
 //! Source: Amestoy, Davis, Duff, "An Approximate Minimum Degree Ordering Algorithm", 1996. The graph of the remaining
-//! matrix is kept as a quotient graph: an eliminated vertex p becomes an element, which stands for the clique of its
-//! neighbors:
+//! matrix is stored as a quotient graph: an eliminated vertex p becomes an element, which stands for the clique (all
+//! pairs) of the neighbors of p:
 //!
 //! ```text
 //!     a --- p --- b               a ..... b
@@ -10,12 +10,12 @@
 //!           c                        'c'
 //! ```
 //!
-//! Vertices with the same neighbors are merged into one supervariable. Ties are broken by the order of
-//! insertion, which depends only on the graph.
+//! Vertices with the same neighbors are merged into one supervariable. Of several vertices with the lowest degree, the
+//! order of insertion decides which is eliminated first; this order depends only on the graph.
 
 use progress::{Cancelled, Progress};
 
-/// The end of a linked list.
+/// Marks the end of a linked list.
 const NONE: u32 = u32::MAX;
 
 /// Returns the rows from 0 to n - 1 in an order that makes Gaussian elimination create few nonzero entries.
@@ -39,15 +39,17 @@ pub(super) fn minimum_degree(
 }
 
 struct Quotient {
-    /// For each variable, the adjacent variables that share no element with it.
+    /// For each variable, its neighbors that share no element with it.
     variables: Vec<Vec<u32>>,
     /// The adjacent elements of each variable.
     elements: Vec<Vec<u32>>,
-    /// The variables of each element. The list is empty if the element was absorbed by another element.
+    /// For each element, its members: the variables that are its neighbors. The list is empty if the element was
+    /// absorbed by another element.
     members: Vec<Vec<u32>>,
-    /// The total weight of the members of each element, set when the element is created.
+    /// For each element, the total weight of its members at the time when the element was created.
     size: Vec<u32>,
-    /// The number of rows that each variable stands for. The number is 0 if the variable was eliminated or merged.
+    /// For each variable, its weight: the number of matrix rows that it stands for. The weight is 0 if the variable was
+    /// eliminated or merged into another variable.
     weight: Vec<u32>,
     /// The variables that were merged into each variable, as linked lists.
     first_merged: Vec<u32>,
@@ -56,8 +58,8 @@ struct Quotient {
     buckets: Buckets,
     /// The eliminated variables, in order.
     pivots: Vec<u32>,
-    /// For each element, the total weight of those of its members that are not in the new element, plus 2³² times
-    /// `stamp`.
+    /// For each element, the total weight of those of its members that are not members of the newest element, plus 2³²
+    /// times `stamp`.
     outside: Vec<u64>,
     /// For each variable and each element, the value that `stamp` had when this entry was last set.
     mark: Vec<u64>,
@@ -142,8 +144,9 @@ impl Quotient {
         }
     }
 
-    /// Eliminates a variable with the lowest degree, and all variables that then have the same neighbors.
-    /// `remaining` is the number of rows that are not eliminated. Returns the number of eliminated rows.
+    /// Eliminates a variable with the lowest degree. Also eliminates those of its neighbors that then have no neighbors
+    /// outside the new element. `remaining` is the number of rows that are not eliminated. Returns the number of
+    /// eliminated rows.
     fn eliminate(&mut self, remaining: usize) -> usize {
         let p = self.buckets.lowest();
         self.buckets.remove(p, self.degree[p as usize]);
@@ -156,7 +159,8 @@ impl Quotient {
         for &i in &members {
             let (d, hash) = self.update(i, p);
             if self.elements[i as usize].len() == 1 && self.variables[i as usize].is_empty() {
-                // All neighbors of i are members of p, so eliminating i directly after p creates no entries.
+                // All neighbors of i are members of p, so eliminating i directly after p creates no new nonzero
+                // entries.
                 eliminated += self.weight[i as usize];
                 self.merge(i, p);
             } else {
@@ -178,8 +182,8 @@ impl Quotient {
         eliminated as usize
     }
 
-    /// Returns the members of the new element p: the neighbors of p. The elements adjacent to p are absorbed.
-    /// The members are removed from the buckets and marked with the stamp.
+    /// Returns the members of the new element p: the neighbors of p. The elements adjacent to p are absorbed. The
+    /// members are removed from the lists in `buckets`, and marked with the current stamp.
     fn new_element(&mut self, p: u32) -> Vec<u32> {
         self.stamp += 1;
         self.mark[p as usize] = self.stamp;
@@ -199,9 +203,10 @@ impl Quotient {
         members
     }
 
-    /// Computes `outside` for all elements that are adjacent to the members.
+    /// Computes the entries of `outside` for all elements that are adjacent to at least one of the members.
     fn measure_elements(&mut self, members: &[u32]) {
-        // The stamp grows, so all new values are above all earlier values. Therefore no old value has to be cleared.
+        // The stamp grows with each step, so all new values in `outside` are above all earlier values. Therefore old
+        // values do not have to be cleared.
         let base = self.stamp << 32;
         for &i in members {
             for &e in &self.elements[i as usize] {
@@ -214,8 +219,8 @@ impl Quotient {
         }
     }
 
-    /// Removes from the lists of i the variables and elements that the new element p covers. Returns an upper bound of
-    /// the degree of i without the members of p, and a hash of the lists.
+    /// Removes from the lists of i the variables and elements that the new element p covers. Returns two numbers: an
+    /// upper bound of the degree of i, not counting the members of p, and a hash of the lists of i.
     fn update(&mut self, i: u32, p: u32) -> (u32, u64) {
         let base = self.stamp << 32;
         let (mut degree, mut hash) = (0_u64, u64::from(p));
@@ -245,7 +250,7 @@ impl Quotient {
         (u32::try_from(degree.min(most)).expect("limited"), hash)
     }
 
-    /// Merges the members of the new element that have the same neighbors.
+    /// Merges those members of the new element that have the same neighbors as each other.
     fn merge_equal(&mut self) {
         let mut hashes = std::mem::take(&mut self.hashes);
         hashes.sort_unstable();
@@ -271,8 +276,8 @@ impl Quotient {
         self.hashes = hashes;
     }
 
-    /// Whether the lists of `j` have the same lengths as those of `i`, and contain only marked entries. A variable and
-    /// an element never have the same number.
+    /// Whether the lists of `j` have the same lengths as the lists of `i`, and contain only entries that are marked
+    /// with the current stamp. A variable and an element never have the same number, so one list of marks is enough.
     fn has_marked_lists_like(&self, j: u32, i: u32) -> bool {
         let [i, j] = [i as usize, j as usize];
         let lists = self.variables[j].iter().chain(&self.elements[j]);
@@ -295,7 +300,8 @@ impl Quotient {
         self.first_merged[into as usize] = i;
     }
 
-    /// Returns all rows: each pivot, followed by the variables that were merged into it.
+    /// Returns all rows in the order of their elimination: each pivot, followed by the variables that were merged into
+    /// it.
     fn order(self) -> Vec<u32> {
         let mut order = Vec::with_capacity(self.weight.len());
         let mut stack = Vec::new();

@@ -1,9 +1,9 @@
-//! The pattern of the factor: elimination tree, supernodes and their rows.
+//! Computes where the factor L has nonzero entries: the elimination tree, the supernodes and their rows.
 //!
 //! Source: Liu, "The Role of Elimination Trees in Sparse Factorization", 1990. A supernode is a range of columns that
 //! have entries in the same rows below their diagonal block. Small supernodes are merged with their parents, although
-//! some zeros must then be stored (Ashcraft, Grimes, "The Influence of Relaxed Supernode Partitions on the Multifrontal
-//! Method", 1989).
+//! the factor then stores some zeros (Ashcraft, Grimes, "The Influence of Relaxed Supernode Partitions on the
+//! Multifrontal Method", 1989).
 //!
 //! ```text
 //!     x                  a supernode of 3 columns
@@ -17,18 +17,19 @@ use std::ops::Range;
 
 /// The pattern of the factor of a matrix.
 pub(super) struct Symbolic {
-    /// The row of the matrix at each position of the factor.
+    /// For each row of the factor, the row of the matrix that it comes from.
     pub(super) order: Vec<u32>,
-    /// The supernodes, children before their parents. All descendants of a supernode come directly before it.
+    /// The supernodes. All descendants of a supernode come directly before it in this list.
     pub(super) supernodes: Vec<Supernode>,
 }
 
-/// A range of columns with the same pattern.
+/// A range of columns that have entries in the same rows below their diagonal block.
 pub(super) struct Supernode {
     pub(super) columns: Range<usize>,
     /// All rows in ascending order. The list begins with the columns of the supernode.
     pub(super) rows: Vec<u32>,
-    /// The parent in the elimination tree: the supernode that contains the first row after the columns.
+    /// The parent in the elimination tree: the supernode whose columns contain the first row of `rows` that is not a
+    /// column of this supernode.
     pub(super) parent: Option<usize>,
     pub(super) n_children: usize,
 }
@@ -39,14 +40,14 @@ impl Supernode {
         (self.columns.len() * self.rows.len()) as u64
     }
 
-    /// Returns about half the number of floating-point operations of the factorization.
+    /// Returns about half the number of floating-point operations that the elimination of this supernode takes.
     pub(super) fn work(&self) -> u64 {
         let (m, k) = (self.rows.len() as u64, self.columns.len() as u64);
         (0..k).map(|c| (m - c) * (m - c)).sum::<u64>() + m
     }
 }
 
-/// Takes the place of the parent of a column that has no parent in the elimination tree.
+/// Stands for the parent if a column has no parent in the elimination tree.
 const NONE: u32 = u32::MAX;
 
 impl Symbolic {
@@ -84,7 +85,7 @@ fn as_row(j: usize) -> u32 {
     u32::try_from(j).expect("rows fit 32 bits")
 }
 
-/// Returns the position of each number in a permutation.
+/// Returns, for each number, its position in the permutation `order`.
 pub(super) fn inverse(order: &[u32]) -> Vec<u32> {
     let mut position = vec![0; order.len()];
     for (at, &i) in (0..).zip(order) {
@@ -93,16 +94,16 @@ pub(super) fn inverse(order: &[u32]) -> Vec<u32> {
     position
 }
 
-/// Returns the parent of each column of the permuted matrix: the row of the first entry below the diagonal in this
-/// column of the factor.
+/// Returns, for each column of the permuted matrix, its parent: the row of the first entry below the diagonal in the
+/// same column of the factor.
 fn elimination_tree<I: Iterator<Item = u32>>(
     order: &[u32],
     neighbors: impl Fn(usize) -> I,
 ) -> Vec<u32> {
     let position = inverse(order);
     let mut parent = vec![NONE; order.len()];
-    // For each column, its highest ancestor in the elimination tree that is known so far. These ancestors shorten the
-    // paths to the root.
+    // For each column, its highest ancestor in the elimination tree that is known so far. Jumping to these ancestors
+    // shortens the paths to the root.
     let mut ancestor = vec![NONE; order.len()];
     for (k, &row) in (0..).zip(order) {
         for i in neighbors(row as usize) {
@@ -136,7 +137,7 @@ fn postorder(parent: &[u32]) -> Vec<u32> {
     }
     let mut post = Vec::with_capacity(n);
     while let Some(j) = roots.last().copied() {
-        // A column is finished when all of its children were taken from its list.
+        // A column is added to the result when all of its children were taken from its list.
         let child = first[j as usize];
         if child == NONE {
             post.push(j);
@@ -169,7 +170,7 @@ fn counts<I: Iterator<Item = u32>>(parent: &[u32], row: impl Fn(usize) -> I) -> 
     counts
 }
 
-/// Returns the columns of the supernodes.
+/// Returns, for each supernode, the range of its columns.
 fn supernode_ranges(parent: &[u32], counts: &[u32]) -> Vec<Range<usize>> {
     /// A supernode, its number of rows, and the number of zeros among its entries.
     struct Part {
@@ -190,7 +191,8 @@ fn supernode_ranges(parent: &[u32], counts: &[u32]) -> Vec<Range<usize>> {
             last.columns.end = j + 1;
             part = last;
         }
-        // The last child is merged as long as the merge stores few zeros.
+        // Merges the supernode with its last child, again and again, as long as the merged supernode has few zeros
+        // among its entries.
         while let Some(last) = parts.last() {
             let end = last.columns.end;
             if end != part.columns.start || !part.columns.contains(&(parent[end - 1] as usize)) {

@@ -1,4 +1,4 @@
-//! Building the tree.
+//! Builds the tree of boxes of a surface index.
 
 use std::cell::Cell;
 
@@ -9,7 +9,7 @@ use super::oriented::{are_thin, longest_side, sum};
 use super::{Node, Oriented, Origin, Slab, SurfaceIndex, Triangle};
 use crate::triangulate::Cutter;
 
-/// The maximum number of triangles of a leaf.
+/// The maximum number of triangles in a leaf of the tree.
 const LEAF: usize = 4;
 
 /// A subtree with at most this number of triangles is built by one thread.
@@ -21,7 +21,7 @@ const WHAT: &str = "build the spatial index";
 /// The center of a triangle, and the index of the triangle in the order of the faces.
 type Key = (DVec3, u32);
 
-/// A flat convex face with at least this number of corners is cut in half recursively.
+/// A flat convex face with at least this number of corners is cut in two halves, which are cut in the same way.
 const MANY_CORNERS: usize = 64;
 
 /// The number of triangles that are copied between two progress reports.
@@ -30,12 +30,12 @@ const PART: usize = 1 << 18;
 /// The number of triangles between two progress reports.
 const REPORT: usize = 16_384;
 
-/// Appends the triangles of a face. A face with at most four corners is triangulated as a fan. A face with more than
-/// four corners is triangulated by `cutter`, because the triangles of a fan could lie on top of each other. A point
-/// near a face would then be near all triangles of its fan, and searches would be slow. A flat convex face with many
-/// corners is an exception: it is cut in half recursively. For example, if the corners of a flat convex face lie on a
-/// circle, `cutter` makes long and thin triangles. A point is then inside the bounding boxes of many of these
-/// triangles.
+/// Appends the triangles of a face. A face with at most four corners is divided into a fan of triangles. A face with
+/// more than four corners is triangulated by `cutter`, because the triangles of a fan could lie on top of each other. A
+/// point near a face would then be near all triangles of its fan, and searches would be slow. A flat convex face with
+/// at least 64 corners is an exception: it is cut in two halves, which are cut in the same way. If the corners of such
+/// a face lie on a circle, for example, `cutter` would make long and thin triangles. A point would then be inside the
+/// bounding boxes of many of these triangles, and searches would be slow.
 ///
 /// # Errors
 ///
@@ -92,8 +92,8 @@ pub(crate) fn triangulate(
     Ok(())
 }
 
-/// Calls `triangle` once for each triangle of a polygon, with its corners. The first triangle separates the polygon
-/// into two halves. Each half is then divided in the same way.
+/// Divides a polygon into triangles, and calls `triangle` with the corners of each of them. The first triangle
+/// separates the polygon into two halves. Each half is then divided in the same way.
 fn halve(
     corners: &[HalfEdgeId],
     triangle: &mut impl FnMut([HalfEdgeId; 3]) -> Result<(), Cancelled>,
@@ -165,7 +165,7 @@ impl SurfaceIndex {
     }
 }
 
-/// A part of the tree that is to be built.
+/// A subtree that has not been built yet, with the lists that its nodes are written to.
 struct Subtree<'a> {
     keys: &'a mut [Key],
     nodes: &'a mut [Node],
@@ -179,8 +179,9 @@ struct Subtree<'a> {
 }
 
 impl Subtree<'_> {
-    /// Builds the nodes. Returns two sums over all triangles: of the unit normal times twice the area, and of the
-    /// longest side, in one of its two directions.
+    /// Builds the nodes of the subtree. Returns two sums over its triangles. The first sum adds up the unit normals,
+    /// each times twice the area. The second sum adds up the longest sides as vectors, each in one of its two
+    /// directions.
     fn build(
         self,
         triangles: &[Triangle],
@@ -220,8 +221,8 @@ impl Subtree<'_> {
         if n > TASK {
             ask()?;
         }
-        // Triangles whose centers have the same coordinate along the axis are ordered by their indices. So no two keys
-        // are equal, and the two halves do not depend on the order of the keys.
+        // Triangles whose centers have the same coordinate along the axis are ordered by their indices. Therefore no
+        // two keys are equal, and the two halves do not depend on the order in which the keys were given.
         self.keys.select_nth_unstable_by(middle, |a, b| {
             a.0[axis].total_cmp(&b.0[axis]).then(a.1.cmp(&b.1))
         });
@@ -270,7 +271,8 @@ impl Subtree<'_> {
     }
 }
 
-/// Returns `value(0)` to `value(n - 1)`. Runs in parallel. Stops if `ask` returns an error.
+/// Computes the list of the values `value(0)` to `value(n - 1)`, in parallel. Stops with an error if `ask` returns an
+/// error.
 fn collect<T: Send>(
     n: usize,
     value: impl Fn(usize) -> T + Sync,

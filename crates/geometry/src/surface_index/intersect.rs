@@ -11,7 +11,8 @@ use crate::predicates::{orient2d, orient3d};
 
 /// Returns the faces of a mesh that intersect another face of the mesh, in ascending order. Polygons are divided into
 /// triangles as in [`SurfaceIndex`], and the triangles are tested by [`triangles_intersect`]. Corners and sides that
-/// neighbors have in common do not count as intersections. Corners at the same position count as common corners.
+/// two triangles have in common do not count as intersections. Corners of two triangles at the same position count as
+/// common corners.
 ///
 /// # Errors
 ///
@@ -25,8 +26,8 @@ pub fn self_intersecting_faces(
     };
     let slots = mesh.domain_len(Domain::Face);
     let is_found: Vec<AtomicBool> = (0..slots).map(|_| AtomicBool::new(false)).collect();
-    // The result does not depend on the order of the pairs, so a pair can be skipped if both faces are already
-    // marked.
+    // A pair of triangles is skipped if both of their faces are already marked, because the test could not mark another
+    // face.
     let visit = |i: u32, j: u32| {
         let faces = [i, j].map(|i| index.origins[i as usize].face);
         let found = faces.map(|f| &is_found[f.index()]);
@@ -50,18 +51,18 @@ pub fn self_intersecting_faces(
 
 /// Whether two triangles have a common point that is not on a common corner or side.
 ///
-/// Corners at the same position are common, and so are sides between two common corners. Neighbors in a mesh therefore
-/// intersect only if they have other common points. Two triangles with a common side intersect if they overlap in the
-/// same plane. Two triangles with one common corner intersect if they also meet at another point. Two triangles with
-/// the same three corners intersect. A zero-area triangle has no intersections, because its sides are usually also
-/// sides of its neighbors.
+/// Corners at the same position are common corners, and sides between two common corners are common sides. Neighbors in
+/// a mesh therefore intersect only if they also meet at other points. Two triangles with a common side intersect if
+/// they overlap in the same plane. Two triangles with one common corner intersect if they also meet at another point.
+/// Two triangles with the same three corners intersect. A zero-area triangle never counts as intersecting, because its
+/// sides are usually also sides of its neighbors.
 ///
 /// The answer is exact for coordinates up to 1e150 in magnitude, if the differences between coordinates are not below
 /// 1e-90 times the largest coordinate.
 ///
-/// Two triangles have a common point if and only if a side of one of them meets the other. All decisions are signs of
-/// volumes and areas, as in Guigue, Devillers, "Fast and Robust Triangle-Triangle Overlap Test Using Orientation
-/// Predicates", 2003.
+/// Two triangles have a common point if and only if a side of one of them meets the other triangle. The test uses only
+/// the signs of volumes and areas, as in Guigue, Devillers, "Fast and Robust Triangle-Triangle Overlap Test Using
+/// Orientation Predicates", 2003.
 pub fn triangles_intersect(s: &[DVec3; 3], t: &[DVec3; 3]) -> bool {
     let largest = s
         .iter()
@@ -98,8 +99,9 @@ fn intersect(s: &[DVec3; 3], t: &[DVec3; 3]) -> bool {
             if sides_of_plane(s, t).is_none() || !has_area(s) || !has_area(t) {
                 return false;
             }
-            // If the triangles have another common point, the ray from the common corner to this point leaves one
-            // of the triangles through the opposite side.
+            // The triangles have one common corner. Suppose that they have another common point, and consider the ray
+            // from the common corner through this point. The ray leaves the first of the two triangles through the side
+            // opposite the corner, at a point of the other triangle.
             let opposite = |t: &[DVec3; 3], common: [bool; 3]| {
                 let i = common.iter().position(|c| *c).unwrap_or(0);
                 [t[(i + 1) % 3], t[(i + 2) % 3]]
@@ -111,7 +113,7 @@ fn intersect(s: &[DVec3; 3], t: &[DVec3; 3]) -> bool {
                 let i = common.iter().position(|c| !c).unwrap_or(0);
                 [t[i], t[(i + 1) % 3], t[(i + 2) % 3]]
             };
-            // Two corners of a triangle at the same position count as two corners.
+            // If two corners of one triangle are at the same position, both count as corners.
             let [p, a, b] = apex(s, in_t);
             let [q, ..] = apex(t, in_s);
             orient3d(p, a, b, q) == Equal && has_area(s) && has_area(t) && {
@@ -123,8 +125,8 @@ fn intersect(s: &[DVec3; 3], t: &[DVec3; 3]) -> bool {
     }
 }
 
-/// Returns the side of the plane of `t` on which each corner of `s` lies. Returns `None` if all corners of `s` are
-/// strictly on one side.
+/// Returns, for each corner of `s`, the side of the plane of `t` on which it lies. Returns `None` if all corners of `s`
+/// are strictly on one side of this plane.
 fn sides_of_plane(s: &[DVec3; 3], t: &[DVec3; 3]) -> Option<[Ordering; 3]> {
     let sides = s.map(|p| orient3d(t[0], t[1], t[2], p));
     let all_on = |side| sides.iter().all(|s| *s == side);
@@ -142,7 +144,7 @@ fn meets([p, q]: [DVec3; 2], t: &[DVec3; 3]) -> bool {
     !(turns.contains(&Greater) && turns.contains(&Less))
 }
 
-/// Whether a segment in the plane of a triangle has a common point with it.
+/// Whether a segment and a triangle in the same plane have a common point.
 fn meets_flat([p, q]: [DVec3; 2], t: &[DVec3; 3]) -> bool {
     let flat = flatten(t);
     let (p, q, t) = (flat(p), flat(q), t.map(flat));
@@ -150,8 +152,9 @@ fn meets_flat([p, q]: [DVec3; 2], t: &[DVec3; 3]) -> bool {
         let turns = [0, 1, 2].map(|i| orient2d(t[i], t[(i + 1) % 3], p));
         !(turns.contains(&Greater) && turns.contains(&Less))
     };
-    // A segment with both ends outside of the triangle meets the triangle if and only if it meets one of its sides. Two
-    // segments on different lines meet if neither has both ends strictly on one side of the line through the other.
+    // A segment with both ends outside of the triangle meets the triangle if and only if it meets a side of the
+    // triangle. Two segments on different lines meet if neither segment has both ends strictly on one side of the line
+    // through the other segment.
     let crosses = |a, b| {
         let (at_a, at_b) = (orient2d(p, q, a), orient2d(p, q, b));
         let (at_p, at_q) = (orient2d(a, b, p), orient2d(a, b, q));
@@ -160,8 +163,8 @@ fn meets_flat([p, q]: [DVec3; 2], t: &[DVec3; 3]) -> bool {
     contains(p) || contains(q) || (0..3).any(|i| crosses(t[i], t[(i + 1) % 3]))
 }
 
-/// Returns a projection along an axis in which the area of the triangle is not zero, if there is such a
-/// projection.
+/// Returns a projection along a coordinate axis. If possible, the axis is chosen so that the projected triangle has an
+/// area that is not zero.
 fn flatten(t: &[DVec3; 3]) -> impl Fn(DVec3) -> DVec2 + use<> {
     let along = |axis: usize| move |p: DVec3| DVec2::new(p[(axis + 1) % 3], p[(axis + 2) % 3]);
     let axis = (0..3).find(|&axis| {
@@ -171,7 +174,7 @@ fn flatten(t: &[DVec3; 3]) -> impl Fn(DVec3) -> DVec2 + use<> {
     along(axis.unwrap_or(0))
 }
 
-/// Whether the three points are not on a line.
+/// Whether the triangle has an area: its three corners are not on one line.
 fn has_area(t: &[DVec3; 3]) -> bool {
     let flat = flatten(t);
     orient2d(flat(t[0]), flat(t[1]), flat(t[2])) != Equal

@@ -13,8 +13,8 @@
 //!
 //! The index is a binary tree of axis-aligned boxes. The triangles of a node are sorted along the longest side of the
 //! bounding box of their centers; each child gets half of the triangles. A node also has a slab: two parallel planes
-//! around its triangles. If many triangles are thin, nodes also have oriented boxes. The tree depends only on the mesh,
-//! not on the number of threads.
+//! with its triangles between them. If many triangles of the surface are thin, nodes also have oriented boxes, whose
+//! sides do not have to be parallel to the axes. The tree depends only on the mesh, not on the number of threads.
 //!
 //! A face with four corners is divided into a fan of two triangles. A face with more corners is divided by
 //! [`triangulate`](mod@crate::triangulate).
@@ -48,14 +48,14 @@ pub struct SurfaceIndex {
     nodes: Vec<Node>,
     /// The slab of each node.
     slabs: Vec<Slab>,
-    /// The oriented box of each node. Empty if the surface has only a few thin triangles.
+    /// The oriented box of each node. The list is empty if the surface has few or no thin triangles.
     oriented: Vec<Oriented>,
     /// The corners of the triangles, in the order of the tree.
     positions: Vec<[DVec3; 3]>,
     origins: Vec<Origin>,
 }
 
-/// A triangle of a face.
+/// One of the triangles into which a face is divided.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Triangle {
     /// The positions of the three corners, in the order of the face.
@@ -76,8 +76,8 @@ struct Origin {
     face: FaceId,
 }
 
-/// A box around the triangles `first..last`. An inner node has two children: the node that follows it in the
-/// list, and the node with index `right`. In a leaf, `right` is 0.
+/// A node of the tree: a box around the triangles with the indices `first..last`. An inner node has two children: the
+/// node that follows it in the list of nodes, and the node with the index `right`. In a leaf, `right` is 0.
 #[derive(Clone, Copy, Debug)]
 struct Node {
     min: DVec3,
@@ -102,7 +102,7 @@ impl SurfaceIndex {
         Self::build(mesh, mesh.faces(), progress)
     }
 
-    /// Builds the index of some faces of a mesh. Returns `None` if there are no faces.
+    /// Builds the index of the given faces of a mesh. Returns `None` if no faces are given.
     ///
     /// # Errors
     ///
@@ -121,7 +121,7 @@ impl SurfaceIndex {
         self.positions.len()
     }
 
-    /// Returns the triangle with an index.
+    /// Returns the triangle with the index `i`.
     ///
     /// # Panics
     ///
@@ -141,7 +141,7 @@ impl SurfaceIndex {
         }
     }
 
-    /// Returns the face that contains a triangle. Returns `None` if there is no triangle with this index.
+    /// Returns the face that contains the triangle with the index `i`. Returns `None` if there is no such triangle.
     pub fn face(&self, i: u32) -> Option<FaceId> {
         self.origins.get(i as usize).map(|origin| origin.face)
     }
@@ -151,10 +151,10 @@ impl SurfaceIndex {
         [self.nodes[0].min, self.nodes[0].max]
     }
 
-    /// Calls `found` with the index of each triangle in the boxes that `enters` accepts. `enters` is called with the
-    /// smallest and the largest corner of a box, and only for boxes inside accepted boxes. If an accepted box contains
-    /// no smaller boxes, `found` is called for all its triangles. This includes triangles whose own bounding boxes
-    /// `enters` would not accept.
+    /// Visits the tree from the root. `enters` decides, from the smallest and the largest corner of a box, whether the
+    /// box is visited. Boxes inside a rejected box are skipped. If a visited box contains no smaller boxes, `found` is
+    /// called with the index of each of its triangles. These can include triangles whose own bounding boxes `enters`
+    /// would reject.
     pub fn visit_boxes(
         &self,
         enters: &mut dyn FnMut(DVec3, DVec3) -> bool,
@@ -179,7 +179,8 @@ impl SurfaceIndex {
         &self.positions[node.first as usize..node.last as usize]
     }
 
-    /// Returns the edge that two triangles share. Returns `None` unless they share exactly two vertices.
+    /// Returns the two ends of the edge that two triangles share. Returns `None` if the triangles do not share exactly
+    /// two vertices.
     pub(crate) fn shared_edge(&self, i: u32, j: u32) -> Option<[DVec3; 2]> {
         let (s, t) = (self.triangle(i), self.triangle(j));
         let mut shared = (0..3).filter(|&k| t.vertices.contains(&s.vertices[k]));
@@ -193,8 +194,8 @@ impl SurfaceIndex {
 impl Triangle {
     /// Returns the barycentric coordinates of the point of the triangle that is nearest to `p`: weights of the three
     /// corners that are not negative and add up to 1, up to rounding. The weight of a corner is exactly 0 if the
-    /// nearest point was found on the side opposite this corner. In a zero-area triangle, the weights are those of a
-    /// point on a side.
+    /// nearest point was found on the side opposite this corner. In a zero-area triangle, at most two of the weights
+    /// differ from 0: the point lies on one of the sides.
     pub fn barycentric(&self, p: DVec3) -> [f64; 3] {
         triangle::nearest_weights(p, &self.positions)
     }
@@ -205,7 +206,7 @@ impl Triangle {
     }
 }
 
-/// Returns a power of two that scales `largest` to a number near 1. Scaling by a power of two is exact.
+/// Returns a power of two; `largest` times this power is near 1. Scaling by a power of two causes no rounding errors.
 fn unit_scale(largest: f64) -> f64 {
     f64::from_bits((2046 - (largest.to_bits() >> 52).clamp(1, 2045)) << 52)
 }

@@ -1,4 +1,4 @@
-//! Nearest points.
+//! Searches for the points of a surface that are nearest to given points.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -9,32 +9,33 @@ use progress::{Cancelled, Meter, Progress};
 use super::triangle::nearest_on_triangle;
 use super::{Node, SurfaceIndex};
 
-/// The nearest point of a surface.
+/// The point of a surface that is nearest to a given point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nearest {
-    /// The distance, in scene units.
+    /// The distance between the two points, in scene units.
     pub distance: f64,
-    /// A lower bound of the distance. It equals `distance`, unless the search was stopped early because too many
-    /// triangles are almost equally near.
+    /// A lower bound of the distance from the given point to the surface. The bound equals `distance`, unless the
+    /// search stopped early because too many triangles are almost equally near.
     pub lower: f64,
     /// The nearest point.
     pub point: DVec3,
     /// The index of the triangle that contains the point, for [`SurfaceIndex::triangle`].
     pub triangle: u32,
-    /// The number of visited nodes.
+    /// The number of nodes of the tree that the search visited.
     pub(crate) visits: u32,
 }
 
-/// After this number of visited nodes, a search for a nearest point visits the nearest nodes first. After three times
-/// this number of visited nodes, the search accepts an inexact answer. A search usually visits at most a few hundred
-/// nodes.
+/// After this number of visited nodes, a search for a nearest point starts again, and then visits the nearest nodes
+/// first. When both searches together have visited three times this number of nodes, an inexact answer is accepted. A
+/// search usually visits at most a few hundred nodes.
 const MAX_NODES: u32 = 1000;
 
 /// After this number of visited nodes, a search uses the slabs of nodes in addition to their boxes. Most searches end
 /// before they have visited this number of nodes.
 const BOXES_ONLY: u32 = 64;
 
-/// The number of points in a block. One thread searches for all points of a block, and starts without a hint.
+/// The number of points in a block. One thread searches for all points of a block. The search for the first point of a
+/// block has no hint from a previous search.
 const BLOCK: usize = 1024;
 
 /// The text that progress reports show for the search.
@@ -47,7 +48,7 @@ impl SurfaceIndex {
     ///
     /// If `p` is the center of a sphere, all triangles are almost equally near, and a complete search would visit all
     /// of them. Therefore the search stops after a few thousand nodes and returns the nearest point found so far.
-    /// [`Nearest::lower`] is then a lower bound on the true distance.
+    /// [`Nearest::lower`] is then a lower bound of the distance to the true nearest point.
     ///
     /// Returns an infinite or undefined distance if `p` is not finite, or if squared coordinates are too large for an
     /// `f64`.
@@ -70,10 +71,9 @@ impl SurfaceIndex {
     }
 
     /// Searches for the point of the surface nearest to `p` among the points whose squared distance is less than
-    /// `limit`. Stops as soon as the squared distance of the nearest point found so far is at most `enough`. Returns
-    /// the nearest point found, the number of visited nodes, and, if the search was stopped early, the square of
-    /// [`Nearest::lower`]. If the squared distance of every point is at least `limit`, the squared distance of the
-    /// result is `limit`.
+    /// `limit`. Stops as soon as it finds a point whose squared distance is at most `enough`. Returns the nearest point
+    /// found, the number of visited nodes, and, if the search was stopped early, the square of [`Nearest::lower`]. If
+    /// the squared distance of every point is at least `limit`, the squared distance of the result is `limit`.
     fn nearest_below(
         &self,
         p: DVec3,
@@ -92,7 +92,7 @@ impl SurfaceIndex {
             triangle: hint,
         };
         self.try_triangle(p, hint, &mut best);
-        // Each child has half of the triangles, so the depth of the tree is at most 32.
+        // Each child has half of the triangles of its parent, so the depth of the tree is at most 32.
         let mut stack = [(0, 0.0); 64];
         let mut height = 1;
         stack[0] = (0, self.nodes[0].distance_squared(p));
@@ -113,7 +113,8 @@ impl SurfaceIndex {
             if self.has_thin_triangles() {
                 children = children.map(|child| self.tighter(p, child));
             }
-            // The nearer child is visited first.
+            // The nearer child is visited first, because a near point found there makes it possible to skip the other
+            // child.
             if children[0].1 <= children[1].1 {
                 children.swap(0, 1);
             }
@@ -130,8 +131,9 @@ impl SurfaceIndex {
         (best, None, visits)
     }
 
-    /// Returns the nearest point for each of the points, in their order. Runs in parallel; the result does not depend
-    /// on the number of threads. The search is fastest if consecutive points are near each other.
+    /// Returns, for each of the given points, the nearest point of the surface, in the order of the given points. Runs
+    /// in parallel; the result does not depend on the number of threads. The search is fastest if consecutive points
+    /// are near each other.
     ///
     /// # Errors
     ///
@@ -146,8 +148,9 @@ impl SurfaceIndex {
         Ok(found.into_iter().flatten().collect())
     }
 
-    /// Returns the nearest point for each vertex of a mesh, by vertex index. The entry of a dead vertex is `None`. Runs
-    /// in parallel; the result does not depend on the number of threads.
+    /// Returns, for each vertex of a mesh, the nearest point of the surface. Entry i belongs to the vertex with the
+    /// index i. The entry of a dead (removed) vertex is `None`. Runs in parallel; the result does not depend on the
+    /// number of threads.
     ///
     /// # Errors
     ///
@@ -166,9 +169,9 @@ impl SurfaceIndex {
         self.nearest_to_all(n, position, &|n| meter.add(n))
     }
 
-    /// Returns the nearest point for each of the points `point(0)` to `point(n - 1)`. Where `point` returns `None`, the
-    /// entry is also `None`. After every few points, calls `done` with the number of points searched since its last
-    /// call. Stops if `done` returns an error.
+    /// Returns, for each of the points `point(0)` to `point(n - 1)`, the nearest point of the surface. Where `point`
+    /// returns `None`, the entry is also `None`. After every few points, calls `done` with the number of points that
+    /// were processed since the last call of `done`. Stops if `done` returns an error.
     pub(crate) fn nearest_to_all(
         &self,
         n: usize,
@@ -177,8 +180,8 @@ impl SurfaceIndex {
     ) -> Result<Vec<Option<Nearest>>, Cancelled> {
         let mut found = vec![None; n];
         let blocks = parallel::consume(found.chunks_mut(BLOCK), |b, block| {
-            // Consecutive points are often near each other, so the triangle of the previous point is a good
-            // first guess.
+            // Consecutive points are often near each other, so the triangle nearest to the previous point is a good
+            // hint.
             let mut hint = 0;
             for (part, slots) in block.chunks_mut(128).enumerate() {
                 for (i, slot) in slots.iter_mut().enumerate() {
@@ -193,10 +196,11 @@ impl SurfaceIndex {
         Ok(found)
     }
 
-    /// Searches again from the root, starting with the best point found so far. The nodes are visited in order of their
-    /// distances from `p`, because this order gives the best lower bound if the search stops early.
+    /// Searches again from the root of the tree. `best` is the nearest point that the first search found. The nodes are
+    /// visited in order of their distances from `p`, because this order gives the best lower bound if the search stops
+    /// early.
     fn nearly_nearest(&self, p: DVec3, mut best: Best) -> (Best, Option<f64>, u32) {
-        // Squares are non-negative, so they have the same order as their bits.
+        // The bits of a non-negative f64, read as an integer, have the same order as the numbers.
         let mut waiting = BinaryHeap::from([Reverse((0_u64, 0_usize))]);
         let mut visits = MAX_NODES;
         while let Some(Reverse((bits, i))) = waiting.pop() {
@@ -218,8 +222,8 @@ impl SurfaceIndex {
         (best, None, visits)
     }
 
-    /// Returns a child with a lower bound on its squared distance from `p`. The bound is at least as large as the given
-    /// squared distance to the box of the child.
+    /// Returns the given child node with a tighter lower bound on the squared distance from `p` to its triangles. The
+    /// new bound is at least as large as the given bound, which is the squared distance to the box of the child.
     fn tighter(&self, p: DVec3, (child, squared): (usize, f64)) -> (usize, f64) {
         let bound = if self.has_thin_triangles() {
             self.oriented_distance_squared(p, child, squared)
@@ -229,7 +233,8 @@ impl SurfaceIndex {
         (child, bound)
     }
 
-    /// Tests the triangles of a leaf, or returns the children of an inner node with their squared distances.
+    /// In a leaf, tests all triangles and updates `best`. For an inner node, returns the two children with the squared
+    /// distances from `p` to their boxes.
     fn visit(&self, p: DVec3, i: usize, best: &mut Best) -> Option<[(usize, f64); 2]> {
         let node = &self.nodes[i];
         if node.right == 0 {
@@ -254,7 +259,7 @@ impl SurfaceIndex {
         }
     }
 
-    /// Returns the distance from `p` to one triangle.
+    /// Returns the distance from `p` to the triangle with the index `i`.
     pub(crate) fn to_triangle(&self, p: DVec3, i: u32) -> f64 {
         p.distance(nearest_on_triangle(p, &self.positions[i as usize]))
     }
@@ -268,8 +273,8 @@ struct Best {
 }
 
 impl Best {
-    /// Converts to the result. If some nodes were not visited, `lower` is a lower bound of the squared distances to the
-    /// triangles of these nodes.
+    /// Converts this point to the result of a search. If the search did not visit some nodes, `lower` is a lower bound
+    /// of the squared distances to the triangles of these nodes.
     fn found(self, lower: Option<f64>, visits: u32) -> Nearest {
         Nearest {
             distance: self.squared.sqrt(),

@@ -13,14 +13,14 @@ use mesh::DVec3;
 
 use super::SurfaceIndex;
 
-/// Nodes with more triangles than this number have no oriented box, because their triangles seldom have similar
+/// Nodes with more triangles than this number have no oriented box, because so many triangles seldom have similar
 /// directions.
 const MOST: usize = 512;
 
 /// A triangle is thin if its longest side is at least this number of times as long as its height.
 const THIN: f64 = 16.0;
 
-/// A surface has oriented boxes if at least one of this number of triangles is thin.
+/// A surface has oriented boxes if at least one in this number of its triangles is thin.
 const SHARE: usize = 64;
 
 /// A box around triangles. Its sides are parallel to `normal`, to `along` and to the cross product of these two
@@ -29,13 +29,13 @@ const SHARE: usize = 64;
 pub(super) struct Oriented {
     normal: DVec3,
     along: DVec3,
-    /// The smallest and the largest coordinate along each of the three directions.
+    /// The smallest and the largest coordinates of the triangles along the three directions.
     low: DVec3,
     high: DVec3,
 }
 
 impl Oriented {
-    /// A box that contains everything.
+    /// A box that contains all of space, for nodes without an oriented box.
     pub(super) const EVERYTHING: Self = Self {
         normal: DVec3::Z,
         along: DVec3::X,
@@ -43,8 +43,8 @@ impl Oriented {
         high: DVec3::INFINITY,
     };
 
-    /// Returns the box of `n` triangles. `normal` is the sum of their area vectors, and `along` is the sum of the
-    /// results of [`longest_side`], or a multiple of this sum.
+    /// Returns the oriented box of `n` triangles. `normal` is the sum of the area vectors of the triangles, or a
+    /// multiple of this sum. `along` is the sum of their longest sides, added by [`sum`].
     pub(super) fn of<'a>(
         triangles: impl Iterator<Item = &'a [DVec3; 3]>,
         n: usize,
@@ -54,7 +54,8 @@ impl Oriented {
         let Some(along) = along.try_normalize().filter(|_| n <= MOST) else {
             return Self::EVERYTHING;
         };
-        // The normal is made perpendicular twice, because the first result has rounding errors if it is short.
+        // The normal is made perpendicular to `along` twice, because the first result has large rounding errors if it
+        // is short.
         let perpendicular = |v: DVec3| (v - along.dot(v) * along).try_normalize();
         let normal = normal.try_normalize().and_then(perpendicular);
         let normal = normal.and_then(perpendicular);
@@ -79,7 +80,7 @@ impl Oriented {
     fn distance_squared(&self, p: DVec3) -> f64 {
         let at = self.coordinates(p);
         let nearest = at.max(self.low).min(self.high);
-        // This margin covers the rounding errors of the coordinates.
+        // This margin is subtracted so that rounding errors of the coordinates cannot make the bound too large.
         let rounding = 4e-15 * (p.abs().element_sum() + nearest.abs().element_sum());
         let gap = (at - nearest).abs() - DVec3::splat(rounding);
         gap.max(DVec3::ZERO).length_squared() * (1.0 - 1e-14)
@@ -87,7 +88,7 @@ impl Oriented {
 }
 
 impl SurfaceIndex {
-    /// Whether the nodes have oriented boxes.
+    /// Whether many triangles of the surface are thin, so that the nodes have oriented boxes.
     pub(super) fn has_thin_triangles(&self) -> bool {
         !self.oriented.is_empty()
     }
@@ -99,7 +100,7 @@ impl SurfaceIndex {
     }
 }
 
-/// Whether many of the triangles are thin.
+/// Whether at least one in [`SHARE`] of the `n` triangles is thin.
 pub(super) fn are_thin<'a>(n: usize, triangles: impl Iterator<Item = &'a [DVec3; 3]>) -> bool {
     let is_thin = |t: &&[DVec3; 3]| {
         let [a, b, c] = **t;
@@ -108,7 +109,7 @@ pub(super) fn are_thin<'a>(n: usize, triangles: impl Iterator<Item = &'a [DVec3;
     triangles.filter(is_thin).count() * SHARE >= n
 }
 
-/// Returns the longest side of a triangle. Of the two opposite directions, one is chosen.
+/// Returns the longest side of a triangle as a vector. Of its two opposite directions, one is chosen by a fixed rule.
 pub(super) fn longest_side([a, b, c]: &[DVec3; 3]) -> DVec3 {
     let sides = [b - a, c - b, a - c];
     let longer = |s: DVec3, t: DVec3| {
@@ -121,7 +122,8 @@ pub(super) fn longest_side([a, b, c]: &[DVec3; 3]) -> DVec3 {
     sides.into_iter().fold(DVec3::ZERO, longer)
 }
 
-/// Returns the sum of two sums of [`longest_side`]. Their directions can be opposite.
+/// Adds two sums of longest sides. If the angle between the two vectors is above 90°, the second vector is reversed
+/// first.
 pub(super) fn sum(a: DVec3, b: DVec3) -> DVec3 {
     if a.dot(b) < 0.0 { a - b } else { a + b }
 }

@@ -1,4 +1,4 @@
-//! Pairs of triangles that are near each other.
+//! Finds pairs of triangles whose bounding boxes overlap.
 
 use mesh::{DVec3, parallel};
 use progress::{Cancelled, Meter, Progress};
@@ -8,14 +8,14 @@ use super::SurfaceIndex;
 /// The search is divided into about this number of tasks.
 const TASKS: usize = 1024;
 
-/// Two subtrees whose triangles are compared. If both subtrees are the same subtree of the same index, each pair of
-/// triangles is visited once.
+/// The root nodes of two subtrees whose triangles are compared. If both are the same subtree of the same index, each
+/// pair of triangles is visited only once.
 type Task = (usize, usize);
 
 impl SurfaceIndex {
-    /// Returns all pairs of different triangles of this index whose bounding boxes overlap or touch, and for which
-    /// `keep` returns true, in ascending order. The first index of a pair is the smaller one. Runs in parallel; only
-    /// the pairs that are kept take memory.
+    /// Returns all pairs of different triangles of this index that satisfy two conditions: their bounding boxes overlap
+    /// or touch, and `keep` returns true. The pairs are in ascending order. The first index of a pair is the smaller
+    /// one. Runs in parallel; only the pairs that are kept take memory.
     ///
     /// # Errors
     ///
@@ -28,9 +28,9 @@ impl SurfaceIndex {
         self.search(self, true, &keep, progress)
     }
 
-    /// Returns all pairs of a triangle of this index and a triangle of another index whose bounding boxes overlap or
-    /// touch, and for which `keep` returns true, in ascending order. Runs in parallel; only the pairs that are kept
-    /// take memory.
+    /// Returns all pairs of a triangle of this index and a triangle of another index that satisfy two conditions: their
+    /// bounding boxes overlap or touch, and `keep` returns true. The pairs are in ascending order. Runs in parallel;
+    /// only the pairs that are kept take memory.
     ///
     /// # Errors
     ///
@@ -95,8 +95,8 @@ struct Pairs<'a, K> {
 
 impl<K: Fn(u32, u32) -> bool> Pairs<'_, K> {
     /// Divides a task, which is a pair of nodes: replaces one of the nodes by its two children. A pair of a node with
-    /// itself becomes the three pairs of its children. Returns `None` if both nodes are leaves. Pairs of nodes whose
-    /// boxes do not overlap are left out.
+    /// itself becomes three pairs: each child with itself, and the two children with each other. Returns `None` if both
+    /// nodes are leaves. Pairs of nodes whose boxes do not overlap are left out.
     fn parts(&self, (i, j): Task) -> Option<[Option<Task>; 3]> {
         let (a, b) = (&self.one.nodes[i], &self.two.nodes[j]);
         if self.is_self && i == j {

@@ -1,4 +1,4 @@
-//! Rays.
+//! Finds the points where rays meet a surface.
 
 use std::cmp::Ordering::{self, Equal, Less};
 
@@ -11,26 +11,29 @@ use crate::predicates::orient2d;
 /// A point where a ray meets a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RayHit {
-    /// The distance of the point along the ray, as a multiple of the length of the direction. It is not negative.
+    /// The distance of the point from the origin of the ray, as a multiple of the length of the direction. This number
+    /// is not negative.
     pub t: f64,
     /// The point.
     pub point: DVec3,
-    /// The barycentric coordinates of the point: weights of the corners of the triangle, not negative.
+    /// The barycentric coordinates of the point: weights of the three corners of the triangle, which are not negative.
     pub weights: [f64; 3],
-    /// The index of the triangle, for [`SurfaceIndex::triangle`].
+    /// The index of the triangle that the ray meets, for [`SurfaceIndex::triangle`].
     pub triangle: u32,
-    /// Whether the ray meets the front of the triangle, from which its corners are in counter-clockwise order.
+    /// Whether the ray meets the front of the triangle: the side from which its corners are seen in counter-clockwise
+    /// order.
     pub is_front: bool,
 }
 
 impl SurfaceIndex {
     /// Returns the first point where a ray meets the surface. If the ray meets several triangles at the same point, the
-    /// triangle with the lowest index is returned. `direction` need not have length 1. If the surface contains the
-    /// origin of the ray, the ray meets the surface there.
+    /// triangle with the lowest index is returned. `direction` can have any length except 0. If the origin of the ray
+    /// lies on the surface, the ray meets the surface at the origin.
     ///
     /// The test is watertight: if a ray passes through the surface at an inner edge or vertex, it meets exactly one of
-    /// the triangles there. So a ray from outside meets a closed surface an even number of times. Triangles parallel to
-    /// the ray are not met. A ray whose direction is zero, or whose origin or direction is not finite, meets nothing.
+    /// the triangles there. Therefore a ray from outside meets a closed surface an even number of times. A ray does not
+    /// meet triangles that are parallel to it. A ray whose direction is zero, or whose origin or direction is not
+    /// finite, meets nothing.
     ///
     /// Sources: Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", 2013, for the shear that makes the ray
     /// parallel to an axis. The signs of areas are computed exactly, and an area of zero gets the sign that it would
@@ -46,8 +49,8 @@ impl SurfaceIndex {
         first
     }
 
-    /// Returns all points where a ray meets the surface, in the order along the ray, by the rules of
-    /// [`ray`](Self::ray).
+    /// Returns all points where a ray meets the surface, in their order along the ray. The rules of [`ray`](Self::ray)
+    /// apply.
     pub fn ray_all(&self, origin: DVec3, direction: DVec3) -> Vec<RayHit> {
         let mut hits = Vec::new();
         self.visit_ray(origin, direction, &mut |hit| {
@@ -82,8 +85,8 @@ impl SurfaceIndex {
         Ok(hits)
     }
 
-    /// Calls `visit` for hits of the ray, in any order. `visit` returns the largest distance at which further hits
-    /// matter. Hits beyond this distance are possibly skipped.
+    /// Calls `visit` for each point where the ray meets the surface (a hit), in any order. `visit` returns the largest
+    /// distance at which further hits matter. Hits beyond this distance are possibly skipped.
     fn visit_ray(&self, origin: DVec3, direction: DVec3, visit: &mut dyn FnMut(RayHit) -> f64) {
         let Some(ray) = Ray::new(origin, direction) else {
             return;
@@ -132,7 +135,8 @@ impl SurfaceIndex {
 struct Ray {
     origin: DVec3,
     direction: DVec3,
-    /// The last axis is the one in which the direction is longest.
+    /// The three coordinate axes in a suitable order. The last axis is the one along which the direction has its
+    /// largest component.
     axes: [usize; 3],
     shear: DVec2,
 }
@@ -153,8 +157,8 @@ impl Ray {
         })
     }
 
-    /// Returns a lower bound on the position on the ray at which the ray enters a box. Returns `None` if the ray misses
-    /// the box.
+    /// Returns a lower bound on the distance along the ray at which the ray enters the box of a node. Returns `None` if
+    /// the ray misses the box.
     ///
     /// The box is enlarged by a multiple of the rounding error of [`meets`](Self::meets), so that no hit is lost.
     fn enters(&self, node: &Node) -> Option<f64> {
@@ -184,8 +188,8 @@ impl Ray {
 
     fn meets(&self, t: &[DVec3; 3], triangle: u32) -> Option<RayHit> {
         let [x, y, z] = self.axes;
-        // Each corner is rounded in the same way in all of its triangles, so a closed surface is still closed after the
-        // translation.
+        // A corner that several triangles share is rounded in the same way in all of them, so a closed surface is still
+        // closed after the translation.
         let moved = t.map(|p| p - self.origin);
         let flat = moved.map(|p| DVec2::new(p[x], p[y]) - self.shear * p[z]);
         let turn = |i: usize| side_of_origin(flat[(i + 1) % 3], flat[(i + 2) % 3]);
@@ -195,7 +199,7 @@ impl Ray {
         }
         let areas = [0, 1, 2].map(|i| {
             let area = flat[(i + 1) % 3].perp_dot(flat[(i + 2) % 3]).abs();
-            // Only coordinates above 1e150 overflow.
+            // The area overflows only if coordinates are above 1e150.
             if area.is_finite() { area } else { 0.0 }
         });
         let sum = areas[0] + areas[1] + areas[2];

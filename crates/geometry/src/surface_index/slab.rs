@@ -12,7 +12,7 @@ use mesh::DVec3;
 
 use super::SurfaceIndex;
 
-/// Nodes with more triangles than this number have no slab, because their triangles seldom lie near a plane.
+/// Nodes with more triangles than this number have no slab, because so many triangles seldom lie near one plane.
 const MOST: usize = 512;
 
 /// The maximum number of values of λ for which a bound is computed; see [`SurfaceIndex::slab_distance_squared`].
@@ -21,15 +21,15 @@ const STEPS: usize = 3;
 /// All points of the triangles of a node satisfy `low <= normal · point <= high`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Slab {
-    /// The direction of the sum of the area vectors of the triangles. An area vector is the unit normal times the area.
-    /// The length of `normal` is 1 up to rounding.
+    /// The direction of the sum of the area vectors of the triangles. The area vector of a triangle is its unit normal
+    /// times its area. The length of `normal` is 1 up to rounding.
     normal: [f32; 3],
     low: f64,
     high: f64,
 }
 
 impl Slab {
-    /// A slab that contains everything.
+    /// A slab that contains all of space, for nodes without a slab.
     pub(super) const EVERYTHING: Self = Self {
         normal: [0.0; 3],
         low: f64::NEG_INFINITY,
@@ -85,7 +85,8 @@ impl SurfaceIndex {
             let at = free.max(node.min).min(node.max);
             let (above, distance) = (normal.dot(at) - limit, p.distance_squared(at));
             let product = 2.0 * factor * above;
-            // This margin covers the rounding errors of the terms and of the heights.
+            // This margin is subtracted so that rounding errors of the terms and of the heights cannot make the bound
+            // too large.
             let rounding = 1e-14
                 * (distance + product.abs() + factor * (limit.abs() + at.abs().element_sum()));
             bound = bound.max(distance + product - rounding);

@@ -1,4 +1,4 @@
-//! Nearest points on segments and triangles.
+//! Nearest points on segments and triangles, and distances between them.
 
 use mesh::DVec3;
 
@@ -14,10 +14,10 @@ pub(crate) fn nearest_on_segment(p: DVec3, a: DVec3, b: DVec3) -> DVec3 {
     a + along * ((p - a).dot(along) / length_squared).clamp(0.0, 1.0)
 }
 
-/// Returns the distance between two segments.
+/// Returns the distance between the segment from `a` to `b` and the segment from `c` to `d`.
 ///
-/// Computes the nearest points of the two lines, then clamps each to its segment in turn: Ericson, "Real-Time
-/// Collision Detection", 2005, §5.1.9.
+/// Computes the nearest points of the two lines through the segments, then clamps one point after the other to its
+/// segment: Ericson, "Real-Time Collision Detection", 2005, §5.1.9.
 pub(crate) fn between_segments([a, b]: [DVec3; 2], [c, d]: [DVec3; 2]) -> f64 {
     let (u, v, w) = (b - a, d - c, a - c);
     let (uu, vv, uv) = (u.length_squared(), v.length_squared(), u.dot(v));
@@ -32,8 +32,8 @@ pub(crate) fn between_segments([a, b]: [DVec3; 2], [c, d]: [DVec3; 2]) -> f64 {
     on_first.distance(on_second)
 }
 
-/// Returns the point of a triangle that is nearest to `p`, by the Voronoi region that contains `p`. A zero-area
-/// triangle is treated as its three sides.
+/// Returns the point of a triangle that is nearest to `p`, by the Voronoi region that contains `p`. For a zero-area
+/// triangle, the result is the nearest point of its three sides.
 ///
 /// Source: Ericson, "Real-Time Collision Detection", 2005, §5.1.5.
 pub fn nearest_on_triangle(p: DVec3, &[a, b, c]: &[DVec3; 3]) -> DVec3 {
@@ -78,9 +78,9 @@ pub fn nearest_on_triangle(p: DVec3, &[a, b, c]: &[DVec3; 3]) -> DVec3 {
 }
 
 /// Returns the distance between two triangles, which is 0 if they have a common point. If the triangles have no common
-/// point, the distance is the smallest of two kinds of distances: from a corner of one triangle to the other triangle,
-/// and from a side of one triangle to a side of the other. If a triangle has zero area, the distance can be too large
-/// where the triangle passes through the other one.
+/// point, the distance is the smallest of these: the distances from a corner of one triangle to the other triangle, and
+/// the distances from a side of one triangle to a side of the other triangle. If a zero-area triangle passes through
+/// the other triangle, the result can be above 0, although the triangles have common points.
 pub fn triangle_distance(s: &[DVec3; 3], t: &[DVec3; 3]) -> f64 {
     if triangles_intersect(s, t) {
         return 0.0;
@@ -97,8 +97,9 @@ pub fn triangle_distance(s: &[DVec3; 3], t: &[DVec3; 3]) -> f64 {
     corners.chain(pairs).fold(f64::INFINITY, f64::min)
 }
 
-/// Returns the barycentric coordinates of the point of a triangle that is nearest to `p`, by the same regions as
-/// [`nearest_on_triangle`]. Weights of corners outside the region are exactly 0.
+/// Returns the barycentric coordinates of the point of a triangle that is nearest to `p`. The point is found with the
+/// same Voronoi regions as in [`nearest_on_triangle`]. If the point lies on a side or at a corner, the weights of all
+/// other corners are exactly 0.
 pub(super) fn nearest_weights(p: DVec3, &[a, b, c]: &[DVec3; 3]) -> [f64; 3] {
     let (ab, ac) = (b - a, c - a);
     if ab.cross(ac) == DVec3::ZERO {

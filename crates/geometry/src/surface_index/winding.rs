@@ -1,4 +1,4 @@
-//! Generalized winding numbers.
+//! Computes generalized winding numbers, which tell whether a point is inside a surface.
 
 use std::f64::consts::PI;
 
@@ -10,14 +10,16 @@ use super::{Node, SurfaceIndex, unit_scale};
 /// Computes how often a surface winds around a point.
 ///
 /// The winding number is the signed solid angle of the surface as seen from the point, divided by 4π. For a closed
-/// surface that faces outward, the winding number is 1 inside and 0 outside. For nested or overlapping parts, the
-/// winding numbers of the parts are added. For an open surface or a list of unconnected triangles, the winding number
-/// changes smoothly near the gaps. For such a surface, 1/2 is a good boundary between inside and outside: Jacobson,
-/// Kavan, Sorkine-Hornung, "Robust Inside-Outside Segmentation using Generalized Winding Numbers", 2013.
+/// surface that faces outward, the winding number is 1 inside and 0 outside. If the surface has several closed parts,
+/// which can be nested or overlap, the winding numbers of the parts are added. For an open surface or a list of
+/// unconnected triangles, the winding number changes smoothly near the gaps. For such a surface, a point is best
+/// counted as inside if its winding number is above 1/2: Jacobson, Kavan, Sorkine-Hornung, "Robust Inside-Outside
+/// Segmentation using Generalized Winding Numbers", 2013.
 ///
 /// Far parts of the surface are replaced by the first three terms of the Taylor series of their solid angle: Barill,
 /// Dickson, Schmidt, Levin, Jacobson, "Fast Winding Numbers for Soups and Clouds", 2018. A part is far if its distance
-/// is more than twice its radius. The error of the winding number is usually below 1e-3, and below 0.01 in all tests.
+/// from the point is more than twice the radius of the part. The error of the winding number is usually below 1e-3, and
+/// below 0.01 in all tests.
 #[derive(Clone, Debug)]
 pub struct Winding<'a> {
     index: &'a SurfaceIndex,
@@ -28,10 +30,11 @@ pub struct Winding<'a> {
     moments: Vec<Moments>,
 }
 
-/// A part of the surface is far if it is further away than this factor times its radius.
+/// A part of the surface counts as far if its distance from the point is more than this factor times the radius of the
+/// part.
 const FAR: f64 = 2.0;
 
-/// The number of nodes or points in a block. One thread processes a block.
+/// The number of nodes or points in a block. One thread processes all nodes or points of a block.
 const BLOCK: usize = 256;
 
 /// Integrals over the points p of the triangles of a node, for the Taylor series about the center c. Here n is the unit
@@ -47,7 +50,7 @@ const BLOCK: usize = 256;
 #[derive(Clone, Copy, Debug, Default)]
 struct Moments {
     center: DVec3,
-    /// The largest distance of a corner from the center.
+    /// The largest distance of a corner of the triangles from the center.
     radius: f64,
     normal: DVec3,
     first: [DVec3; 2],
@@ -57,7 +60,8 @@ struct Moments {
 }
 
 impl<'a> Winding<'a> {
-    /// Prepares the computation. The time is proportional to n log n for n triangles.
+    /// Prepares the computation of winding numbers. For n triangles, the preparation takes time proportional to n log
+    /// n.
     ///
     /// # Errors
     ///
@@ -96,7 +100,7 @@ impl<'a> Winding<'a> {
             return 0.0;
         }
         let mut angle = 0.0;
-        // Each child has half of the triangles, so the depth of the tree is at most 32.
+        // Each child has half of the triangles of its parent, so the depth of the tree is at most 32.
         let mut stack = [0_usize; 64];
         let mut height = 1;
         while height > 0 {
@@ -129,8 +133,8 @@ impl<'a> Winding<'a> {
         self.at(p).abs() > 0.5
     }
 
-    /// Returns the winding number at each of the points, in their order. Runs in parallel; the result does not depend
-    /// on the number of threads.
+    /// Returns the winding number at each of the given points, in the order of the points. Runs in parallel; the result
+    /// does not depend on the number of threads.
     ///
     /// # Errors
     ///
@@ -184,7 +188,8 @@ impl Moments {
             moments.normal += n;
             moments.first[0] += n * g;
             moments.first[1] += yzx(n) * zxy(g) + zxy(n) * yzx(g);
-            // ∫ x_j x_k dA over a triangle with area 1, from its corners and their mean g.
+            // The integral ∫ x_j x_k dA over a triangle with area 1, computed from the corners of the triangle and from
+            // their mean g.
             let square = (x.iter().map(|x| *x * *x).sum::<DVec3>() + 9.0 * g * g) / 12.0;
             let mixed =
                 (x.iter().map(|x| yzx(*x) * zxy(*x)).sum::<DVec3>() + 9.0 * yzx(g) * zxy(g)) / 12.0;
@@ -202,12 +207,13 @@ impl Moments {
             );
             moments.trace += 2.0 * (n * square + across) + n * square.element_sum();
         }
-        // Rounding must not make the radius too small.
+        // The radius is increased a little, because rounding must not make it too small.
         moments.radius = radius_squared.sqrt() * (1.0 + 1e-12);
         moments
     }
 
-    /// Returns the solid angle as seen from a point; `r` leads from the point to the center.
+    /// Returns the approximate solid angle of the triangles of a node, as seen from a point. `r` is the vector from
+    /// this point to the center of the node.
     ///
     /// The solid angle is ∫ n · f(p) dA with f(p) = p / |p|³, seen from the origin. With R = |r|, the terms of
     /// the Taylor series of f are
@@ -243,8 +249,8 @@ fn zxy(p: DVec3) -> DVec3 {
     DVec3::new(p.z, p.x, p.y)
 }
 
-/// Returns the solid angle of a triangle as seen from the origin, positive if its front faces away from the origin.
-/// Returns 0 if the origin lies in the plane of the triangle.
+/// Returns the solid angle of a triangle as seen from the origin. The result is positive if the front of the triangle
+/// faces away from the origin. Returns 0 if the origin lies in the plane of the triangle.
 ///
 /// Source: Van Oosterom, Strackee, "The Solid Angle of a Plane Triangle", 1983.
 fn solid_angle(&[a, b, c]: &[DVec3; 3]) -> f64 {

@@ -8,30 +8,33 @@
 //!        r                r
 //! ```
 //!
-//! Source: Lawson, "Software for C1 Surface Interpolation", 1977. The order of the flips and the tolerance are those of
-//! the crate `earcut`, whose function can neither be canceled nor limited.
+//! Source: Lawson, "Software for C1 Surface Interpolation", 1977. The flips are the same as in the crate `earcut`, in
+//! the same order and with the same tolerance. The function of this crate is not used, because it can neither be
+//! canceled nor limited.
 
 use mesh::DVec2;
 
 use super::sort::sort_unless;
 use super::{Triangle, with_sorted_corners};
 
-/// The largest number of flips for each corner. The number of flips can grow with the square of the number of corners,
-/// for example in a long corridor that bends. Polygons with at most 4096 corners never reach the limit.
+/// The largest number of flips, divided by the number of corners of the polygon. Without this limit, the number of
+/// flips can grow with the square of the number of corners, for example in a long, bent corridor. Polygons with at most
+/// 4096 corners never reach the limit.
 const MAX_FLIPS: usize = 1024;
-/// The number of examined diagonals after which cancellation is checked again.
+/// The number of diagonals that are examined between two checks for cancellation.
 const CHECK: usize = 1 << 16;
-/// Marks a side of the polygon in the list of mates. Such a side belongs to only one triangle, so it has no mate.
+/// Marks a side of the polygon in the list `mates`. Such a side belongs to only one triangle, so it has no mate.
 const NONE: u32 = u32::MAX;
 
-/// Improves triangulations one after another, and reuses its buffers.
+/// Improves triangulations, one after another. Its buffers are used again for each triangulation.
 ///
-/// The side with index 3 t + k begins at corner k of triangle t.
+/// The sides of triangles are numbered: the side with the index 3 t + k begins at corner k of triangle t.
 #[derive(Default)]
 pub(super) struct Flips {
     /// The ends of each side, the lower corner first, with the index of the side.
     sides: Vec<([u32; 2], u32)>,
-    /// For each side, the same side of the other triangle, or [`NONE`].
+    /// For each side, its mate: the index of the same side in the other triangle, or [`NONE`] for a side of the
+    /// polygon.
     mates: Vec<u32>,
     /// The diagonals that possibly have to be flipped. Each diagonal is given by one of its two sides.
     stack: Vec<u32>,
@@ -40,8 +43,8 @@ pub(super) struct Flips {
 
 impl Flips {
     /// Improves counter-clockwise triangles whose corners are in ascending order, and sorts them. Stops early after
-    /// many flips or if `is_cancelled` returns `true`; the triangulation is then valid, but some of its diagonals are
-    /// possibly not Delaunay.
+    /// [`MAX_FLIPS`] flips for each corner, or if `is_cancelled` returns `true`. The triangulation is then valid, but
+    /// some of its diagonals are possibly not Delaunay.
     pub(super) fn improve(
         &mut self,
         points: &[[f64; 2]],
@@ -80,11 +83,12 @@ impl Flips {
         for triangle in triangles.iter_mut() {
             *triangle = with_sorted_corners(*triangle);
         }
-        // If the sort is cancelled, the triangles stay valid.
+        // If the sort is canceled, the triangles stay valid but are not sorted.
         let _ = sort_unless(is_cancelled, triangles, Ord::cmp);
     }
 
-    /// Finds the mates of all sides. Returns `None` if `is_cancelled` returns `true`.
+    /// Finds the mate of each side: the same side in the other triangle. Returns `None` if `is_cancelled` returns
+    /// `true`.
     fn find_mates(
         &mut self,
         is_cancelled: &dyn Fn() -> bool,
@@ -129,13 +133,13 @@ impl Flips {
         }
     }
 
-    /// Flips the diagonal of the side `a` if the result is closer to a Delaunay triangulation. Returns whether the
-    /// diagonal is flipped.
+    /// Flips the diagonal at the side with the index `a`, if the diagonal is not Delaunay and the new triangles have a
+    /// positive area. Returns whether the diagonal was flipped.
     fn flip(&mut self, points: &[[f64; 2]], corners: &mut [u32], a: u32) -> bool {
         let b = self.mates[a as usize];
         if b == NONE {
-            // A flip that was made after this side was queued has changed its triangle, so the side is now on the
-            // boundary.
+            // After this side was put on the stack, another flip has changed its triangle. The side with this index is
+            // now a side of the polygon, which cannot be flipped.
             return false;
         }
         let turned = |side: u32, by: u32| side - side % 3 + (side + by) % 3;

@@ -23,13 +23,13 @@ use super::sort::sort_unless;
 use super::{Triangle, is_triangulation_unless, with_sorted_corners};
 use crate::predicates::orient2d;
 
-/// The number of corners after which the triangulation checks for cancellation again.
+/// The number of corners that are processed between two checks for cancellation.
 const CHECK: u32 = 1024;
 
 /// Triangulates a counter-clockwise polygon. The triangles are sorted.
 ///
-/// Returns `None` if `is_cancelled` returns `true`, or if the polygon cannot be cut without turning a triangle over,
-/// because its sides cross or overlap.
+/// Returns `None` if `is_cancelled` returns `true`. Also returns `None` if some sides of the polygon cross or overlap,
+/// so that a triangle would be turned over.
 pub(super) fn triangulate(
     points: &[[f64; 2]],
     is_cancelled: &dyn Fn() -> bool,
@@ -37,8 +37,8 @@ pub(super) fn triangulate(
     let polygon = Polygon::new(points, is_cancelled)?;
     let mut diagonals = polygon.diagonals(is_cancelled)?.into_iter().peekable();
     let mut triangles = Vec::with_capacity(points.len());
-    // Diagonals do not cross, so they are nested like brackets. `open` has the corners before corner `j` that no
-    // diagonal has cut off.
+    // Diagonals do not cross, so they are nested like brackets. `open` lists the corners before corner `j` that no
+    // diagonal has cut off so far.
     let mut open: Vec<u32> = Vec::new();
     for j in (0..).take(points.len()) {
         while let Some([i, _]) = diagonals.next_if(|[_, end]| *end == j) {
@@ -56,15 +56,15 @@ pub(super) fn triangulate(
 
 struct Polygon<'a> {
     points: &'a [[f64; 2]],
-    /// The corners in the order in which the sweep line reaches them. Of corners at the same height, the left one is
-    /// first.
+    /// The corners in the order in which the horizontal line reaches them, from top to bottom. Of corners at the same
+    /// height, the left one comes first.
     order: Vec<u32>,
-    /// For each corner, its place in `order`.
+    /// For each corner, its index in `order`.
     rank: Vec<u32>,
 }
 
 impl<'a> Polygon<'a> {
-    /// Sorts the corners. Returns `None` if `is_cancelled` returns `true`.
+    /// Sorts the corners of a polygon from top to bottom. Returns `None` if `is_cancelled` returns `true`.
     fn new(points: &'a [[f64; 2]], is_cancelled: &dyn Fn() -> bool) -> Option<Self> {
         let mut order: Vec<u32> = (0..).zip(points).map(|(i, _)| i).collect();
         sort_unless(is_cancelled, &mut order, |&i, &j| {
@@ -86,14 +86,16 @@ impl<'a> Polygon<'a> {
         self.points[corner as usize].into()
     }
 
-    /// Returns the diagonals that cut the polygon into pieces. Each diagonal is a pair of corners, the lower index
-    /// first. The diagonals are nested like brackets, and are in the order of their closing brackets.
+    /// Returns the diagonals that cut the polygon into monotone pieces, which any horizontal line meets in one segment.
+    /// Each diagonal is a pair of corners, the lower index first. The diagonals are nested like brackets. They are
+    /// sorted by their second corner, and an inner diagonal comes before an outer one.
     fn diagonals(&self, is_cancelled: &dyn Fn() -> bool) -> Option<Vec<[u32; 2]>> {
         let n = u32::try_from(self.points.len()).expect("corners fit 32 bits");
-        // The sides of the polygon that the sweep line meets and that have the inside of the polygon on their right.
+        // The sides of the polygon that the horizontal line meets now and that have the inside of the polygon on their
+        // right.
         let mut sides: BTreeSet<Side> = BTreeSet::new();
-        // For each side in `sides`: the last corner that had this side as its left neighbor. The index in `helpers` is
-        // the first corner of the side.
+        // For each side in `sides`, its helper: the last corner so far whose nearest side to the left is this side. The
+        // index in `helpers` is the first corner of the side.
         let mut helpers = vec![0; self.points.len()];
         let mut is_join = vec![false; self.points.len()];
         let mut diagonals = Vec::new();
@@ -140,13 +142,14 @@ impl<'a> Polygon<'a> {
         Some(diagonals)
     }
 
-    /// Adds the triangles of a piece to `triangles`. The corners of the piece are in ascending order. Returns `None` if
-    /// the piece is not valid.
+    /// Adds the triangles of a monotone piece to `triangles`. The corners in `piece` are in ascending order. Returns
+    /// `None` if a triangle would be turned over.
     fn triangulate_piece(&self, piece: &[u32], triangles: &mut Vec<Triangle>) -> Option<()> {
         let rank = |k: usize| self.rank[piece[k % piece.len()] as usize];
         let top = (0..piece.len()).min_by_key(|&k| rank(k))?;
         let bottom = (0..piece.len()).max_by_key(|&k| rank(k))?;
-        // Each corner with its rank, and whether the corner is on the left boundary.
+        // The list `corners` has, for each corner: its rank from the top, its index, and whether it is on the left
+        // boundary of the piece.
         let n_left = (bottom + piece.len() - top) % piece.len();
         let corner = |k: usize| (rank(top + k), piece[(top + k) % piece.len()], k < n_left);
         let mut corners: Vec<(u32, u32, bool)> = (0..piece.len()).map(corner).collect();
@@ -157,8 +160,8 @@ impl<'a> Polygon<'a> {
             triangles.push(triangle);
             (orient2d(a, b, c) != Less).then_some(())
         };
-        // The corners above `c` that no triangle has cut off. All corners on the stack, except the first one, are on
-        // the same boundary.
+        // The corners above `c` that no triangle has cut off so far. All corners on the stack, except the first one,
+        // are on the same boundary of the piece, left or right.
         let mut stack: Vec<u32> = Vec::new();
         let mut stack_is_left = false;
         let &(_, last, _) = corners.last()?;
@@ -185,13 +188,14 @@ impl<'a> Polygon<'a> {
     }
 }
 
-/// A side that the line meets. In a search for the left neighbor of a corner, `upper` is the corner and `lower` is one
-/// of the two corners next to it.
+/// A side of the polygon that the horizontal line meets. The same type is used to search for the side to the left of a
+/// corner: then `upper` is the corner, and `lower` is one of the two corners next to it.
 #[derive(Clone, Copy)]
 struct Side {
     upper: DVec2,
     lower: DVec2,
-    /// The corner at which the side begins. Distinguishes sides with the same ends.
+    /// The index of the corner at which the side begins. This index distinguishes sides whose ends have the same
+    /// positions.
     corner: u32,
 }
 
@@ -204,7 +208,7 @@ impl Side {
         }
     }
 
-    /// Returns `Less` if this side is on the left of the other side. The other side must not begin above this side.
+    /// Returns `Less` if this side is to the left of the other side. The other side must not begin above this side.
     fn compare(&self, other: &Self) -> Ordering {
         let turn = |p: DVec2| orient2d(self.lower, self.upper, p);
         turn(other.upper).then_with(|| turn(other.lower))

@@ -1,12 +1,13 @@
-//! Sorting long lists with checks for cancellation.
+//! Sorts long lists, and checks for cancellation while it sorts.
 
 use std::cmp::Ordering;
 
-/// The number of elements that are sorted or merged between two checks for cancellation. This takes a few milliseconds.
+/// The number of elements that are sorted or merged between two checks for cancellation. Sorting this number of
+/// elements takes a few milliseconds.
 const BLOCK: usize = 1 << 16;
 
-/// Sorts a list. If the list has more than 65,536 elements, `is_cancelled` is called many times. Returns `None` if it
-/// returns `true`; the list then has the same elements in any order.
+/// Sorts a list. If the list has more than 65,536 elements, `is_cancelled` is called many times. If `is_cancelled`
+/// returns `true`, the function returns `None`, and the list has the same elements in any order.
 pub(super) fn sort_unless<T: Copy>(
     is_cancelled: &dyn Fn() -> bool,
     list: &mut Vec<T>,

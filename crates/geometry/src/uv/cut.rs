@@ -1,4 +1,4 @@
-//! Cuts and joins charts until each chart is flat, without overlaps and with little stretch.
+//! Flattens charts, and cuts and joins them until each flattened chart has no overlaps and little stretch.
 
 use std::collections::BTreeSet;
 
@@ -13,43 +13,46 @@ use super::number;
 use super::surface::{Part, Surface, is_solid};
 use crate::sparse::SolveError;
 
-/// A chart is flattened by a projection to a plane if the aspect (see [`Stretch`](super::Stretch)) of the projection
-/// is at most this number everywhere.
+/// A chart is nearly flat if its projection to a plane has an aspect (see [`Stretch`](super::Stretch)) of at most this
+/// number everywhere. A nearly flat chart is flattened by this projection.
 const FLAT: f64 = 1.0 + 1e-6;
-/// Two charts are joined only if the length of their common border is at least this fraction of the length of the
-/// shorter of their two borders.
+/// Two charts are joined only if their common border is long enough. Its length must be at least this fraction of the
+/// border length of the chart with the shorter border.
 const MIN_SHARED: f64 = 0.1;
-/// Two charts are not joined if the mean of `1 - cosine` of the angles at which they meet is above this number.
+/// Two charts are not joined if the mean of `1 - cosine` along their common border is above this number. Here, `cosine`
+/// is the cosine of the angle between the normals of the two faces at an edge.
 pub(super) const MAX_CREASE: f64 = 0.5;
-/// A chart whose area is less than this fraction of the area of its neighbor can be joined to it even if the angles are
-/// larger than [`MAX_CREASE`] allows.
+/// A chart is small if its area is less than this fraction of the area of a neighboring chart. A small chart can be
+/// joined to this neighbor even if the angles between the two charts are larger than [`MAX_CREASE`] allows.
 const SMALL: f64 = 0.1;
 
-/// The limits of a chart.
+/// The limits that a chart must not exceed.
 #[derive(Clone, Copy)]
 pub(super) struct Limits {
-    /// The smallest cosine of the angle between the normals of the faces and the mean normal.
+    /// The smallest allowed cosine of the angle between the smoothed normal of a face of the chart and the mean normal
+    /// of the chart.
     pub(super) min_cosine: f64,
-    /// The largest ratio between the area scale of a triangle and that of the chart, the larger scale divided by the
-    /// smaller one. The area scale is the area in the plane, divided by the area on the surface.
+    /// The largest allowed ratio between two area scales: the scale of a triangle and the mean scale of the chart, the
+    /// larger scale divided by the smaller one. The area scale of a triangle is its area in the plane, divided by its
+    /// area on the surface.
     pub(super) max_stretch: f64,
 }
 
-/// The limits of the map of a chart into the plane.
+/// The limits that the map of a chart into the plane must not exceed.
 struct Allowed {
     /// The largest allowed ratio between area scales; see [`Limits::max_stretch`].
     stretch: f64,
-    /// The largest allowed aspect (see [`Stretch`](super::Stretch)). A larger aspect is allowed for triangles whose
-    /// total area is at most the fraction `except` of the area of the chart.
+    /// The largest allowed aspect (see [`Stretch`](super::Stretch)). Some triangles can exceed this limit, as long as
+    /// their total area is at most the fraction `except` of the area of the chart.
     aspect: f64,
     except: f64,
-    /// The largest allowed mean ratio between the area scale of a triangle and that of the chart, the larger scale
-    /// divided by the smaller one. In the mean, each triangle counts by its area.
+    /// The largest allowed mean of a ratio over the triangles of the chart, weighted by area. The ratio compares the
+    /// area scale of a triangle with the mean scale of the chart: the larger scale divided by the smaller one.
     spread: f64,
 }
 
 impl Allowed {
-    /// Returns the limits above which a chart is cut.
+    /// Returns the limits for a chart of several faces. A chart that exceeds these limits is cut.
     fn of_charts(limits: Limits) -> Self {
         Self {
             stretch: limits.max_stretch,
@@ -60,24 +63,24 @@ impl Allowed {
     }
 }
 
-/// A flat chart.
+/// A chart that has been flattened: mapped into the plane.
 pub(super) struct Chart {
     pub(super) part: Part,
-    /// The positions, in the plane, of the vertices of the part.
+    /// The positions of the vertices of `part` in the plane.
     pub(super) uvs: Vec<DVec2>,
-    /// Whether the chart is one polygon that overlaps itself.
+    /// Whether the chart is a single polygon that overlaps itself in the plane.
     pub(super) is_bent: bool,
 }
 
 /// Why a set of faces is not a valid chart.
 pub(super) enum Failure {
-    /// These faces overlap.
+    /// These two faces overlap in the plane; both are the same if a face overlaps itself.
     Overlap([FaceId; 2]),
-    /// A triangle is mirrored, or the stretch is too large.
+    /// A triangle is mirrored in the plane, or the stretch is too large.
     Stretch,
 }
 
-/// Checks for cancellation, but reports no progress.
+/// A progress listener that only checks for cancellation. The reported progress is dropped.
 struct Quiet<'a, 'b>(&'a Meter<'b>);
 
 impl Progress for Quiet<'_, '_> {
@@ -86,7 +89,7 @@ impl Progress for Quiet<'_, '_> {
     }
 }
 
-/// Divides a surface into flat charts.
+/// Divides a surface into charts, and flattens each of them.
 pub(super) fn charts(
     surface: &Surface,
     limits: Limits,
@@ -131,7 +134,7 @@ pub(super) fn charts(
     dissolve(surface, &smooth, charts, limits, &Quiet(&meter))
 }
 
-/// Flattens a set of faces.
+/// Flattens a set of faces, and checks the result. Returns the chart, or the reason why the faces cannot form a chart.
 pub(super) fn chart(
     surface: &Surface,
     faces: Vec<u32>,
@@ -149,7 +152,7 @@ pub(super) fn chart(
     if check(&part, &projected, &flat, progress)?.is_ok() {
         return whole(part, projected, false);
     }
-    // A chart of a single polygon is never cut, so only overlaps matter.
+    // A chart of a single polygon is never cut, so any stretch is allowed, and only overlaps matter.
     let is_single = part.faces.len() == 1;
     let allowed = if is_single {
         Allowed {
@@ -172,7 +175,8 @@ pub(super) fn chart(
             }
         }
         Err(SolveError::Cancelled(cancelled)) => return Err(cancelled),
-        // The equations of extremely thin triangles can have no accurate solution.
+        // If triangles are extremely thin, the equations possibly have no accurate solution. The chart then counts as
+        // too much stretched.
         Err(_) => {}
     }
     if is_single {
@@ -181,7 +185,8 @@ pub(super) fn chart(
     Ok(Err((part, failure)))
 }
 
-/// Checks that no triangle is mirrored or overlaps another, and that the stretch is allowed.
+/// Checks a map of a part into the plane: no triangle must be mirrored or overlap another triangle, and the stretch
+/// must be within the limits.
 fn check(
     part: &Part,
     uvs: &[DVec2],
@@ -220,7 +225,7 @@ fn check(
         largest = largest.max(ratio(scale));
         spread += area * ratio(scale);
     }
-    // Rounding can change the scale of a flat chart a little.
+    // The small margin is needed because rounding can change the scale of a flat chart a little.
     if largest > allowed.stretch * (1.0 + 1e-6)
         || spread > allowed.spread * total
         || percentile(&mut aspects, (1.0 - allowed.except) * total) > allowed.aspect
@@ -231,9 +236,9 @@ fn check(
     Ok(found.map_or(Ok(()), |pair| Err(Failure::Overlap(pair))))
 }
 
-/// Divides a connected set of faces into two connected sets. First, two faces are chosen: two faces that overlap, or
-/// two faces that are far from each other. Then each face is put in the set of the nearer of the two chosen faces,
-/// measured along the surface.
+/// Divides a connected set of faces into two connected sets. First, two faces are chosen: two faces that overlap or, if
+/// there are none, two faces that are far from each other. Each chosen face begins a set. Every other face is put in
+/// the set of the chosen face that is nearer to it, measured along the surface.
 fn split(
     surface: &Surface,
     faces: &[u32],
@@ -268,9 +273,9 @@ fn split(
     Ok([of_side(0), of_side(1)])
 }
 
-/// Returns, for each face of a connected set, the distance to the nearest seed and the label of this seed (Dijkstra,
-/// 1959). A seed is the index of a face in the set, and its label. Distances are sums of distances between the centers
-/// of neighbors.
+/// Returns, for each face of a connected set, the distance to the nearest seed and the label of this seed
+/// (Dijkstra, 1959). A seed is given by the index of a face in the set, and by a label. The distance along a path of
+/// neighboring faces is the sum of the distances between their centers.
 pub(super) fn nearest(
     surface: &Surface,
     faces: &[u32],
@@ -286,7 +291,7 @@ pub(super) fn nearest(
     };
     let mut distance = vec![f64::INFINITY; faces.len()];
     let mut side = vec![0; faces.len()];
-    // Distances are not negative, so their bits have the order of the numbers.
+    // The bits of a non-negative f64, read as an integer, have the same order as the numbers.
     let mut queue = BTreeSet::new();
     for &(seed, s) in seeds {
         distance[seed] = 0.0;
@@ -315,8 +320,8 @@ pub(super) fn nearest(
     Ok((distance, side))
 }
 
-/// Joins charts that meet, as long as the joined chart is valid. The charts that share the largest part of their border
-/// are joined first.
+/// Joins two charts that share a border, if the joined chart is within the limits, and repeats this until no more
+/// charts can be joined. The two charts that share the largest fraction of their borders are joined first.
 fn join(
     surface: &Surface,
     smooth: &[DVec3],
@@ -324,8 +329,8 @@ fn join(
     limits: Limits,
     progress: &dyn Progress,
 ) -> Result<Vec<Chart>, Cancelled> {
-    // A chart is identified by its lowest face id and its number of faces. The number of faces changes when a chart
-    // changes.
+    // Identifies a chart by its lowest face id and its number of faces. A chart that changes gets more faces, so a
+    // failed attempt with the old chart does not count for the new chart.
     let key = |chart: &Chart| (chart.part.faces[0], chart.part.faces.len());
     let mut failed = BTreeSet::new();
     loop {
@@ -388,7 +393,8 @@ fn join(
     }
 }
 
-/// Whether the angles between the faces of a chart and the mean normal of the joined chart are small.
+/// Whether the angles between the normals of the faces of a chart and the mean normal of the joined chart are within
+/// the limit.
 fn is_cone(chart: &Chart, joined: &Totals, smooth: &[DVec3], limits: Limits) -> bool {
     let axis = joined.normal.normalize_or_zero();
     let mut normals = chart.part.faces.iter().map(|&f| smooth[f as usize]);

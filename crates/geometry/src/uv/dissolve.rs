@@ -9,11 +9,13 @@ use super::cut::{Chart, Limits, MAX_CREASE, chart, nearest};
 use super::number;
 use super::surface::Surface;
 
-/// The work of flattening a face, relative to the work of comparing its normal with the mean normal of a chart.
+/// An estimate of the work of flattening a face, divided by the work of comparing its normal with the mean normal of a
+/// chart.
 const FLATTEN: usize = 64;
 
-/// Dissolves charts as long as the charts around them remain valid, the charts with the smallest area first. The work
-/// grows linearly with the number of faces: on noisy surfaces with very many charts, some of them are not tried.
+/// Tries to dissolve each chart, the charts with the smallest area first. A chart is dissolved if the charts around it
+/// remain within the limits. The total work is limited to a multiple of the number of faces. Therefore, on noisy
+/// surfaces with very many charts, some charts are not tried.
 pub(super) fn dissolve(
     surface: &Surface,
     smooth: &[DVec3],
@@ -32,7 +34,7 @@ pub(super) fn dissolve(
     let mut order: Vec<usize> = (0..charts.len()).collect();
     order.sort_by(|&a, &b| areas[a].total_cmp(&areas[b]).then(a.cmp(&b)));
     let mut charts: Vec<Option<Chart>> = charts.into_iter().map(Some).collect();
-    // The work that is left.
+    // The work that can still be done, in comparisons of normals.
     let mut left = FLATTEN * (4 * surface.areas.len() + 20_000);
     for c in order {
         if left == 0 {
@@ -41,7 +43,7 @@ pub(super) fn dissolve(
         let Some(faces) = charts[c].as_ref().map(|c| c.part.faces.clone()) else {
             continue;
         };
-        // The charts that cannot take the faces that are nearest to them.
+        // The charts that would exceed the limits with the faces that are nearest to them.
         let mut refused = BTreeSet::from([number(c), u32::MAX]);
         loop {
             let grown = grow(surface, &faces, &chart_of, &charts, &refused, progress)?;
@@ -80,9 +82,9 @@ pub(super) fn dissolve(
     Ok(charts.into_iter().flatten().collect())
 }
 
-/// Adds each of these faces to the nearest of the charts around them, measured along the surface. Returns the charts
-/// that have changed, each with all its faces. No face is added to a chart in `refused`. A chart grows only if one of
-/// the faces shares an edge with it that is not sharp.
+/// Assigns each face of a chart to the nearest of the charts around it, measured along the surface. Returns the charts
+/// that would grow, each with all its old and new faces. No face is assigned to a chart in `refused`. A chart can grow
+/// only across an edge that is not sharp.
 fn grow(
     surface: &Surface,
     faces: &[u32],
@@ -117,7 +119,7 @@ fn grow(
     Ok(sorted.collect())
 }
 
-/// Whether the angles between the normals of these faces and their mean normal are small.
+/// Whether the angles between the normals of the given faces and their mean normal are within the limit.
 fn is_cone(surface: &Surface, smooth: &[DVec3], faces: &[u32], limits: Limits) -> bool {
     let weighted = |f: &u32| smooth[*f as usize] * surface.areas[*f as usize];
     let axis = faces

@@ -1,4 +1,5 @@
-//! Flattening: positions in the plane for the vertices of a part.
+//! Flattening: computes positions in the plane for the vertices of a part (a connected set of faces, cut open at
+//! seams).
 
 use mesh::{DVec2, DVec3};
 use progress::Progress;
@@ -6,14 +7,15 @@ use progress::Progress;
 use super::surface::{Part, is_solid};
 use crate::sparse::{Factor, SolveError, SymmetricMatrix};
 
-/// How much a change of area costs compared with a change of angles: the factor lambda of Liu and others.
+/// How much a change of area costs, compared with a change of angles: the factor lambda in the paper of Liu and others
+/// (2008).
 const AREA_WEIGHT: f64 = 0.5;
-/// The iterations stop once the root mean square of the movements of the vertices is less than this fraction of the
-/// size of the part.
+/// Let m be the root mean square of the movements of the vertices in one iteration. The iterations stop when m is less
+/// than this fraction of the size of the part.
 const SMALL_MOVE: f64 = 1e-4;
 const MAX_ITERATIONS: usize = 40;
-/// The height that the equations use for a triangle without area, relative to its longest side. With this height, the
-/// equations can be solved.
+/// In the equations, a triangle with zero area gets this height, as a fraction of its longest side. Without a height,
+/// the equations could not be solved.
 const FLOOR: f64 = 1e-6;
 
 /// A triangle in its own plane: the corners (0, 0), (x1, 0) and (x2, y2).
@@ -43,7 +45,7 @@ impl Frame {
         self.x1 * self.y2 / 2.0
     }
 
-    /// Returns the gradients of the three barycentric coordinates.
+    /// Returns the gradients of the three barycentric coordinates of the triangle, in its plane.
     fn gradients(&self) -> [DVec2; 3] {
         let &Self { x1, x2, y2 } = self;
         let b = DVec2::new(1.0 / x1, -x2 / (x1 * y2));
@@ -52,15 +54,17 @@ impl Frame {
     }
 }
 
-/// Returns two maps into the plane: the result of the iterations, and the map at which they start. Both maps preserve
-/// the total area of the surface. The first map has less distortion, but the starting map can be free of overlaps even
-/// if the first map is not. Positions are in the order of the vertices of the part.
+/// Returns two maps of a part into the plane: the result of the iterations, and the map at which the iterations start.
+/// Both maps preserve the total area of the part. The result of the iterations has less distortion. However, the
+/// starting map can be free of overlaps even if the result of the iterations is not. Positions are in the order of the
+/// vertices of the part.
 ///
 /// The starting map is a least squares conformal map (Levy and others, 2002, with the matrix of Mullen, Tong, Alliez,
 /// Desbrun, "Spectral Conformal Parameterization", 2008). The iterations of the hybrid method improve this map (Liu,
-/// Zhang, Xu, Gotsman, Gortler, "A Local/Global Approach to Mesh Parameterization", 2008). For each triangle, an
-/// iteration finds a similarity transformation with a scale near 1 that is close to the map of the triangle. It then
-/// solves linear equations for positions that fit these transformations. The matrix is factored once.
+/// Zhang, Xu, Gotsman, Gortler, "A Local/Global Approach to Mesh Parameterization", 2008). First, an iteration finds,
+/// for each triangle, a similarity transformation with a scale near 1 that is close to the map of the triangle. Then
+/// the iteration solves linear equations for positions that fit these transformations. All iterations have the same
+/// matrix, which is factored once.
 pub(super) fn flatten(part: &Part, progress: &dyn Progress) -> Result<[Vec<DVec2>; 2], SolveError> {
     let frames: Vec<Frame> = part
         .triangles
@@ -82,7 +86,7 @@ pub(super) fn flatten(part: &Part, progress: &dyn Progress) -> Result<[Vec<DVec2
     Ok([rigid, start])
 }
 
-/// Returns the projection onto the plane of the mean normal.
+/// Projects a part onto the plane perpendicular to its mean normal.
 pub(super) fn project(part: &Part) -> Vec<DVec2> {
     let normal: DVec3 = part
         .triangles
@@ -101,7 +105,7 @@ pub(super) fn project(part: &Part) -> Vec<DVec2> {
     points.map(|p| DVec2::new(p.dot(u), p.dot(v))).collect()
 }
 
-/// Returns the entries of the matrix of the Dirichlet energy.
+/// Returns the entries of the matrix of the Dirichlet energy of functions on a part.
 fn stiffness(part: &Part, frames: &[Frame]) -> Vec<(u32, u32, f64)> {
     let mut entries = Vec::with_capacity(6 * frames.len());
     for (t, frame) in part.triangles.iter().zip(frames) {
@@ -115,7 +119,7 @@ fn stiffness(part: &Part, frames: &[Frame]) -> Vec<(u32, u32, f64)> {
     entries
 }
 
-/// Computes a map of arbitrary scale that changes angles as little as possible.
+/// Computes a map into the plane that changes angles as little as possible. The scale of this map is arbitrary.
 fn conformal(
     part: &Part,
     stiffness: &[(u32, u32, f64)],
@@ -123,8 +127,8 @@ fn conformal(
 ) -> Result<Vec<DVec2>, SolveError> {
     let n = part.points.len();
     let start = project(part);
-    // The equations have exactly one solution if the positions of two vertices are fixed. The two fixed vertices are
-    // the two extreme vertices of the projection along the longer side of its bounding box.
+    // The equations have exactly one solution if the positions of two vertices are fixed. These are the two extreme
+    // vertices of the projection, along the longer side of its bounding box.
     let (low, high) = start
         .iter()
         .fold((DVec2::MAX, DVec2::MIN), |(low, high), &p| {
@@ -134,8 +138,8 @@ fn conformal(
     let at = |i: &usize| if is_wide { start[*i].x } else { start[*i].y };
     let first = (0..n).min_by(|i, j| at(i).total_cmp(&at(j))).unwrap_or(0);
     let last = (0..n).max_by(|i, j| at(i).total_cmp(&at(j))).unwrap_or(0);
-    // Twice the energy is the Dirichlet energy of both coordinates minus twice the area of the map. The area of the map
-    // depends only on its border.
+    // The energy measures how much the map changes angles. Twice the energy is the Dirichlet energy of both coordinates
+    // minus twice the area of the map. This area depends only on the border of the map.
     let mut sides: Vec<(u32, u32, bool)> = part
         .triangles
         .iter()

@@ -1,10 +1,11 @@
-//! Grows charts: the first division of a surface into sets of faces.
+//! Grows charts: makes the first division of a surface into sets of faces.
 //!
 //! Regions are connected sets of coplanar faces, and are never divided. Each chart starts with the largest region that
-//! is not in a chart. Then the neighboring region with the lowest cost is added, until the cost of every neighbor
-//! exceeds a limit. Later, charts are cut and joined; see `cut.rs`. A region costs more if its angle to the mean normal
-//! of the chart is large, if it makes the border of the chart longer and more winding, or if sharp edges lie between
-//! the chart and the region. These costs are from the program xatlas (Young, 2018).
+//! is not in a chart. Then the neighboring region with the lowest cost is added, again and again, until the cost of
+//! every neighboring region exceeds a limit. Later, charts are cut and joined; see `cut.rs`. The cost of a region is
+//! higher if its normal forms a large angle with the mean normal of the chart. The cost is also higher if the region
+//! makes the border of the chart longer and more winding, or if sharp edges lie between the chart and the region. These
+//! costs are from the program xatlas (Young, 2018).
 
 use std::cmp::{Ordering, Reverse};
 use std::collections::{BTreeMap, BinaryHeap};
@@ -20,7 +21,8 @@ const ROUNDNESS_WEIGHT: f64 = 0.01;
 const STRAIGHTNESS_WEIGHT: f64 = 6.0;
 const CREASE_WEIGHT: f64 = 4.0;
 const MAX_COST: f64 = 2.0;
-/// The cosine of the largest angle between faces that count as coplanar: 0.25 degrees.
+/// Faces count as coplanar if the angle between their normals is at most about 0.25 degrees. This is the cosine of that
+/// angle.
 const COPLANAR: f64 = 1.0 - 1e-5;
 const NONE: u32 = u32::MAX;
 
@@ -32,13 +34,13 @@ pub(super) struct Meeting {
     pub(super) crease: f64,
 }
 
-/// The normal, the area and the border length of a set of faces.
+/// Sums over a set of faces: the normal, the area and the length of the border.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Totals {
-    /// The sum of the normals, weighted by area.
+    /// The sum of the normals of the faces, weighted by area.
     pub(super) normal: DVec3,
     pub(super) area: f64,
-    /// The length of the border.
+    /// The length of the border of the set.
     pub(super) border: f64,
 }
 
@@ -84,9 +86,9 @@ pub(super) fn meetings(
     (totals, links)
 }
 
-/// Returns the normals of the faces, each averaged several times with the normals of the neighboring faces. A neighbor
-/// whose normal differs by more than 30 degrees is excluded. Without averaging, the borders of charts on noisy scans
-/// would be ragged.
+/// Returns smoothed normals of the faces. The normal of each face is averaged several times with the normals of the
+/// neighboring faces, except neighbors whose normals differ by more than 30 degrees. Without averaging, the borders of
+/// charts on noisy scans would be ragged.
 pub(super) fn smooth_normals(surface: &Surface) -> Vec<DVec3> {
     const ROUNDS: usize = 8;
     const COS_30: f64 = 0.866_025_403_784_438_6;
@@ -114,7 +116,8 @@ pub(super) fn smooth_normals(surface: &Surface) -> Vec<DVec3> {
         .collect()
 }
 
-/// Returns connected sets of coplanar faces.
+/// Finds the regions, which are connected sets of coplanar faces. Returns the index of the region of each face, and the
+/// number of regions.
 fn regions(surface: &Surface) -> (Vec<u32>, usize) {
     let mut region_of = vec![NONE; surface.areas.len()];
     let mut n = 0;
@@ -139,7 +142,7 @@ fn regions(surface: &Surface) -> (Vec<u32>, usize) {
     (region_of, n as usize)
 }
 
-/// A region that can be added to the chart. Candidates are ordered by cost.
+/// A region that can be added to the chart that is growing. Candidates are ordered by cost.
 #[derive(PartialEq)]
 struct Candidate {
     cost: f64,
@@ -161,7 +164,7 @@ impl Ord for Candidate {
     }
 }
 
-/// The regions, and the chart of each.
+/// The regions, and for each region, the chart to which it belongs.
 struct Growth {
     totals: Vec<Totals>,
     links: Vec<BTreeMap<u32, Meeting>>,
@@ -180,7 +183,8 @@ impl Growth {
         })
     }
 
-    /// Returns the cost of adding a region to a chart with these totals; `None` if the region cannot be added.
+    /// Returns the cost of adding a region to a chart. `totals` are the totals of the chart. Returns `None` if the
+    /// region cannot be added.
     fn cost(&self, region: u32, chart: u32, totals: &Totals) -> Option<f64> {
         let added = &self.totals[region as usize];
         let cosine = added
@@ -207,8 +211,8 @@ impl Growth {
         (cost <= MAX_COST).then_some(cost)
     }
 
-    /// Grows the chart with the number `chart` from the region `seed`. Calls `ask`, which checks for cancellation, for
-    /// each region that is added.
+    /// Grows the chart with the number `chart` from the region `seed`. For each region that is added, calls `ask`,
+    /// which checks for cancellation.
     fn grow(
         &mut self,
         seed: u32,
@@ -228,8 +232,8 @@ impl Growth {
                     heap.push(Reverse(Candidate { cost, region }));
                 }
             }
-            // The chart may have changed since the cost of a region was computed. If the cost of a region is now
-            // higher, the region goes back to the queue.
+            // The chart has possibly grown since the cost of the region was computed, so the cost is computed again. If
+            // the cost is now higher, the region goes back to the queue.
             added = loop {
                 let Some(Reverse(candidate)) = heap.pop() else {
                     return Ok(());
@@ -253,9 +257,9 @@ impl Growth {
 }
 
 /// Divides the solid faces, which are the faces with a nonzero area, into connected charts. Returns the index of the
-/// chart of each face, and the number of charts. The index is [`u32::MAX`] for faces with zero area. When a region is
-/// added to a chart, the cosine of the angle between its normal and the current mean normal of the chart must be at
-/// least `min_cosine`.
+/// chart of each face, and the number of charts. The index is [`u32::MAX`] for faces with zero area. A region is added
+/// to a chart only if the cosine of the angle between the normal of the region and the current mean normal of the chart
+/// is at least `min_cosine`.
 pub(super) fn grow(
     surface: &Surface,
     smooth: &[DVec3],

@@ -1,4 +1,4 @@
-//! Measures of texture coordinates: stretch and overlaps.
+//! Measures texture coordinates: how much the texture is stretched, and which faces overlap in the texture.
 
 use std::ops::ControlFlow;
 
@@ -14,13 +14,14 @@ pub struct Stretch {
     /// The 95th percentile of the aspect: on 95 % of the area of the surface, the aspect is at most this value. The
     /// value is infinite if more than 5 % of the surface is mapped to zero area in the texture.
     pub aspect: f64,
-    /// The largest aspect.
+    /// The largest aspect of any triangle.
     pub max_aspect: f64,
-    /// The number of triangles of the texture that are mirrored: clockwise with v upwards.
+    /// The number of triangles that are mirrored in the texture: their corners are in clockwise order, with v pointing
+    /// upwards.
     pub n_mirrored: usize,
     /// The ratio of the largest to the smallest area scale. The area scale of a triangle is its area in the texture,
-    /// divided by its area on the surface. The 2.5 % of the surface with the largest scales and the 2.5 % with the
-    /// smallest scales are excluded. The ratio is 1 if the scale is the same everywhere in the texture.
+    /// divided by its area on the surface. The ratio leaves out the 2.5 % of the surface with the largest scales and
+    /// the 2.5 % with the smallest scales. The ratio is 1 if the scale is the same everywhere in the texture.
     pub scales: f64,
 }
 
@@ -54,8 +55,8 @@ pub fn stretch(mesh: &Mesh, uvs: &[DVec2]) -> Option<Stretch> {
     })
 }
 
-/// Returns the triangles of all faces with their aspects. The aspect is at least 1, and it is 1 if the texture
-/// preserves the angles of the triangle. Triangles with zero area on the surface are left out. See [`Stretch`].
+/// Returns the triangles of all faces, each with its aspect (see [`Stretch`]). The aspect is at least 1; it is 1 if the
+/// texture preserves the angles of the triangle. Triangles with zero area on the surface are left out.
 pub fn aspects(mesh: &Mesh, uvs: &[DVec2]) -> impl Iterator<Item = ([HalfEdgeId; 3], f64)> {
     triangles(mesh).into_iter().filter_map(|triangle| {
         let (map, _) = jacobian(mesh, uvs, triangle)?;
@@ -63,8 +64,8 @@ pub fn aspects(mesh: &Mesh, uvs: &[DVec2]) -> impl Iterator<Item = ([HalfEdgeId;
     })
 }
 
-/// Sorts pairs of a value and a weight by value, and adds up the weights. Returns the first value at which the sum of
-/// the weights is at least `weight`.
+/// Sorts pairs (value, weight) by value, and adds up their weights in this order. Returns the value at which the sum
+/// first reaches `weight`.
 pub(super) fn percentile(values: &mut [(f64, f64)], weight: f64) -> f64 {
     values.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut sum = 0.0;
@@ -76,7 +77,7 @@ pub(super) fn percentile(values: &mut [(f64, f64)], weight: f64) -> f64 {
 }
 
 /// Returns the derivatives of the texture coordinates along two perpendicular unit vectors in the plane of a triangle,
-/// and the area of the triangle.
+/// and the area of the triangle on the surface. Returns `None` if this area is zero or not finite.
 fn jacobian(mesh: &Mesh, uvs: &[DVec2], triangle: [HalfEdgeId; 3]) -> Option<([DVec2; 2], f64)> {
     jacobian_at(
         triangle.map(|h| mesh.position(mesh.origin(h))),
@@ -100,13 +101,13 @@ pub(super) fn jacobian_at(at: [DVec3; 3], uvs: [DVec2; 3]) -> Option<([DVec2; 2]
     Some(([first, (c - a - first * x) / y], area))
 }
 
-/// Returns the ratio of the larger to the smaller singular value of the matrix with these columns.
+/// Returns the ratio of the larger to the smaller singular value of the 2 x 2 matrix with the columns `a` and `b`.
 pub(super) fn aspect([a, b]: [DVec2; 2]) -> f64 {
     let (e, f, g) = (a.dot(a), a.dot(b), b.dot(b));
     let middle = f64::midpoint(e, g);
     let radius = (((e - g) * (e - g)) / 4.0 + f * f).sqrt();
-    // The product of the singular values is the determinant, so a division gives the smaller value without
-    // cancellation.
+    // The product of both singular values is the absolute value of the determinant. Dividing the determinant by the
+    // larger value therefore gives the smaller value accurately, without a difference of nearly equal numbers.
     let long = (middle + radius).sqrt();
     let short = a.perp_dot(b).abs() / long;
     if short > 0.0 {
@@ -116,7 +117,7 @@ pub(super) fn aspect([a, b]: [DVec2; 2]) -> f64 {
     }
 }
 
-/// A triangle in the texture, counter-clockwise.
+/// A triangle in the texture, with its corners in counter-clockwise order and its bounding box.
 pub(super) struct Flat {
     corners: [DVec2; 3],
     low: DVec2,
@@ -137,8 +138,9 @@ impl Flat {
     }
 }
 
-/// Returns the faces that overlap another face, or themselves, in the texture, in ascending order. Triangles that only
-/// share corners or sides do not overlap. Triangles with zero area do not overlap others.
+/// Returns the faces that overlap another face or themselves in the texture. The faces are in ascending order.
+/// Triangles that only share corners or sides do not count as overlapping, and neither do triangles with zero area in
+/// the texture.
 ///
 /// # Errors
 ///
@@ -182,8 +184,8 @@ pub(super) fn first_overlap(
 /// The number of comparisons of triangles between two progress reports.
 const REPORT: usize = 1 << 16;
 
-/// Calls `visit` with the faces of triangles that overlap. Pairs of triangles are left out if both triangles are
-/// already known to overlap other triangles.
+/// Finds pairs of triangles that overlap, and calls `visit` with the faces of each pair. A pair is left out if both of
+/// its triangles are already known to overlap other triangles.
 fn sweep(
     mut flat: Vec<Flat>,
     progress: &dyn Progress,
@@ -218,8 +220,8 @@ fn sweep(
     Ok(())
 }
 
-/// Whether the interiors of two triangles overlap. The interiors overlap if no side of either triangle separates it
-/// from the other triangle.
+/// Whether the interiors of two triangles overlap. They overlap if no line through a side of one of the triangles
+/// separates the two triangles.
 fn overlap(a: &Flat, b: &Flat) -> bool {
     let separates = |a: &Flat, b: &Flat| {
         (0..3).any(|i| {

@@ -29,22 +29,22 @@ pub use measure::{Stretch, aspects, overlapping_faces, stretch};
 pub use pack::{Packed, pack};
 pub use unwrap::{UnwrapOptions, Unwrapped, unwrap};
 
-/// The size of the texture that charts are packed into.
+/// The page into which charts are packed: a square texture.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub struct Page {
-    /// The width and height, in texels.
+    /// The width of the page, in texels. The height is the same.
     pub size: u32,
     /// The number of empty texels around each chart. The distance between two charts is at least twice the padding.
     pub padding: u32,
 }
 
-/// Why charts could not be made or packed.
+/// Why the charts of a texture could not be made or packed.
 #[derive(Clone, Debug, Eq, PartialEq, thiserror::Error)]
 pub enum UvError {
     /// The computation was canceled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
-    /// The charts with their padding do not fit into the page.
+    /// The charts with their padding do not fit into one page of the given size.
     #[error(
         "the charts do not fit into a page of {size} texels with a padding of {padding} texels",
         size = .0.size,
@@ -71,18 +71,18 @@ impl UvError {
     }
 }
 
-/// The charts of texture coordinates.
+/// The charts of a mesh with texture coordinates: sets of faces that are connected in the texture.
 #[derive(Clone, Debug, Eq, PartialEq)]
 pub struct Charts {
-    /// For each face, the index of its chart; `u32::MAX` for removed faces. Charts are in the order of their first
-    /// faces.
+    /// For each face, the index of its chart; `u32::MAX` for removed faces. Charts are numbered in the order of their
+    /// lowest face ids.
     pub of_face: Vec<u32>,
     /// The number of charts.
     pub n: usize,
 }
 
-/// Returns the charts of texture coordinates. Two faces are in the same chart if a path leads from one to the other
-/// across edges that have the same texture coordinates on both sides.
+/// Returns the charts of a mesh with the texture coordinates `uvs`. Two faces are in the same chart if a path leads
+/// from one face to the other across edges that have the same texture coordinates on both sides.
 pub fn charts(mesh: &Mesh, uvs: &[DVec2]) -> Charts {
     let n_faces = mesh.domain_len(mesh::Domain::Face);
     let sets = UnionFind::new(number(n_faces));
@@ -98,7 +98,7 @@ pub fn charts(mesh: &Mesh, uvs: &[DVec2]) -> Charts {
     let mut n = 0;
     for f in mesh.faces() {
         let first = lowest[f.index()] as usize;
-        // The faces are visited in the order of their ids. Each set gets its number when its first face is visited.
+        // The faces are visited in the order of their ids. Each chart gets its number when its first face is visited.
         if first == f.index() {
             of_face[first] = n;
             n += 1;

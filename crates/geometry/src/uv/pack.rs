@@ -1,4 +1,4 @@
-//! Packing: existing charts are moved to one page and scaled to one scale.
+//! Packing: moves existing charts to one page, and scales them so that all have the same scale.
 
 use std::collections::BTreeMap;
 
@@ -13,45 +13,47 @@ use crate::tangent::triangles;
 /// The texture coordinates of packed charts.
 #[derive(Clone, Debug)]
 pub struct Packed {
-    /// The coordinates for each half-edge, from 0 to 1; zero for half-edges without a face.
+    /// The texture coordinates of each half-edge, from 0 to 1. For half-edges without a face, they are zero.
     pub uvs: Vec<DVec2>,
     /// The number of charts.
     pub n_charts: usize,
     /// The number of charts with zero area on the surface or in the texture. All texture coordinates of these charts
     /// become (0, 0).
     pub n_flat: usize,
-    /// The number of charts that overlap themselves. A chart that overlaps itself is packed by its convex hull.
+    /// The number of charts that overlap themselves. For the packing, the shape of such a chart is replaced by its
+    /// convex hull.
     pub n_overlapping: usize,
-    /// The area of the charts, as a fraction of the page.
+    /// The area of all charts together, as a fraction of the area of the page.
     pub coverage: f64,
 }
 
-/// Charts are nested by their shapes only up to this number. More charts are packed in rows, because the time for
-/// nesting grows faster than the number of charts. For 3,324 charts on a page of 4096 texels, rows are 15 times as fast
-/// as nesting, but cover only 61 % of the page instead of 66 %.
+/// If there are at most this number of charts, they are nested: small charts can lie in the hollows of large ones. More
+/// charts are packed in rows, because the time for nesting grows faster than the number of charts. For 3,324 charts on
+/// a page of 4096 texels, rows are 15 times as fast as nesting, but cover only 61 % of the page instead of 66 %.
 const MAX_NESTED: usize = 256;
 
-/// Triangles whose area is at most this fraction of the area of their chart are ignored when charts are packed.
+/// A triangle whose area is at most this fraction of the area of its chart is ignored when the chart is packed.
 const MIN_AREA: f64 = 1e-11;
 
 /// The shortest edge of a convex hull, as a fraction of the size of the hull. The crate `uvunwrap` leaves out triangles
-/// whose height is below 1e-6 times the diagonal. A hull without these triangles could fall apart into several pieces.
+/// whose height is below 1e-6 times the diagonal. If triangles of a hull were left out, the hull could fall apart into
+/// several pieces.
 const MIN_EDGE: f64 = 4e-6;
 
-/// One chart before it is packed.
+/// A chart before the packing.
 struct Chart {
-    /// The corners of its triangles.
+    /// The triangles of the chart, each with its three corners.
     triangles: Vec<[HalfEdgeId; 3]>,
-    /// The factor by which the coordinates of the chart are multiplied, so that all charts have the same scale. `None`
-    /// for a zero-area chart.
+    /// The factor by which the texture coordinates of the chart are multiplied, so that all charts have the same scale.
+    /// `None` for a zero-area chart.
     scale: Option<f64>,
     /// The middle of the bounding box of the chart in the old texture.
     middle: DVec2,
-    /// Its area on the surface.
+    /// The area of the chart on the surface.
     area: f64,
 }
 
-/// The triangles of a chart as they are packed.
+/// The triangles of a chart, in the form that the crate `uvunwrap` packs.
 #[derive(Default)]
 struct Shape {
     positions: Vec<[f32; 3]>,
@@ -61,10 +63,10 @@ struct Shape {
     points: Vec<DVec2>,
 }
 
-/// Moves, turns and scales the charts of texture coordinates of a dense mesh, so that they do not overlap each other
-/// and have one scale: areas in the texture are proportional to areas of the surface. Angles and ratios of lengths
-/// inside a chart are preserved, and mirrored charts remain mirrored. Up to 256 charts can lie in the hollows and holes
-/// of each other. More charts are packed in rows, which is much faster.
+/// Packs the charts of a dense mesh: moves, turns and scales them in the texture. Afterwards, no two charts overlap
+/// each other, and all charts have the same scale: their areas in the texture are proportional to their areas on the
+/// surface. Angles and ratios of lengths inside a chart are preserved, and mirrored charts remain mirrored. Up to 256
+/// charts can lie in the hollows and holes of each other. More charts are packed in rows, which is much faster.
 ///
 /// # Errors
 ///
@@ -82,7 +84,8 @@ pub fn pack(
         .iter()
         .filter(|chart| chart.scale.is_some())
         .collect();
-    // The scales are relative to the scale of the largest chart, so that they fit into 32-bit numbers.
+    // All coordinates are divided by the largest absolute coordinate of all charts, so that they fit into 32-bit
+    // floating-point numbers.
     let largest = solid.iter().flat_map(|chart| {
         let corners = chart.triangles.iter().flatten();
         corners.map(|&h| places(chart, h).abs().max_element())
@@ -104,7 +107,7 @@ pub fn pack(
     }
     let mut atlas = pack_shapes(&shapes, page, progress)?;
     for (shape, output) in shapes.iter_mut().zip(&atlas.meshes) {
-        // A chart that overlaps itself was cut into several charts.
+        // If a chart overlaps itself, the packing has cut it into several charts.
         if n_charts(output) != 1 {
             *shape = shape.hull();
             packed.n_overlapping += 1;
@@ -124,7 +127,7 @@ pub fn pack(
     Ok(packed)
 }
 
-/// Returns the charts with their triangles.
+/// Returns the list of all charts, each with its triangles, scale and area.
 fn chart_list(mesh: &Mesh, uvs: &[DVec2]) -> Vec<Chart> {
     let numbers = charts(mesh, uvs);
     let positions = unit_positions(mesh);
@@ -171,7 +174,7 @@ fn pack_shapes(shapes: &[Shape], page: Page, progress: &dyn Progress) -> Result<
     generate(&inputs, page, progress)
 }
 
-/// Makes an atlas of a single page.
+/// Packs the given shapes into an atlas of a single page.
 fn generate(input: &[MeshInput], page: Page, progress: &dyn Progress) -> Result<Atlas, UvError> {
     let settings = Options {
         density: Density::Auto {
@@ -187,7 +190,8 @@ fn generate(input: &[MeshInput], page: Page, progress: &dyn Progress) -> Result<
     };
     let listen = |report: uvunwrap::Progress| {
         let done = report.done as u64;
-        // The number of packing attempts is not known in advance.
+        // The total number of packing attempts is not always known in advance. If it is not, one more attempt is
+        // assumed.
         let total = report.total.map_or(done + 1, |total| total as u64);
         progress.advance("pack charts", done.min(total), total)
     };
@@ -207,8 +211,8 @@ fn n_charts(output: &OutputMesh) -> usize {
 }
 
 impl Shape {
-    /// Creates the shape of triangles. `place` returns the position of a corner. All triangles are
-    /// counter-clockwise.
+    /// Creates the shape of the given triangles. `place` returns the position of a corner in the plane. Mirrored
+    /// triangles are turned over, so that all triangles of the shape are counter-clockwise.
     fn of_triangles(triangles: &[[HalfEdgeId; 3]], place: impl Fn(HalfEdgeId) -> DVec2) -> Self {
         let mut shape = Self::default();
         let mut numbers = BTreeMap::new();
@@ -220,7 +224,7 @@ impl Shape {
         let total: f64 = all.clone().map(|t| area(t).abs()).sum();
         for points in all {
             // Rounding to 32-bit numbers can turn a thin triangle over. Such a triangle is left out of the shape of the
-            // chart. Its corners are also corners of triangles that stay.
+            // chart. Its corners still get positions, because they move together with the whole chart.
             let before = (points[1] - points[0]).perp_dot(points[2] - points[0]);
             if area(points) * before.signum() <= MIN_AREA * total {
                 continue;
@@ -249,8 +253,8 @@ impl Shape {
         (self.points.len() - 1) as u32
     }
 
-    /// Returns the convex hull (Andrew's monotone chain, 1979), as triangles around its center. The triangles are not
-    /// thin.
+    /// Returns the convex hull of the shape (Andrew's monotone chain, 1979), as triangles around the center of the
+    /// hull. Very short edges of the hull are left out, so that no triangle is too thin.
     fn hull(&self) -> Self {
         let mut points = self.points.clone();
         points.sort_unstable_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
@@ -295,7 +299,8 @@ struct Motion {
 }
 
 impl Motion {
-    /// Returns the motion with the given scale that best maps the points of a shape to its packed vertices.
+    /// Returns the motion that best maps the points of a shape to their packed positions. `density` gives the scale of
+    /// the motion.
     fn new(shape: &Shape, output: &OutputMesh, atlas: &Atlas, page: Page, density: f64) -> Self {
         let size = DVec2::new(f64::from(atlas.width), f64::from(atlas.height));
         let size = size / f64::from(page.size);

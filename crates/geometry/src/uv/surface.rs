@@ -1,4 +1,4 @@
-//! The surface that is unwrapped, and connected parts of it.
+//! The surface that is unwrapped, and connected parts of this surface.
 
 use mesh::{DVec3, FaceId, HalfEdgeId, Mesh};
 
@@ -9,19 +9,19 @@ use crate::tangent::triangles;
 /// The area of a triangle counts as zero if twice the area is at most this fraction of the square of the longest side.
 const MIN_HEIGHT: f64 = 1e-8;
 
-/// A mesh, scaled so that its bounding box has a size of 1, with the triangles, normals and areas of its faces. Faces
-/// are numbered by their ids.
+/// A mesh, scaled so that its bounding box has a size of 1, with the triangles, normals and areas of its faces. The
+/// number of a face is its id.
 pub(super) struct Surface<'a> {
     pub(super) mesh: &'a Mesh,
     /// The positions of the vertices.
     pub(super) positions: Vec<DVec3>,
-    /// The corners of the triangles of all faces, in the order of the faces.
+    /// The triangles of all faces, in the order of the faces. Each triangle is given by its three corners.
     pub(super) triangles: Vec<[HalfEdgeId; 3]>,
-    /// The triangles of face f are those from `starts[f]` to `starts[f + 1]`.
+    /// The triangles of face f have the indices from `starts[f]` up to but not including `starts[f + 1]`.
     starts: Vec<usize>,
-    /// The unit normals, or zero for faces without area.
+    /// The unit normals of the faces; zero for faces with zero area.
     pub(super) normals: Vec<DVec3>,
-    /// The areas. Faces with zero area belong to no chart.
+    /// The areas of the faces. Faces with zero area belong to no chart.
     pub(super) areas: Vec<f64>,
     is_seam: Vec<bool>,
 }
@@ -67,8 +67,8 @@ impl<'a> Surface<'a> {
         self.mesh.face_half_edges(FaceId::new(f as usize))
     }
 
-    /// Returns the face on the other side of a half-edge. Returns `None` if the edge is a seam, or if there is no such
-    /// face or its area is zero.
+    /// Returns the face on the other side of the edge of `h`. Returns `None` if the edge is a seam, if there is no face
+    /// on the other side, or if the area of this face is zero.
     pub(super) fn across(&self, h: HalfEdgeId) -> Option<u32> {
         let f = self.mesh.face(h.twin())?;
         let is_joined = !self.is_seam[h.edge().index()] && self.areas[f.index()] > 0.0;
@@ -88,7 +88,7 @@ impl<'a> Surface<'a> {
     }
 }
 
-/// Whether a triangle has an area.
+/// Whether the area of a triangle does not count as zero.
 pub(super) fn is_solid([a, b, c]: [DVec3; 3]) -> bool {
     let sides = [a - b, b - c, c - a].map(DVec3::length_squared);
     let longest = sides[0].max(sides[1]).max(sides[2]);
@@ -97,7 +97,7 @@ pub(super) fn is_solid([a, b, c]: [DVec3; 3]) -> bool {
 
 /// Returns the positions of all vertices, moved and scaled so that the bounding box has a size of 1.
 pub(super) fn unit_positions(mesh: &Mesh) -> Vec<DVec3> {
-    // First scales the coordinates so that later computations cannot overflow.
+    // First divides all coordinates by the largest absolute coordinate, so that later computations cannot overflow.
     let largest = |p: &DVec3| p.abs().max_element();
     let size = mesh.positions().iter().map(largest).fold(0.0, f64::max);
     let size = if size > 0.0 { size } else { 1.0 };
@@ -111,25 +111,26 @@ pub(super) fn unit_positions(mesh: &Mesh) -> Vec<DVec3> {
     points.map(|p| (unit(p) - middle) / extent).collect()
 }
 
-/// A connected set of faces that is cut open along its border and along the seams inside it. Each vertex of a part is a
-/// set of corners that are connected across uncut edges, so the two sides of a cut have different vertices.
+/// A part of the surface: a connected set of faces that is cut open along its border and along the seams inside it. The
+/// corners of faces at one point form one vertex of the part only if they are connected across uncut edges. Therefore
+/// the two sides of a cut have different vertices.
 pub(super) struct Part {
-    /// The faces, ascending.
+    /// The faces, in ascending order.
     pub(super) faces: Vec<u32>,
     /// The corners of the faces, in the order of the faces.
     pub(super) corners: Vec<HalfEdgeId>,
-    /// The vertex of each corner.
+    /// For each corner, the index of its vertex in this part.
     pub(super) vertices: Vec<u32>,
     /// The positions of the vertices.
     pub(super) points: Vec<DVec3>,
-    /// The vertices of the triangles.
+    /// For each triangle, its three vertices in this part.
     pub(super) triangles: Vec<[u32; 3]>,
-    /// The face of each triangle.
+    /// For each triangle, the face that contains it.
     pub(super) face_of: Vec<u32>,
 }
 
 impl Part {
-    /// Creates the part of a surface with the given faces, in ascending order.
+    /// Creates the part of a surface with the given faces. `faces` must be in ascending order.
     pub(super) fn new(surface: &Surface, faces: Vec<u32>) -> Self {
         let mut corners = Vec::new();
         let mut starts = Vec::with_capacity(faces.len());

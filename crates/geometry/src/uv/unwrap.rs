@@ -8,50 +8,50 @@ use super::pack::pack;
 use super::surface::Surface;
 use super::{Charts, Page, UvError, charts};
 
-/// How a surface is unwrapped.
+/// The options of [`unwrap`].
 #[derive(Clone, Copy, Debug)]
 pub struct UnwrapOptions<'a> {
-    /// Edges that become borders of charts.
+    /// Edges along which the surface is cut: they always become borders of charts.
     pub seams: &'a [EdgeId],
     /// The largest angle between the normal of a face and the mean normal of its chart, in degrees, strictly between 0
     /// and 90.
     pub max_angle: f64,
-    /// The maximum factor, at least 1, by which the area scale of a triangle can be larger or smaller than that of its
-    /// chart. The area scale is the area in the texture, divided by the area on the surface.
+    /// The largest allowed factor, at least 1, by which the area scale of a triangle is larger or smaller than the mean
+    /// scale of its chart. The area scale of a triangle is its area in the texture, divided by its area on the surface.
     pub max_stretch: f64,
-    /// The size of the texture.
+    /// The size of the texture, and the padding around the charts.
     pub page: Page,
 }
 
 /// The texture coordinates of an unwrapped mesh.
 #[derive(Clone, Debug)]
 pub struct Unwrapped {
-    /// The coordinates for each half-edge, from 0 to 1; zero for half-edges without a face.
+    /// The texture coordinates of each half-edge, from 0 to 1. For half-edges without a face, they are zero.
     pub uvs: Vec<DVec2>,
     /// The charts.
     pub charts: Charts,
-    /// The area of the charts, as a fraction of the page.
+    /// The area of all charts together, as a fraction of the area of the page.
     pub coverage: f64,
     /// The faces that contain a triangle whose area in the texture is zero, or becomes zero when the coordinates are
     /// rounded to 32 bits.
     pub flat: Vec<FaceId>,
-    /// The polygons that are bent so far that they overlap themselves in the texture.
+    /// The polygons that are bent so strongly that each of them overlaps itself in the texture.
     pub bent: Vec<FaceId>,
 }
 
-/// Computes texture coordinates for all faces of a dense mesh, without overlaps except in the faces of
-/// [`Unwrapped::bent`].
+/// Computes texture coordinates for all faces of a dense mesh. The faces do not overlap in the texture, except that
+/// each face in [`Unwrapped::bent`] overlaps itself.
 ///
 /// Charts grow from flat regions. Each chart is flattened by a least squares conformal map (Levy, Petitjean, Ray,
 /// Maillot, "Least Squares Conformal Maps for Automatic Texture Atlas Generation", 2002) and then by the hybrid method
 /// of Liu, Zhang, Xu, Gotsman, Gortler ("A Local/Global Approach to Mesh Parameterization", 2008). A chart is cut in
 /// two if it would overlap itself or be stretched too much. In the result, each chart has an aspect of at most 1.15 on
-/// 95 % of its area (see [`Stretch`](super::Stretch)). Charts that meet are joined again if the joined chart neither
-/// overlaps itself nor is stretched too much. Finally, a chart is dissolved if its faces can be divided among the
-/// charts around it without exceeding the same limits. All charts have the same scale. No chart is mirrored, and no
-/// polygon is split. The charts are packed by [`pack`].
+/// 95 % of its area (see [`Stretch`](super::Stretch)). Two charts with a common border are joined again if the joined
+/// chart neither overlaps itself nor is stretched too much. Finally, a chart is dissolved if its faces can be divided
+/// among the charts around it without exceeding the same limits. All charts have the same scale. No chart is mirrored,
+/// and no polygon is split. The charts are packed by [`pack`].
 ///
-/// The result does not depend on the number of threads or the processor.
+/// The result does not depend on the number of threads or on the processor.
 ///
 /// # Errors
 ///
@@ -72,7 +72,8 @@ pub fn unwrap(
     };
     let list = cut::charts(&surface, limits, progress)?;
     let mut uvs = vec![DVec2::ZERO; mesh.n_half_edges()];
-    // The charts are placed side by side, so that two charts never have the same coordinates at an edge.
+    // Before the packing, the charts are placed side by side. Otherwise, two charts could have the same coordinates at
+    // a common edge, and would count as one chart.
     let mut at = 0.0;
     for chart in &list {
         let low = chart.uvs.iter().copied().fold(DVec2::MAX, DVec2::min);
@@ -109,7 +110,8 @@ pub fn unwrap(
     })
 }
 
-/// Moves all corners of each face without area to one corner of a face with area.
+/// Gives all corners of a face with zero area the same texture coordinates: those of a corner of a face whose area is
+/// not zero.
 fn collapse(surface: &Surface, uvs: &mut [DVec2]) {
     let mesh = surface.mesh;
     for f in mesh.faces().filter(|f| surface.areas[f.index()] <= 0.0) {

@@ -1,38 +1,39 @@
-//! Dense fronts: assembly, and elimination of their pivots.
+//! Dense fronts (the matrices of single supernodes): assembles them, and eliminates their pivots.
 
 use crate::sparse::symbolic::Supernode;
 use mesh::parallel;
 
-/// The number of columns of a tile. All columns of a tile are updated together. Each step subtracts `TILE` pivot
-/// columns, each times a factor, from the columns of a tile.
+/// The number of columns of a tile. All columns of a tile are updated together. Each step subtracts multiples of `TILE`
+/// pivot columns from each column of the tile.
 const TILE: usize = 4;
-/// The number of pivot columns that are updated in parallel.
+/// The number of pivot columns in a block. Before a block is factored, its columns are updated in parallel, from the
+/// columns of all earlier blocks.
 const BLOCK: usize = 64;
-/// Fronts with less work than this are computed by one thread.
+/// A front whose work, counted in multiplications, is less than this number is computed by one thread.
 const PARALLEL_WORK: usize = 1 << 20;
 
-/// The matrix that the elimination of a supernode subtracts from the front of its parent.
+/// The matrix that the elimination of a supernode adds to the front of its parent.
 pub(super) struct Update {
-    /// The rows, in ascending order. The columns have the same indices as the rows.
+    /// The rows, in ascending order. The matrix is symmetric, so its columns have the same indices as its rows.
     rows: Vec<u32>,
-    /// The lower triangle, column by column.
+    /// The entries of the lower triangle, column by column.
     values: Vec<f64>,
 }
 
 /// Eliminates supernodes one after another.
 pub(super) struct Front {
-    /// The entries of L of all supernodes so far, column by column.
+    /// The entries of L for all supernodes that were eliminated so far, column by column.
     pub(super) values: Vec<f64>,
-    /// The pivots of all supernodes so far.
+    /// The pivots of all supernodes that were eliminated so far.
     pub(super) pivots: Vec<f64>,
-    /// For each row of the matrix, its position in the front. The list is allocated when the first supernode is
+    /// For each row of the matrix, its position in the current front. The list is allocated when the first supernode is
     /// eliminated.
     place: Vec<u32>,
     n: usize,
 }
 
 impl Front {
-    /// Creates fronts for a matrix with `n` rows.
+    /// Creates an empty state for the fronts of a matrix with `n` rows.
     pub(super) fn new(n: usize) -> Self {
         Self {
             values: Vec::new(),
@@ -42,7 +43,7 @@ impl Front {
         }
     }
 
-    /// Frees the buffers.
+    /// Frees the memory that is not needed after the last elimination.
     pub(super) fn finish(&mut self) {
         self.place = Vec::new();
         self.values.shrink_to_fit();
@@ -50,7 +51,7 @@ impl Front {
 
     /// Eliminates the pivots of a supernode. The updates of the children are taken from the end of `updates`. If the
     /// supernode has a parent, the update for the parent is appended to `updates`. If a pivot is zero, negative,
-    /// infinite or NaN, returns its column and the pivot as the error.
+    /// infinite or NaN, returns an error with the column and the value of the pivot.
     pub(super) fn eliminate<I: Iterator<Item = (u32, f64)>>(
         &mut self,
         supernode: &Supernode,
@@ -118,7 +119,7 @@ fn packed_start(n: usize, column: usize) -> usize {
 }
 
 /// Factors the columns of a panel with `m` rows: replaces them by columns of L, and stores the pivots. If a pivot is
-/// zero, negative, infinite or NaN, returns its column and the pivot as the error.
+/// zero, negative, infinite or NaN, returns an error with the column and the value of the pivot.
 fn factor_panel(panel: &mut [f64], m: usize, pivots: &mut [f64]) -> Result<(), (usize, f64)> {
     let k = pivots.len();
     for block in (0..k).step_by(BLOCK) {
@@ -188,8 +189,9 @@ fn tiles(values: &mut [f64], first: usize, end: usize, m: usize, is_packed: bool
 }
 
 impl Tile<'_> {
-    /// Subtracts the products of the columns of a panel with `m` rows: entry (i, j) decreases by the sum over
-    /// the columns c of l(i, c) d(c) l(j, c), where d are the pivots.
+    /// Subtracts the products of the columns of a panel with `m` rows from the tile: entry (i, j) of the tile decreases
+    /// by the sum over the columns c of l(i, c) d(c) l(j, c). Here l are the entries of the panel, and d are the
+    /// pivots.
     fn subtract(&mut self, panel: &[f64], m: usize, pivots: &[f64]) {
         let mut sources = panel.chunks_exact(m).zip(pivots);
         let first = self.first;
@@ -211,7 +213,8 @@ impl Tile<'_> {
     }
 }
 
-/// Subtracts four products from four columns that start at the rows `first` to `first + 3`.
+/// Subtracts multiples of the four columns in `group` from four target columns. The target columns start at the rows
+/// `first` to `first + 3`.
 fn subtract_4x4(targets: [&mut [f64]; TILE], first: usize, group: &[(&[f64], f64); TILE]) {
     let factors: [[f64; TILE]; TILE] =
         std::array::from_fn(|q| std::array::from_fn(|c| group[c].1 * group[c].0[first + q]));

@@ -73,6 +73,7 @@ impl DooSabin {
 
 impl MeshOperation for DooSabin {
     const NAME: &'static str = "DooSabin";
+    const VERSION: u32 = 2;
     const SUMMARY: &'static str = "Replace every edge and every vertex with a face";
     const EXAMPLE: &'static str = "DooSabin(levels: 1)";
 

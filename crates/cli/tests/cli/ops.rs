@@ -54,10 +54,10 @@ fn selections_are_described_separately() {
         "EdgeSelection: ",
         "EdgeLoop(..)",
         // A description of several lines is printed completely.
-        "An edge loop\n",
-        "continues straight across each interior vertex that has four\n",
-        "edges. An edge loop that starts at a boundary edge follows the\n",
-        "boundary.\n",
+        "At an interior\n",
+        "vertex with four edges, an edge loop continues with the\n",
+        "opposite edge. At every other vertex, it ends. An edge loop\n",
+        "that starts at a boundary edge follows the boundary instead.\n",
         "VertexSelection: ",
     ]);
     let operation = folder.run("ops SplitEdges").stdout;

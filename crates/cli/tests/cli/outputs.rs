@@ -137,7 +137,7 @@ fn provenance_is_not_compared_but_contents_are() {
     folder
         .run("run recipe.ron --set size=2")
         .with_code(1)
-        .complains(&["expected \"b.mws\" to match b.mws: expected objects with the digest"]);
+        .complains(&["expected \"b.mws\" to match b.mws: expected the objects in the file to have the digest"]);
     let folder = folder.with("a.bzc", "3\n0 0\n1 3\n2 0\n");
     folder
         .run("test recipe.ron")
@@ -282,7 +282,7 @@ fn a_batch_processes_files_again_if_a_reference_file_has_changed() {
     let folder = folder.with("golden.off", changed);
     folder.run(batch).with_code(1).prints(&[
         "FAILED a.obj: expected",
-        "to match golden.off: expected objects",
+        "to match golden.off: expected the objects",
     ]);
 }
 

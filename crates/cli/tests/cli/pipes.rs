@@ -149,7 +149,7 @@ fn the_format_of_a_pipe_must_be_named() {
         "info -",
         "`-` has no extension that determines a format: add the format, such as --from obj",
     );
-    refused("convert in.obj -", "`-` needs a format: add --to");
+    refused("convert in.obj -", "add the format, such as --to obj");
     refused("info - --from xyz", "--from xyz: expected one of obj, gltf");
     refused("info in.obj --from obj", "--from applies only to `-`");
     refused(

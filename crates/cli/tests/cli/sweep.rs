@@ -226,7 +226,7 @@ fn invalid_sweeps_are_refused_with_a_reason() {
             fields(&format!(
                 "over: {{\"minor\": Range(from: 0.1, to: 2, steps: 9999), \"levels\": [0, 1]}}, {keep}"
             )),
-            "cells, expected at most 10000",
+            "cells (combinations of values), expected at most 10000",
         ),
         (fields("over: {}"), "`keep` is missing"),
         (

@@ -163,7 +163,7 @@ fn count(cursor: &mut Cursor, what: &str, numbers_each: usize) -> Result<usize, 
         .ok_or_else(|| expected(place, format!("the number of {what} (an integer)"), word))?;
     if !cursor.has_room(n, numbers_each) {
         return Err(place.error(format!(
-            "expected {n} {what}, but the rest of the file is too short for them ({})",
+            "expected {n} {what}, but the rest of the file is too short ({})",
             counted(cursor.remaining(), "byte")
         )));
     }
@@ -247,13 +247,13 @@ mod tests {
                 "4000000000 0 0".to_owned(),
                 1,
                 1,
-                "the rest of the file is too short for them",
+                "the rest of the file is too short",
             ),
             (
                 "18446744073709551615 0".to_owned(),
                 1,
                 1,
-                "the rest of the file is too short for them",
+                "the rest of the file is too short",
             ),
             (
                 format!("1\n{short}"),
@@ -293,14 +293,10 @@ mod tests {
         for (text, line, words) in [
             ("", 1, "expected the number of control points"),
             ("\n0", 2, "at least one control point"),
-            ("2\n0 0\n1", 1, "the rest of the file is too short for them"),
+            ("2\n0 0\n1", 1, "the rest of the file is too short"),
             ("2\n0 0\n1     ", 3, "y of control point 2 (of 2)"),
             ("1\n0 0\n1 1", 3, "expected the end of the file"),
-            (
-                "4000000000\n0 0",
-                1,
-                "the rest of the file is too short for them",
-            ),
+            ("4000000000\n0 0", 1, "the rest of the file is too short"),
         ] {
             let error = curve(text.as_bytes()).unwrap_err();
             assert!(error.message.contains(words), "{text:?}: {error:?}");

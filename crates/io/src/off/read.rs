@@ -116,7 +116,7 @@ fn check_room(cursor: &Cursor, n: usize, words: usize, what: &str) -> Result<(),
         return Ok(());
     }
     let message = format!(
-        "expected {n} {what}, but the rest of the file is too short for them ({})",
+        "expected {n} {what}, but the rest of the file is too short ({})",
         counted(cursor.remaining(), "byte")
     );
     Err(cursor.place().error(message))

@@ -153,7 +153,7 @@ fn transcoded(
         if !cursor.has_room(rows, element.properties.len()) {
             let (lines, rest) = (counted(rows, "line"), counted(cursor.remaining(), "byte"));
             let message = format!(
-                "expected {lines} of {element}, but the rest of the file is too short for them ({rest})"
+                "expected {lines} of {element}, but the rest of the file is too short ({rest})"
             );
             return Err(cursor.place().error(message));
         }

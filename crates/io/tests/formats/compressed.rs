@@ -104,7 +104,12 @@ fn a_bomb_is_refused() {
     ];
     for error in errors {
         assert!(matches!(&error, ReadError::Compressed { .. }), "{error}");
-        assert!(error.to_string().contains("larger than 1.0 MiB"), "{error}");
+        assert!(
+            error
+                .to_string()
+                .contains("larger than the memory budget of 1.0 MiB"),
+            "{error}"
+        );
     }
 }
 

@@ -160,7 +160,7 @@ const BROKEN: &[(&str, &str, &str)] = &[
     (
         "<vcount>4<",
         "<vcount>4294967295 4294967295<",
-        "8589934590 corners according to <vcount>",
+        "8589934590 corners (the sum of the numbers in <vcount>)",
     ),
     (
         "<vcount>4</vcount>",

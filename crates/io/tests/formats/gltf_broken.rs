@@ -213,13 +213,13 @@ fn errors_in_buffers_and_uris_name_the_pointer() {
             "/bufferViews/0/byteLength",
             json!(FOUR_BILLION),
             "/bufferViews/0/byteLength",
-            "buffer 0 has 60",
+            "buffer 0 has only 60",
         ),
         (
             "/bufferViews/0/byteOffset",
             json!(u64::MAX),
             "/bufferViews/0/byteLength",
-            "buffer 0 has 60",
+            "buffer 0 has only 60",
         ),
         (
             "/bufferViews/0/byteStride",

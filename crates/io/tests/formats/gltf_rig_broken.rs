@@ -52,7 +52,7 @@ fn invalid_parts_are_errors_that_name_their_place() {
         ),
         (
             "JOINTS_0",
-            "refers to joint 2, but the skin has 2 joints",
+            "refers to joint 2, but the skin has only 2 joints",
             |j| {
                 j["skins"][0]["joints"] = json!([1, 2]);
             },

@@ -229,7 +229,7 @@ fn files_that_end_too_early_are_refused() {
     );
     assert_error(
         text(CORNERS, ""),
-        "expected 1 line of element `face`, but only",
+        "expected 1 line of element `face`, but the rest of the file is too short",
     );
 }
 
@@ -260,7 +260,7 @@ fn positions_must_be_finite() {
         let vertices = format!("0 0 0\n1 {word} 0\n0 1 0\n");
         assert_error(
             text(&vertices, "3 0 1 2\n"),
-            "11:3: expected a finite number",
+            "11:3: expected the coordinate `y` to be a finite number",
         );
     }
     let mut bytes = binary(&ints(&[3, 0, 1, 2]));
@@ -372,5 +372,5 @@ fn too_many_elements_are_refused() {
     let elements: Vec<_> = (0..100_000).map(|i| format!("element a{i} 0\n")).collect();
     let elements = elements.concat();
     let file = format!("ply\nformat ascii 1.0\n{elements}element vertex 0\n{VERTEX}end_header\n");
-    assert_error(file, "1027:9: expected at most 1024 elements");
+    assert_error(file, "1027:9: expected a header with at most 1024 elements");
 }

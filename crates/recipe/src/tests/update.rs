@@ -111,7 +111,7 @@ fn all_repetitions_must_give_the_same_value() {
     assert_eq!(update.text, moving);
     let help = update.left[0].help.as_deref().unwrap_or_default();
     assert!(
-        help.contains("the repetitions give different values"),
+        help.contains("the repetitions of the step give different values"),
         "{help}"
     );
 }
@@ -126,7 +126,9 @@ fn a_value_from_a_parameter_is_not_updated() {
     assert_eq!(update.text, text);
     assert_eq!(
         update.left[0].help.as_deref(),
-        Some("the value comes from arg(\"n\"), so it is not updated")
+        Some(
+            "the expected value comes from a parameter, arg(\"n\"), so the expectation is not updated"
+        )
     );
 }
 

@@ -145,7 +145,7 @@ fn a_condition_that_is_not_met_is_an_error_with_the_value_reached() {
         let error = apply(&step, &shapes::icosahedron())
             .unwrap_err()
             .to_string();
-        let start = format!("after level {levels}, the longest edge is ");
+        let start = format!("after subdivision level {levels}, the longest edge is ");
         assert!(error.contains(&start), "{error}");
         assert!(
             error.ends_with("expected less than 0.01; raise `below` or `levels`"),
@@ -283,9 +283,15 @@ fn the_memory_budget_is_checked_at_every_level_until_a_condition_is_met() {
                 .to_string()
         };
         let met = message(bytes);
-        assert!(met.contains("after level 2, "), "{scheme:?} {met}");
+        assert!(
+            met.contains("after subdivision level 2, "),
+            "{scheme:?} {met}"
+        );
         let short = message(bytes - 1);
-        assert!(short.contains("after level 1, "), "{scheme:?} {short}");
+        assert!(
+            short.contains("after subdivision level 1, "),
+            "{scheme:?} {short}"
+        );
         assert!(short.contains("level 2 would have "), "{scheme:?} {short}");
     }
 }

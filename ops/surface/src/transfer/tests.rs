@@ -200,7 +200,7 @@ fn missing_and_unsuitable_attributes_are_refused() {
     };
     let error = refused(r#"(from: "scan", attributes: ["uw"])"#, target());
     assert!(
-        error.contains("has no attribute \"uw\"; it has: vertex attribute \"color\""),
+        error.contains("has no attribute \"uw\"; its attributes: vertex attribute \"color\""),
         "{error}"
     );
     let mut other = target();

@@ -187,8 +187,16 @@ fn invalid_panels_and_layouts_are_refused_with_a_reason() {
             layout(60.0, 1),
             "expected a figure with 1 column to be 72 to 8192 pixels wide",
         ),
-        (vec![good.clone()], layout(f64::NAN, 1), "found NaN"),
-        (vec![good.clone()], layout(1e9, 1), "found 1000000000"),
+        (
+            vec![good.clone()],
+            layout(f64::NAN, 1),
+            "found a width of NaN",
+        ),
+        (
+            vec![good.clone()],
+            layout(1e9, 1),
+            "found a width of 1000000000",
+        ),
         (vec![good.clone(); 9], layout(300.0, 9), "with 9 columns"),
     ] {
         let error = construction(&panels, &layout).unwrap_err().to_string();

@@ -49,46 +49,50 @@ class SceneOperations:
         """Reads the objects of a file into the scene.
 
         Formats: ``.obj``, ``.gltf``, ``.glb``, ``.ply``, ``.stl``, ``.off``, ``.dae``, ``.bez`` (Bezier patches),
-        ``.bzc`` (a Bezier curve) and ``.mws`` (a complete scene). A file compressed with gzip has ``.gz`` after its
-        extension, as in ``.obj.gz``; ``.glb`` and ``.mws`` files cannot be compressed this way. An OBJ file becomes one
-        object of the scene. The objects (``o a``) and groups (``g a``) in the file become the face tags ``o="a"`` and
-        ``a``. A glTF file gives an object for each mesh that a node references. The object is named after the node if
-        only one node references the mesh. Unless ``placements`` is ``Bake``, the nodes, cameras, lights, skins, morph
-        targets and animations of the file are kept. A COLLADA file gives an object for each node with a mesh. The
-        report counts and lists the content that the scene cannot hold. Images of materials are read from files next to
-        the model. A corner that repeats the previous corner is removed, and a face that still contains a vertex twice
-        is left out.
+        ``.bzc`` (a Bezier curve) and ``.mws`` (a complete scene). Files in all of these formats except ``.glb`` and
+        ``.mws`` can be compressed with gzip. The name of a compressed file ends with ``.gz``, as in ``a.obj.gz``. An
+        OBJ file becomes one object of the scene. Objects and groups inside an OBJ file become tags (named sets) of
+        faces: a line ``o hat`` gives the tag ``o="hat"``, and a line ``g hat`` gives the tag ``hat``. Each mesh of a
+        glTF file that a node references becomes an object. If exactly one node references the mesh, the object gets the
+        name of the node, otherwise the name of the mesh. Unless ``placements`` is ``Bake``, the scene keeps the nodes,
+        cameras, lights, skins, morph targets and animations of the glTF file. In a COLLADA file (``.dae``), each node
+        with a mesh becomes an object. The report lists and counts the content of the file that the scene cannot store.
+        Image files of materials are read from the folder of the model or of its material library. If two successive
+        corners of a face are at the same vertex, the second one is removed. A face is left out if it then has fewer
+        than three corners or still contains a vertex twice.
 
         Example: ``scene.load(path="teapot.bez")``, in a recipe ``Load(path: "teapot.bez")``
 
         :param path: The file. For a scene, a relative path is relative to the working directory; in a recipe, to the
             folder of the recipe.
-        :param name: The name for objects that have no name in the file, and for the object of an ``.mws`` file with
-            only one object. If omitted, objects without a name get the name of the file without its extension, and the
-            object of an ``.mws`` file keeps its name.
-        :param non_manifold: What to do if more than two faces share an edge, or if the faces at a vertex form several
-            groups that have no common edge. Defaults to ``"Split"``.
-            ``"Split"``: Split edges and vertices until the faces form a manifold, and list the splits.
-            ``"Refuse"``: Fail.
+        :param name: The name for objects that have no name in the file. If an ``.mws`` file contains only one object,
+            this object also gets the name, even if it has a name in the file. If omitted, objects without a name get
+            the name of the file without its extension.
+        :param non_manifold: What to do if the faces do not form a manifold: if more than two faces share an edge, or if
+            several groups of faces meet only at a vertex, like the tips of two cones. Defaults to ``"Split"``.
+            ``"Split"``: Split edges and vertices until the faces form a manifold, and list the splits in the report.
+            ``"Refuse"``: Refuse to read the file.
         :param orientation: What to do if neighboring faces have opposite orientations. Defaults to ``"Orient"``.
-            ``"Orient"``: If possible, reverse faces so that neighbors have the same orientation, and list the reversed
-                faces.
+            ``"Orient"``: If possible, reverse faces so that neighboring faces have the same orientation, and list the
+                reversed faces in the report.
             ``"Keep"``: Keep the orientation of every face.
-        :param duplicates: What to do with faces that have the same vertices as an earlier face, in either direction.
-            Defaults to ``"Keep"``.
+        :param duplicates: What to do with a face that has the same vertices as an earlier face, in the same or in the
+            opposite order around the face. Defaults to ``"Keep"``.
             ``"Keep"``: Keep them.
-            ``"Drop"``: Leave them out, and list them.
+            ``"Drop"``: Leave the elements out, and list them in the report.
         :param degenerate: What to do with zero-area faces. Defaults to ``"Keep"``.
             ``"Keep"``: Keep them.
-            ``"Drop"``: Leave them out, and list them.
+            ``"Drop"``: Leave the elements out, and list them in the report.
         :param isolated: What to do with vertices without a face. Defaults to ``"Keep"``.
             ``"Keep"``: Keep them.
-            ``"Drop"``: Leave them out, and list them.
-        :param placements: What to do with the nodes of a glTF or ``.mws`` file. If the nodes are kept, steps change a
-            mesh in its own space, and each change applies to all nodes that reference the mesh. Defaults to ``"Keep"``.
+            ``"Drop"``: Leave the elements out, and list them in the report.
+        :param placements: What to do with the nodes of a glTF or ``.mws`` file. If the nodes are kept, later operations
+            such as ``smooth()`` change a mesh in its own coordinate system, without the transforms of the nodes. The
+            change is visible at every node that references the mesh. Defaults to ``"Keep"``.
             ``"Keep"``: Keep the nodes.
-            ``"Bake"``: Apply the transforms of nodes to the points.
-        :param strict: If true, the operation fails if anything in the file would be left out. Defaults to ``False``.
+            ``"Bake"``: Apply the transforms of the nodes to the points of the meshes.
+        :param strict: Whether the operation fails if it would leave out some content of the file. If false, the report
+            lists the content that was left out. Defaults to ``False``.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Load', {'path': path, 'name': name, 'non_manifold': non_manifold, 'orientation': orientation, 'duplicates': duplicates, 'degenerate': degenerate, 'isolated': isolated, 'placements': placements, 'strict': strict}, None, id, progress)
@@ -109,21 +113,24 @@ class SceneOperations:
         """Writes objects to a file.
 
         The extension determines the format: ``.obj``, ``.gltf``, ``.glb``, ``.ply``, ``.stl`` or ``.off`` for meshes,
-        ``.bez`` for Bezier patches, ``.bzc`` for a curve, and ``.mws`` for a complete scene without any loss. ``.csv``
-        is a table of the positions and attributes of vertices, faces or corners, and ``.npz`` has the arrays of a mesh
-        for ``NumPy``. ``load()`` cannot read ``.csv`` and ``.npz`` files. If the name ends with ``.gz``, as in
-        ``a.obj.gz``, the file is compressed with gzip. Files in the formats ``.glb``, ``.mws`` and ``.npz`` cannot be
-        compressed with gzip. The report lists the content that the format cannot store. A recipe creates the file only
-        if all of its steps and expectations succeed.
+        ``.bez`` for Bezier patches, ``.bzc`` for a curve, and ``.mws`` for a complete scene without any loss. A
+        ``.csv`` file is a table of the positions and attributes of vertices, faces or corners. An ``.npz`` file stores
+        the arrays of a mesh for the Python library ``NumPy``. ``load()`` cannot read ``.csv`` and ``.npz`` files. If
+        ``path`` ends with ``.gz``, as in ``a.obj.gz``, the file is compressed with gzip. Files in the formats ``.glb``,
+        ``.mws`` and ``.npz`` cannot be compressed with gzip. The report lists the content of the objects that the
+        format cannot store. The file is created only if all steps of the recipe succeed and all expectations of the
+        recipe (checks of the result) are met.
 
         Example: ``scene.save(path="a.obj")``, in a recipe ``Save(path: "a.obj")``
 
         :param path: The file. For a scene, a relative path is relative to the working directory; in a recipe, to the
-            output folder. If ``name`` is a recipe parameter whose value is a file, ``{name.stem}`` is replaced by the
-            name of this file without its extension.
+            output folder. In the path, ``{name.stem}`` stands for a file name without its extension. The file name is
+            taken from the recipe parameter ``name``, whose value must be a file path. For example, ``{input.stem}.glb``
+            becomes ``bunny.glb`` if the parameter ``input`` is ``models/bunny.obj``.
         :param images: What to do with the images of materials. If omitted, images are embedded in ``.glb`` files. For
-            ``.gltf`` and ``.obj``, images in the folder of the source model are copied to the folder of the output
-            file. OBJ cannot embed images, so images that are embedded in the source model are also written to files.
+            ``.gltf`` and ``.obj``, the image files of the model that was loaded are copied to the folder of the output
+            file. If images are embedded in the loaded model, a ``.gltf`` file also embeds them. For ``.obj``, they are
+            written to separate files, because OBJ cannot embed images.
             ``"Embed"``: Store the images in the file or, for ``.gltf``, in its ``.bin`` file.
             ``"Copy"``: Write the images to files in the folder of the written file.
             ``"Keep"``: Write only the paths of the images, as in the original model.
@@ -132,21 +139,23 @@ class SceneOperations:
             ``"Meshopt"``: The extension ``EXT_meshopt_compression``.
         :param quantize: The number of bits for each attribute of the geometry in ``.glb`` and ``.gltf`` files. If
             omitted, numbers are stored as 32-bit floats. ``quantize={}`` uses the default number of bits for each
-            attribute. The report states the largest errors of positions, of normals and tangents, and of texture
-            coordinates.
+            attribute. The report states the largest rounding errors of this operation: in positions, in normals and
+            tangents, and in texture coordinates.
             ``"position"``: The number of bits of each coordinate of a position. Positions are rounded to the points of
                 a grid. The grid covers the bounding box of the object and has the same spacing along all axes. Along
                 the longest side of the box, the grid has 2^bits - 1 steps. Positions of objects with joints or morph
                 targets are not quantized. Defaults to 16.
             ``"normal"``: The number of bits of each of the two numbers that represent a normal or a tangent. The two
                 numbers locate a point on an octahedron. Defaults to 8.
-            ``"uv"``: The number of bits of each texture coordinate. A set of texture coordinates is not quantized if a
-                coordinate is outside the range from 0 to 1. Defaults to 16.
+            ``"uv"``: The number of bits of each texture coordinate. If one coordinate in a set of texture coordinates
+                is outside the range from 0 to 1, the whole set is not quantized. Defaults to 16.
             ``"color"``: The number of bits of each component of a color. Defaults to 8.
-        :param weight_sets: For ``.gltf`` and ``.glb``, the number of sets of four joints that are written for each
-            vertex of a skinned mesh. If omitted, the number of sets in the file from which the mesh was read, or 1 if
-            this number is not known.
-        :param rows: For ``.csv``, the kind of elements that the rows list. If omitted, vertices.
+        :param weight_sets: For a skinned mesh in a ``.gltf`` or ``.glb`` file, the largest number of sets of joints for
+            each vertex. A set has four joints and their weights, so with 2, for example, up to eight joints move a
+            vertex. If omitted, the number of sets in the file from which the mesh was read, or 1 if this number is not
+            known.
+        :param rows: For ``.csv``, the elements that have a row in the table: vertices, faces or corners. If omitted,
+            vertices.
             ``"Vertices"``: Vertices.
             ``"Faces"``: Faces.
             ``"Corners"``: The corners of the faces, face by face.
@@ -167,12 +176,13 @@ class SceneOperations:
     ) -> Self:
         """Creates a mesh from points and faces.
 
-        Point i becomes vertex i, and polygon i becomes face i. If the orientations of connected faces do not agree, the
-        faces with the less frequent orientation are reversed. Faces are reversed only if all orientations then agree.
-        If the faces do not form a manifold, edges and vertices are split: an edge keeps two faces with consistent
-        orientations, and a vertex keeps one fan of faces. All other faces at the edge or vertex get copies of its
-        vertices. The copies of vertices get the highest ids. The report and the command ``check`` list the reversed and
-        split elements.
+        The id of each vertex is the index of its point in ``points``, and the id of each face is its index in
+        ``faces``. If connected faces have opposite orientations, the faces with the less frequent orientation are
+        reversed. No face is reversed if the orientations of the connected faces cannot be made to agree. If the faces
+        do not form a manifold, edges and vertices are split. A split edge keeps two faces with consistent orientations.
+        Each other face at this edge gets a copy of the edge. A split vertex keeps one fan of faces (faces that are
+        connected by edges at the vertex). Each other fan gets a copy of the vertex. The copies of vertices get the
+        highest ids. The report and the command ``check`` list the reversed and split elements.
 
         Example: ``scene.polygons(name="new", points=[(0, 0, 0), (1, 0, 0), (0, 1, 0)], faces=[[0, 1, 2]])``, in a
         recipe ``Polygons(name: "new", points: [(0, 0, 0), (1, 0, 0), (0, 1, 0)], faces: [[0, 1, 2]])``
@@ -180,8 +190,8 @@ class SceneOperations:
         :param points: The points ``(x, y, z)``, in scene units. Points that no face uses become isolated vertices.
         :param faces: The faces. Each face is a list of the indices of its points, counted from 0, in counter-clockwise
             order seen from outside. A face has at least three points, without duplicates.
-        :param name: The name of the new object. Defaults to the name of the operation in lower case, followed by a
-            number if this name is taken.
+        :param name: The name of the new object. Defaults to ``polygons``. If another object already has this name,
+            defaults to ``polygons.2``, ``polygons.3`` and so on.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Polygons', {'name': name, 'points': points, 'faces': faces}, None, id, progress)
@@ -199,20 +209,20 @@ class SceneOperations:
         """Creates a cube.
 
         The cube has 8 vertices and 6 squares. In the order of their ids, the squares are on the sides -z, +z, -y, +x,
-        +y and -x. In the same order, the vertices of the squares are (0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (1, 3,
-        7, 5), (3, 2, 6, 7) and (2, 0, 4, 6). The id of a vertex is (x > center) + 2 (y > center) + 4 (z > center),
-        where a true comparison counts as 1 and a false comparison as 0.
+        +y and -x. In the same order, the vertex ids of the squares are (0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (1, 3,
+        7, 5), (3, 2, 6, 7) and (2, 0, 4, 6). The id of a vertex is a sum: 1 if the vertex is on the side +x, plus 2 if
+        it is on the side +y, plus 4 if it is on the side +z.
 
         Example: ``scene.cube(name="new", size=3, center=(1, 2, 3))``, in a recipe ``Cube(name: "new", size: 3, center:
         (1, 2, 3))``
 
-        :param name: The name of the new object. Defaults to the name of the operation in lower case, followed by a
-            number if this name is taken.
+        :param name: The name of the new object. Defaults to ``cube``. If another object already has this name, defaults
+            to ``cube.2``, ``cube.3`` and so on.
         :param size: The length of the edges, in scene units. More than 0. Defaults to ``2.0``.
         :param center: The center of the cube, in scene units.
         :param triangles: Whether to cut each square (a, b, c, d) along its diagonal from a to c into the triangles (a,
-            b, c) and (a, c, d). Square f becomes the faces 2 f and 2 f + 1. The diagonals of the squares are 0-3, 4-7,
-            0-5, 1-7, 3-6 and 2-4. Defaults to ``False``.
+            b, c) and (a, c, d). The square with the id f becomes the faces with the ids 2 f and 2 f + 1. The diagonals
+            of the squares join the vertices 0-3, 4-7, 0-5, 1-7, 3-6 and 2-4. Defaults to ``False``.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Cube', {'name': name, 'size': size, 'center': center, 'triangles': triangles}, None, id, progress)
@@ -233,8 +243,8 @@ class SceneOperations:
 
         Example: ``scene.tetrahedron(name="new")``, in a recipe ``Tetrahedron(name: "new")``
 
-        :param name: The name of the new object. Defaults to the name of the operation in lower case, followed by a
-            number if this name is taken.
+        :param name: The name of the new object. Defaults to ``tetrahedron``. If another object already has this name,
+            defaults to ``tetrahedron.2``, ``tetrahedron.3`` and so on.
         :param radius: The distance from the center to the vertices, in scene units. More than 0. Defaults to ``1.0``.
         :param center: The center of the tetrahedron, in scene units.
         :param id, progress: See :meth:`Scene.apply`.
@@ -256,8 +266,8 @@ class SceneOperations:
 
         Example: ``scene.octahedron(name="new")``, in a recipe ``Octahedron(name: "new")``
 
-        :param name: The name of the new object. Defaults to the name of the operation in lower case, followed by a
-            number if this name is taken.
+        :param name: The name of the new object. Defaults to ``octahedron``. If another object already has this name,
+            defaults to ``octahedron.2``, ``octahedron.3`` and so on.
         :param radius: The distance from the center to the vertices, in scene units. More than 0. Defaults to ``1.0``.
         :param center: The center of the octahedron, in scene units.
         :param id, progress: See :meth:`Scene.apply`.
@@ -275,13 +285,13 @@ class SceneOperations:
     ) -> Self:
         """Creates a regular icosahedron with 12 vertices and 20 triangles.
 
-        The vertices are the corners of three rectangles with the side ratio 1 : (1 + √5) / 2, one in each coordinate
-        plane.
+        The vertices are the corners of three rectangles with the side ratio 1 : (1 + √5) / 2. The rectangles have the
+        same center, and each is parallel to a different coordinate plane.
 
         Example: ``scene.icosahedron(name="new")``, in a recipe ``Icosahedron(name: "new")``
 
-        :param name: The name of the new object. Defaults to the name of the operation in lower case, followed by a
-            number if this name is taken.
+        :param name: The name of the new object. Defaults to ``icosahedron``. If another object already has this name,
+            defaults to ``icosahedron.2``, ``icosahedron.3`` and so on.
         :param radius: The distance from the center to the vertices, in scene units. More than 0. Defaults to ``1.0``.
         :param center: The center of the icosahedron, in scene units.
         :param id, progress: See :meth:`Scene.apply`.
@@ -305,8 +315,8 @@ class SceneOperations:
 
         Example: ``scene.grid(name="new", columns=3, rows=2)``, in a recipe ``Grid(name: "new", columns: 3, rows: 2)``
 
-        :param name: The name of the new object. Defaults to the name of the operation in lower case, followed by a
-            number if this name is taken.
+        :param name: The name of the new object. Defaults to ``grid``. If another object already has this name, defaults
+            to ``grid.2``, ``grid.3`` and so on.
         :param columns: The number of squares along x. At least 1. Defaults to 10.
         :param rows: The number of squares along y. At least 1. Defaults to 10.
         :param size: The side length of a square, in scene units. More than 0. Defaults to ``1.0``.
@@ -330,14 +340,14 @@ class SceneOperations:
         """Creates a torus of quadrilaterals around the z axis.
 
         The vertices form ``around`` rings, one for each cross section of the tube. Each ring has ``across`` vertices.
-        Vertex j of ring i has the id ``i * across + j``. Ring 0 is in the direction +x, and its vertex 0 is farthest
-        from the axis.
+        With i and j counted from 0, vertex j of ring i has the id ``i * across + j``. Ring 0 is in the direction +x
+        from the center of the torus. Vertex 0 of each ring is the vertex farthest from the axis.
 
         Example: ``scene.torus(name="new", around=7, across=5, major=2, minor=0.5)``, in a recipe ``Torus(name: "new",
         around: 7, across: 5, major: 2, minor: 0.5)``
 
-        :param name: The name of the new object. Defaults to the name of the operation in lower case, followed by a
-            number if this name is taken.
+        :param name: The name of the new object. Defaults to ``torus``. If another object already has this name,
+            defaults to ``torus.2``, ``torus.3`` and so on.
         :param around: The number of faces around the z axis. At least 3. Defaults to 32.
         :param across: The number of faces around the tube. At least 3. Defaults to 16.
         :param major: The distance from the z axis to the center of the tube, in scene units. More than 0. Defaults to
@@ -363,19 +373,20 @@ class SceneOperations:
     ) -> Self:
         """Creates a cylinder around the z axis.
 
-        The vertices of the rim at -z come first, and then the vertices of the rim at +z. Each rim is counter-clockwise
-        seen from +z and starts in the direction +x. The first ``around`` faces are rectangles. With ``caps``, the last
-        two faces are polygons with ``around`` corners, first at -z and then at +z.
+        The vertices of the rim at -z come first, and then the vertices of the rim at +z. The first vertex of each rim
+        is in the direction +x from the axis, and the others follow counter-clockwise, seen from +z. The first
+        ``around`` faces are rectangles. With ``caps=True``, two polygons with ``around`` corners follow: first the cap
+        at -z, then the cap at +z.
 
         Example: ``scene.cylinder(name="new", around=6, radius=1, height=2, caps=True)``, in a recipe ``Cylinder(name:
         "new", around: 6, radius: 1, height: 2, caps: true)``
 
-        :param name: The name of the new object. Defaults to the name of the operation in lower case, followed by a
-            number if this name is taken.
-        :param around: The number of sides. At least 3. Defaults to 32.
+        :param name: The name of the new object. Defaults to ``cylinder``. If another object already has this name,
+            defaults to ``cylinder.2``, ``cylinder.3`` and so on.
+        :param around: The number of rectangles around the axis. At least 3. Defaults to 32.
         :param radius: The distance from the axis to the vertices, in scene units. More than 0. Defaults to ``1.0``.
         :param height: The height along z, in scene units. More than 0. Defaults to ``2.0``.
-        :param caps: Whether the ends are closed. Defaults to ``True``.
+        :param caps: Whether each end is closed by a face. Defaults to ``True``.
         :param center: The center of the cylinder, in scene units.
         :param id, progress: See :meth:`Scene.apply`.
         """
@@ -392,16 +403,17 @@ class SceneOperations:
         id: str | None = None,
         progress: bool | Progress | None = None,
     ) -> Self:
-        """Creates a sphere of meridians and rings, with poles at -z and +z.
+        """Creates a sphere whose edges follow meridians and circles of latitude, with poles at -z and +z.
 
-        Vertex 0 is the pole at -z. The vertices between the poles follow, circle by circle from -z to +z. Each circle
-        starts in the direction +x and is counter-clockwise seen from +z. The last vertex is the pole at +z.
+        Vertex 0 is the pole at -z. The vertices between the poles follow, circle by circle from -z to +z. The first
+        vertex of each circle is in the direction +x from the axis, and the others follow counter-clockwise, seen from
+        +z. The last vertex is the pole at +z.
 
         Example: ``scene.uv_sphere(name="new", around=8, rings=4, radius=2)``, in a recipe ``UvSphere(name: "new",
         around: 8, rings: 4, radius: 2)``
 
-        :param name: The name of the new object. Defaults to the name of the operation in lower case, followed by a
-            number if this name is taken.
+        :param name: The name of the new object. Defaults to ``uvsphere``. If another object already has this name,
+            defaults to ``uvsphere.2``, ``uvsphere.3`` and so on.
         :param around: The number of meridians. At least 3. Defaults to 32.
         :param rings: The number of bands of faces from pole to pole. At least 2. Defaults to 16.
         :param radius: The distance from the center to the vertices, in scene units. More than 0. Defaults to ``1.0``.
@@ -423,21 +435,24 @@ class SceneOperations:
     ) -> Self:
         """Turns Bezier patches into a mesh.
 
-        Acts on all objects that consist of patches, or on the objects in ``on``. Each object becomes one mesh of the
-        same name. Every patch is divided into ``segments`` x ``segments`` cells. The ids of elements follow the order
-        of the patches. Patches share no vertices. If two patches have the same control points on a common side, their
-        vertices on this side have bitwise equal positions, so that ``weld(distance=0)`` joins the patches. A side whose
-        points coincide, as at the pole of a teapot's lid, becomes one vertex. Zero-area patches give no faces. The
-        report counts these patches. The mesh has UVs and normals only if they are requested.
+        Acts on the objects that the operation lists in ``on``. Without ``on``, a method of a scene acts on all objects
+        that consist of Bezier patches. Each object becomes one mesh of the same name. Every patch is divided into
+        ``segments`` x ``segments`` cells. Elements of earlier patches have lower ids. Different patches share no
+        vertices. If two patches have the same control points on a common side, their vertices on this side have bitwise
+        equal positions, so that ``weld(distance=0)`` joins the patches. A side whose points coincide, as at the pole of
+        a teapot's lid, becomes one vertex. Patches without area give no faces. The report counts these patches. The
+        mesh has UVs only with ``uvs=True``, and normals only with ``normals=True``.
 
         Example: ``scene.tessellate(segments=3)``, in a recipe ``Tessellate(segments: 3)``
 
         :param segments: The number of cells along each side of a patch. Defaults to ``8``.
-        :param faces: The faces that a cell becomes. Defaults to ``"Triangles"``.
-            ``"Triangles"``: Two triangles, divided by the diagonal from the corner with the lowest u and v.
+        :param faces: Whether each cell becomes triangles or quads. Defaults to ``"Triangles"``.
+            ``"Triangles"``: Two triangles, divided by the diagonal from the corner with the lowest u and v to the
+                opposite corner.
             ``"Quads"``: One quad.
-        :param uvs: Whether to store the parameters (u, v) of each patch as UVs of corners. The UVs of each patch cover
-            the whole square from 0 to 1. Defaults to ``False``.
+        :param uvs: Whether to store the patch parameters (u, v) of each vertex as UVs of the face corners at this
+            vertex. The UVs of different patches overlap, because each patch covers the whole square from 0 to 1.
+            Defaults to ``False``.
         :param normals: Whether to store the exact unit normals of the patches as vertex normals. Defaults to ``False``.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
         :param id, progress: See :meth:`Scene.apply`.
@@ -454,13 +469,13 @@ class SceneOperations:
     ) -> Self:
         """Replaces curves with polylines whose points lie on the curves.
 
-        Each curve becomes one polyline with ``segments`` + 1 points in the plane z = 0, at the parameters 0, 1 /
-        segments, 2 / segments and so on, up to 1. The first and the last point are exactly the first and the last
-        control point of the curve.
+        Each curve becomes one polyline in the plane z = 0. The polyline has ``segments`` + 1 points, at the curve
+        parameters 0, 1 / segments, 2 / segments and so on, up to 1. The first and the last point are exactly the first
+        and the last control point of the curve.
 
         Example: ``scene.sample_curve(segments=1)``, in a recipe ``SampleCurve(segments: 1)``
 
-        :param segments: The number of straight segments.
+        :param segments: The number of straight segments of each polyline.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
@@ -474,15 +489,17 @@ class SceneOperations:
         id: str | None = None,
         progress: bool | Progress | None = None,
     ) -> Self:
-        """Replaces curves with the levels of de Casteljau's algorithm.
+        """Replaces each curve with polylines that show the levels of de Casteljau's algorithm.
 
         A curve with n control points becomes n polylines in the plane z = 0. The first polyline is the control polygon
-        with n points. Each of the following polylines has one point fewer than the polyline before it. The last
-        polyline has a single point, the point of the curve at ``t``.
+        with n points. The points of each later polyline divide the segments of the polyline before it in the ratio t :
+        1 - t, so the number of points decreases by one. The last polyline has a single point, the point of the curve at
+        ``t``.
 
         Example: ``scene.curve_levels(t=0)``, in a recipe ``CurveLevels(t: 0)``
 
-        :param t: The parameter of the point, from 0 (the start of the curve) to 1 (its end).
+        :param t: The curve parameter at which the algorithm computes a point, from 0 (the start of the curve) to 1 (the
+            end).
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
@@ -497,10 +514,10 @@ class SceneOperations:
         id: str | None = None,
         progress: bool | Progress | None = None,
     ) -> Self:
-        """Moves one control point of curves.
+        """Moves one control point of each curve.
 
-        The other control points do not move. The point of the curve at a parameter t moves by B(t) times the offset of
-        the control point, where B is the Bernstein polynomial of the control point.
+        The other control points do not move. The point of the curve at a parameter t moves by B(t) d. Here, d is the
+        displacement of the control point, and B is the Bernstein polynomial of the control point.
 
         Example: ``scene.move_control_point(index=1, to=(2, -3.5))``, in a recipe ``MoveControlPoint(index: 1, to: (2,
         -3.5))``
@@ -524,16 +541,18 @@ class SceneOperations:
     ) -> Self:
         """Moves one control point of Bezier patches.
 
-        Acts on all objects that consist of patches, or on the objects in ``on``. Control points of the same object that
-        are at the same position move together, so that patches with a common side stay joined. The point of a patch at
-        the parameters (u, v) moves by B(u) C(v) times the offset of the control point, where B and C are the Bernstein
-        polynomials of its column and its row. The report counts the objects.
+        Acts on the objects that the operation lists in ``on``. Without ``on``, a method of a scene acts on all objects
+        that consist of patches. Control points of the same object that are at the same position move together, so that
+        patches with a common side stay joined. The point of a patch at the parameters (u, v) moves by B(u) C(v) d.
+        Here, d is the displacement of the control point, and B and C are the Bernstein polynomials of its column and
+        its row. The report counts the changed objects.
 
         Example: ``scene.move_patch_point(index=5, to=(1, 2, 0.5))``, in a recipe ``MovePatchPoint(index: 5, to: (1, 2,
         0.5))``
 
-        :param index: The index of the control point, from 0: 16 times the index of the patch, plus 4 times the row,
-            plus the column. Every object on which the operation acts must have a control point with this index.
+        :param index: The index of the control point in the object: 16 p + 4 r + c. Here, p is the index of the patch, r
+            is the row and c is the column, all counted from 0. Every object on which the operation acts must have a
+            control point with this index.
         :param to: The new position ``(x, y, z)``, in scene units.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
         :param id, progress: See :meth:`Scene.apply`.
@@ -551,7 +570,8 @@ class SceneOperations:
         """Copies an object, with its attributes and materials, under a new name.
 
         The copy is added after all other objects. The elements of the copy have the same ids as in the original. If
-        nodes place the object, each of these nodes gets a sibling that places the copy.
+        nodes of the scene (as in glTF) place the object, each of these nodes gets a sibling node that places the copy
+        at the same location.
 
         Example: ``scene.copy(from_="mesh", to="new")``, in a recipe ``Copy(from: "mesh", to: "new")``
 
@@ -570,8 +590,9 @@ class SceneOperations:
     ) -> Self:
         """Deletes objects.
 
-        The remaining objects keep their order. A node that places a deleted object is also removed, unless it has
-        children, a camera or a light, or is a joint of a skin.
+        The remaining objects keep their order. If a node of the scene (as in glTF) places a deleted object, the
+        operation also removes the node. However, a node that has children, a camera or a light, or that is a joint of a
+        skin, is kept without the object.
 
         Example: ``scene.delete(objects=["mesh"])``, in a recipe ``Delete(objects: ["mesh"])``
 
@@ -590,8 +611,9 @@ class SceneOperations:
     ) -> Self:
         """Renames an object.
 
-        The order of the objects does not change. If a node or mesh of the object has the same name as the object, this
-        node or mesh also gets the new name.
+        The order of the objects does not change. Objects from a glTF file can have separate names for the object, its
+        nodes and its mesh. If the name of a node or of the mesh is the old name of the object, this name also changes
+        to the new name.
 
         Example: ``scene.rename(from_="mesh", to="new")``, in a recipe ``Rename(from: "mesh", to: "new")``
 
@@ -612,27 +634,28 @@ class SceneOperations:
     ) -> Self:
         """Joins meshes into one object.
 
-        Each mesh becomes a part of the result. Vertices, edges and faces are numbered part by part, in the order of the
-        list. The parts are not connected, even where they touch. In the scene, the result replaces the first mesh of
-        the list. The other meshes of the list are removed. If nodes place a part, the result contains a copy of the
-        part for each node, with the transform of the node applied to its points. If there are skinned parts, and they
-        all have the same skin and one node each, the result keeps this skin and one of these nodes. If the result keeps
-        a skin, the parts without a skin follow the first joint of this skin. If the result does not keep a skin, no
-        node places the result. The names and default weights of morph targets are kept if they are the same for all
-        parts with morph targets.
+        Each mesh becomes a part of the result. Vertices, edges and faces are numbered part by part, in the order of
+        ``objects``. The parts are not connected, even where they touch. In the scene, the result replaces the first
+        mesh in ``objects``, and the other meshes are removed. If nodes of the scene (as in glTF) place a mesh, the
+        result contains a copy of the mesh for each of these nodes. The points of each copy are transformed by the
+        transform of the node. The result keeps a skin only if all skinned parts have the same skin and each of them has
+        exactly one node. In this case, the result also keeps the node of the first skinned part, and parts without a
+        skin follow the first joint of the skin. Otherwise, skinned parts are joined in their current pose, and no node
+        places the result. The names and default weights of morph targets are kept if all parts with morph targets have
+        the same names and default weights.
 
         If a part lacks an attribute that another part has, the elements of this part get the value zero. Missing
-        material indices become -1 (no material). Normals are dropped and reported as lost unless all parts have them.
-        If an attribute of a part has a different type than in earlier parts, the attribute of this part is dropped and
-        reported as lost. Equal materials become one material.
+        material indices become -1 (no material). If a part has no normals, the normals of all parts are dropped and
+        reported as lost. If an attribute of a part has a different type than in earlier parts, the attribute of this
+        part is dropped and reported as lost. Equal materials become one material.
 
         Example: ``scene.join(objects=["mesh", "other"], name="joined")``, in a recipe ``Join(objects: ["mesh",
         "other"], name: "joined")``
 
         :param objects: The names of the meshes. At least one name, without duplicates.
-        :param name: The name of the result. The name of one of the meshes is allowed.
-        :param tag_parts: Whether to tag the faces of each part with the name of the part, so that
-            ``sel.Tagged("head")`` selects them in later operations. Defaults to ``True``.
+        :param name: The name of the result, which can be the name of one of the joined meshes.
+        :param tag_parts: Whether to tag the faces of each part with the name of the part. In later operations,
+            ``sel.Tagged("head")`` then selects the faces of the part "head". Defaults to ``True``.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Join', {'objects': objects, 'name': name, 'tag_parts': tag_parts}, None, id, progress)
@@ -648,29 +671,29 @@ class SceneOperations:
     ) -> Self:
         """Splits a mesh into several objects.
 
-        The parts of "figure" are named "figure 1", "figure 2" and so on. The first part replaces the object, and the
-        other parts are added after all other objects. Elements keep their order and their values, and every part has
-        all materials. Vertices without a face are dropped. The report counts them. The operation fails if the mesh has
-        no faces.
+        The parts of an object "figure" get the names "figure 1", "figure 2" and so on. In the list of objects, the
+        first part replaces the original object, and the other parts come last. Elements keep their order and their
+        values. Every part keeps the whole list of materials. Vertices without a face are dropped. The report counts
+        them. The operation fails if the mesh has no faces.
 
-        Nodes that placed the object place the first part instead. Each of these nodes gets child nodes that place the
-        other parts.
+        Nodes of the scene (as in glTF) that placed the original object now place the first part. Each of these nodes
+        gets child nodes that place the other parts at the same location.
 
-        If a connected component is divided, each of its parts gets its own copies of the edges and vertices that the
-        parts shared. If the faces of a part around a vertex form several fans, each fan gets a separate copy of the
-        vertex.
+        If several parts come from one connected component, each of these parts gets its own copies of the edges and
+        vertices between the parts. Within a part, the faces around a vertex can form several fans that share no edge at
+        this vertex. Each fan then gets a separate copy of the vertex.
 
         Example: ``scene.separate(object="mesh")``, in a recipe ``Separate(object: "mesh")``
 
         :param object: The name of the mesh.
         :param by: How the faces are grouped into parts. Defaults to ``"Components"``.
             ``"Components"``: One part for each connected component, in order of the lowest face id in each component.
-            ``"Material"``: One part for each material that a face has, in order of the materials.
-            ``choice.Tag(..)``: The first part has the faces with the tag of this name, and the second part all other
-                faces.
+            ``"Material"``: One part for each material that at least one face has, in order of the materials.
+            ``choice.Tag(..)``: Two parts: the first part has the faces with the tag of this name, and the second part
+                has all other faces.
         :param count: The expected number of parts. The operation fails if the number of parts is not ``count``. If
-            omitted, the names of the parts are not known before the recipe runs, so the object names in later
-            operations cannot be checked before the run.
+            omitted, the number and names of the parts are known only during the run. Later operations that refer to
+            objects by name can then not be checked before the run.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Separate', {'object': object, 'by': by, 'count': count}, None, id, progress)
@@ -690,25 +713,28 @@ class SceneOperations:
         """Scales, rotates and moves objects.
 
         Points are first scaled, then rotated, then moved. The operation changes the points of meshes, patches, curves
-        and polylines. If nodes place an object and ``space`` is ``Scene``, the operation changes the placements of
-        these nodes instead of the points. Everything below these nodes also moves. With ``space="Scene"``, the
-        operation moves a skinned mesh by moving its joints. If the placement of a node is animated, the node gets a new
-        parent, and the operation moves this parent instead. If ``space`` is ``Scene``, ``on:`` is omitted and ``about``
-        is not ``Center``, all other root nodes also move, for example the nodes of cameras and lights. A curve must
-        stay in the plane z = 0.
+        and polylines. If nodes of the scene (as in glTF) place an object and ``space`` is ``Scene``, the operation
+        changes the transforms of these nodes instead of the points. The descendants of these nodes move with them. A
+        skinned mesh follows its joints, so with ``space="Scene"``, the operation moves the joints. If the transform of
+        a node is animated, the animation would overwrite the change. The operation therefore gives this node a new
+        parent and moves the parent. If ``space`` is ``Scene``, ``on:`` is omitted and ``about`` is not ``Center``, root
+        nodes without an object also move, such as the nodes of cameras and lights. The operation fails if a curve would
+        leave the plane z = 0.
 
-        Ids do not change. If the points of a mesh change, its normals, tangents and deltas of morph targets are also
-        transformed; other attributes do not change. If the points are mirrored (one or three negative factors in
-        ``scale``), the faces are also reversed, so that they stay counter-clockwise seen from outside. In a reversed
-        face, the first corner stays first, and the other corners follow in reverse order. In mirrored patches, u and v
-        are exchanged, so that the same side of the surface remains the outside. Like any operation that changes the
-        connectivity, mirroring the points drops attributes whose edit rule is ``Drop``, such as tangents of corners.
+        Ids do not change. If the points of a mesh change, the normals, tangents and deltas of morph targets of this
+        mesh are also transformed. Other attributes do not change. If the points are mirrored (one or three negative
+        factors in ``scale``), the faces are also reversed, so that they stay counter-clockwise seen from outside. In a
+        reversed face, the first corner stays first, and the other corners follow in reverse order. In mirrored patches,
+        u and v are exchanged, so that the same side of the surface remains the outside. Attributes with the edit rule
+        ``Drop``, such as tangents of corners, are removed by every step that changes the connectivity. Mirroring the
+        points removes them too.
 
         Example: ``scene.transform(scale=(2, 1, 1), rotate=[{"axis": "Z", "angle": 90}], move=(3, 1, 0))``, in a recipe
         ``Transform(scale: (2, 1, 1), rotate: [(axis: Z, angle: 90)], move: (3, 1, 0))``
 
-        :param scale: The scale factors along x, y and z. Factors must not be 0. A negative factor mirrors.
-        :param rotate: The rotations, applied in order.
+        :param scale: The scale factors along x, y and z. Factors must not be 0. A negative factor mirrors along its
+            axis.
+        :param rotate: The rotations, applied in the order of the list.
             ``"axis"``: The direction of the axis.
             ``"angle"``: The angle of the rotation, in degrees. A positive angle is counter-clockwise if the axis points
                 towards the viewer. Rotations by multiples of 90 degrees have no rounding errors.
@@ -719,7 +745,7 @@ class SceneOperations:
             ``choice.Point(..)``: A point with the coordinates x, y, z.
         :param space: The coordinate system in which objects are scaled, rotated and moved. Defaults to ``"Scene"``.
             ``"Scene"``: The space of the scene.
-            ``"Object"``: The space of each object.
+            ``"Object"``: The own space of each object.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
@@ -737,13 +763,14 @@ class SceneOperations:
         id: str | None = None,
         progress: bool | Progress | None = None,
     ) -> Self:
-        """Places copies of an object on a surface, at random and evenly spread.
+        """Places copies of an object on a surface, at random positions that are evenly spread.
 
         Exactly ``count`` points are chosen so that no two of them are close together (Yuksel, "Sample Elimination for
         Generating Poisson Disk Sample Sets", 2015). Each copy is a node that references the object (an instance), so
         copies need almost no memory, and almost no space in ``.gltf``, ``.glb`` and ``.mws`` files. The node of each
-        copy moves the origin of the object to one of the points. To make one mesh of all copies, use ``join()``
-        afterwards. If no node placed the object before the operation, the object then appears only at the points.
+        copy moves the origin of the object to one of the points. To make one mesh of all copies, use ``join()`` in a
+        later operation. If no node placed the object before the operation, the object is no longer visible at its
+        original position, only at the points.
 
         Without ``object``, the result is a mesh that consists of the points and has no faces. The vertex normals of
         this mesh are the normals of the surface at the points.
@@ -751,11 +778,13 @@ class SceneOperations:
         Example: ``scene.scatter(surface="mesh", count=20, seed=7)``, in a recipe ``Scatter(surface: "mesh", count: 20,
         seed: 7)``
 
-        :param surface: The name of the object with the surface, which must be a mesh with a single instance.
+        :param surface: The name of the object on whose surface the points lie. This object must be a mesh that appears
+            only once in the scene (a single instance).
         :param count: The number of points.
-        :param object: The name of the object that is placed. If omitted, only the points are made.
-        :param seed: The seed. A different seed gives different points. The same seed gives the same points on the same
-            surface, in every step. Defaults to ``0``.
+        :param object: The name of the object that is copied. If omitted, the operation creates a mesh of points instead
+            of copies.
+        :param seed: The seed of the random numbers. Two steps with the same seed, surface and count choose the same
+            points. A different seed gives different points. Defaults to ``0``.
         :param align: The axis of the object that is aligned with the normal of the surface. If omitted, the copies are
             not rotated.
             ``"X"``: The x axis.
@@ -776,19 +805,19 @@ class SceneOperations:
     ) -> Self:
         """Merges vertices that are close together, and joins the faces at them.
 
-        Vertices at most ``distance`` apart are linked. Vertices that are connected by a chain of links merge into one,
-        even if the ends of the chain are farther apart than ``distance``. The merged vertex has the position and the
-        values of the vertex with the lowest id. The other vertices are removed, so the ids of the vertices after them
-        change. Edges between the same two vertices become one edge with the values of the first edge. Corner values
-        stay with their corners, so UV seams are kept.
+        Two vertices are linked if they are at most ``distance`` apart. Vertices that are connected by a chain of links
+        merge into one, even if the ends of the chain are farther apart than ``distance``. Of the vertices that merge,
+        the vertex with the lowest id remains, with its position and values. The others are removed, so the ids of later
+        vertices change. If several edges then join the same two vertices, they become one edge with the values of the
+        edge with the lowest id. Corner values, such as UVs, stay with the corners of the faces, so UV seams are kept.
 
         If neighboring corners of a face merge, the face loses a corner. A face is removed if it has fewer than three
-        corners left or would contain a vertex twice. Joined faces may have opposite orientations. If the orientations
-        in a connected part can be made to agree, its faces form two groups of equal orientation. All faces of the
-        smaller group are reversed. If faces are reversed, the report counts them, and the normals of vertices and
-        corners are dropped. Where the result would still not be manifold, vertices and edges are copied. For example, a
-        third face at an edge gets a copy of the edge. The report counts the copies. If no vertices merge, the mesh does
-        not change.
+        corners left or would contain a vertex twice. After the merge, neighboring faces can have opposite orientations.
+        If all orientations in a connected part of the mesh can be made to agree, the operation reverses the faces with
+        the less frequent orientation. If faces are reversed, the report counts them, and the normals of vertices and
+        corners are dropped. If the result is still not a manifold, vertices and edges are copied. For example, if three
+        faces share an edge, the third face gets a copy of the edge. The report counts the copies. If no vertices merge,
+        the mesh does not change.
 
         Example: ``scene.weld(distance=0)``, in a recipe ``Weld(distance: 0)``
 
@@ -807,13 +836,14 @@ class SceneOperations:
         id: str | None = None,
         progress: bool | Progress | None = None,
     ) -> Self:
-        """Reverses the orientation of faces, so that their other side is the outside.
+        """Reverses the orientation of faces, so that their inside and outside are exchanged.
 
         Adjacent faces must have the same orientation, so only whole connected components can be reversed. If a selected
-        face shares an edge with a face that is not selected, the operation is refused. No vertex moves, and all
-        elements keep their ids. The first corner of a face stays first, and the other corners follow in reverse order.
-        Normals are negated. Attributes whose edit rule is ``Drop``, such as tangents of corners, are dropped. Other
-        attributes stay with their elements, and corner values stay with their vertex and face.
+        face shares an edge with a face that is not selected, the operation fails. No vertex moves, and all elements
+        keep their ids. The first corner of a face stays first, and the other corners follow in reverse order. Normals
+        are negated. Attributes with the edit rule ``Drop`` (removed by every change of the connectivity), such as
+        tangents of corners, are removed. Vertices, edges and faces keep all other values. The values of a corner stay
+        at the same vertex of the same face.
 
         Example: ``scene.reverse()``, in a recipe ``Reverse()``
 
@@ -835,12 +865,13 @@ class SceneOperations:
         """Cuts polygons into triangles.
 
         A quadrilateral is cut along its shorter diagonal. If both diagonals have the same length, the quadrilateral is
-        cut along the diagonal at its vertex with the lowest id. Two lengths count as the same if the relative
-        difference of their squares is at most 1e-12. If the chosen diagonal gives a zero-area triangle, or a triangle
-        that is turned over relative to the normal of the face, the other diagonal is used, unless it has the same
-        problem. A quadrilateral with a reflex corner is therefore cut at that corner. If a diagonal would join two
-        vertices that are already joined by an edge or by a diagonal of another face, the quadrilateral is cut along its
-        other diagonal where possible. The report counts the duplicate diagonals that remain.
+        cut along the diagonal that contains its vertex with the lowest id. Two lengths count as the same if the
+        relative difference of their squares is at most 1e-12. A diagonal is bad if one of its two triangles has zero
+        area or is turned over: clockwise where the face is counter-clockwise. If the diagonal chosen so far is bad and
+        the other one is not, the other one is used. A quadrilateral with a reflex corner (an angle above 180 degrees)
+        is therefore cut at that corner. A diagonal is a duplicate if its ends are also joined by an edge or by a
+        diagonal of another face. A duplicate is replaced with the other diagonal if the other one is equally good and
+        not itself a duplicate. The report counts the duplicates that remain.
 
         A face with more than four corners is projected along its normal. The projected face is cut by ear clipping, or
         into monotone pieces if it has more than 4096 corners. Then diagonals are flipped until the triangulation is a
@@ -849,8 +880,9 @@ class SceneOperations:
         corners. A face that cannot be triangulated in this way becomes a triangle fan around its vertex with the lowest
         id. The report counts these faces.
 
-        The triangles of a face take its place in the order of the faces and have its values. Vertices and edges keep
-        their ids. The corners of the triangles have the values of the corners of the face at the same vertices.
+        In the order of the faces, the triangles of a face replace the face, so the ids of later faces change. The
+        triangles have the values of the face. Vertices and edges keep their ids. A corner of a triangle has the values
+        of the old face's corner at the same vertex.
 
         Example: ``scene.triangulate()``, in a recipe ``Triangulate()``
 
@@ -875,26 +907,29 @@ class SceneOperations:
     ) -> Self:
         """Replaces the edge between two triangles with the other diagonal of the quadrilateral that they form.
 
-        Edges are flipped in order of their ids. Each flip is checked against the mesh as edited so far. A flip is
-        refused if the edge is on the boundary, if the same face is on both sides of the edge, or if an end of the edge
-        has only two edges. A flip is also refused if the two corners opposite to the edge are the same vertex or are
-        already joined by an edge. At a seam, a flip is refused unless ``seams`` is ``Drop``. All elements keep their
-        ids, and no vertex moves. Vertices, edges and faces keep their values. Each of the two faces gets one new
-        corner. The new corner of a face gets its values from the corner of the other face at the same vertex. All other
-        corners keep their values.
+        Edges are flipped in order of their ids. Each flip is checked against the mesh that the earlier flips have
+        produced. A flip is refused if the edge is on the boundary, if the same face is on both sides of the edge, or if
+        an end of the edge has only two edges. A flip is also refused if the two corners opposite to the edge are the
+        same vertex or are already joined by an edge. If the edge is a seam (an edge whose corner values, such as UVs,
+        differ between its two sides), the flip is refused unless ``seams`` is ``Drop``. All elements keep their ids,
+        and no vertex moves. Vertices, edges and faces keep their values. Each of the two faces gets one new corner. The
+        new corner of a face gets its values from the corner of the other face at the same vertex. All other corners
+        keep their values.
 
-        If a face beside the edge has more than three corners, each end of the edge moves to the next corner of the
-        polygon that the two faces form. With ``until="Delaunay"`` or ``until="Valence"``, such an edge is not flipped.
+        If a face beside the edge has more than three corners, consider the polygon that the two faces form together.
+        Each end of the edge moves to the next corner of this polygon, counter-clockwise. With ``until="Delaunay"`` or
+        ``until="Valence"``, only edges between two triangles are flipped.
 
-        With ``until="Delaunay"`` or ``until="Valence"``, an edge is flipped only if the flip improves the mesh. Edges
-        are checked again, pass after pass, until a pass flips no edge or ``passes`` is reached. Flips with
-        ``until="Delaunay"`` or ``until="Valence"`` neither fold the surface nor create zero-area triangles. If a flip
-        that would improve the mesh is refused, the operation does not fail. An edge whose flip is refused is left
-        unchanged, and the report counts the refusals by reason. The report also states the number of passes, and
-        whether the operation stopped because ``passes`` was reached.
+        With ``until="Delaunay"`` or ``until="Valence"``, an edge is flipped only if the flip improves the mesh. The
+        operation makes several passes over the edges. It stops after a pass that flips no edge, or after ``passes``
+        passes. Flips with ``until="Delaunay"`` or ``until="Valence"`` neither fold the surface nor create zero-area
+        triangles. If a flip that would improve the mesh is refused, the edge is left unchanged, and the operation does
+        not fail. The report counts the refused flips for each reason. The report also states the number of passes, and
+        whether the operation stopped because of the limit ``passes``.
 
         On a surface that is not flat, a flip changes the shape. To keep creases and other edges, exclude them from
-        ``edges``, for example with ``sel.Flat(below=30)`` or ``sel.Not(sel.Tagged("keep"))``.
+        ``edges``. For example, ``sel.Flat(below=30)`` selects only edges at which the surface bends by less than 30
+        degrees, and ``sel.Not(sel.Tagged("keep"))`` selects only edges without the tag "keep".
 
         Example: ``scene.flip_edges(edges="All")``, in a recipe ``FlipEdges(edges: All)``
 
@@ -903,15 +938,16 @@ class SceneOperations:
         :param until: Which edges are flipped, and when to stop. Defaults to ``"Once"``.
             ``"Once"``: Flip each edge once.
             ``"Delaunay"``: Flip edges until no flip reduces the sum of the cotangents of all angles of all triangles.
-            ``"Valence"``: Flip edges until no flip brings the valences of the vertices closer to 6, or to 4 on the
-                boundary.
+            ``"Valence"``: Flip edges until no flip brings the valences (the numbers of edges) of the vertices closer to
+                their targets.
         :param passes: The largest number of passes over the edges. Ignored with ``until="Once"``, which makes one pass.
             Defaults to ``100``.
-        :param on_refusal: What to do when a flip is refused. Ignored unless ``until`` is ``Once``. Defaults to
-            ``"Error"``.
+        :param on_refusal: What to do when a flip is refused. Used only with ``until="Once"``. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
-            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
-        :param seams: What to do at seams. Defaults to ``"Refuse"``.
+            ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
+                element.
+        :param seams: What to do with a seam (an edge whose corner values, such as UVs, differ between its two sides).
+            Defaults to ``"Refuse"``.
             ``"Refuse"``: Refuse the edit.
             ``"Drop"``: Edit anyway.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
@@ -929,23 +965,25 @@ class SceneOperations:
         id: str | None = None,
         progress: bool | Progress | None = None,
     ) -> Self:
-        """Inserts a vertex on each edge and joins it to the opposite corners of the triangles beside the edge.
+        """Inserts a vertex on each edge and joins this vertex to the opposite corners of the triangles beside the edge.
 
-        In a mesh of triangles, a split adds 1 vertex, 3 edges and 2 faces. A split of a boundary edge adds 1 vertex, 2
-        edges and 1 face. If a face beside the edge has more than three corners, the face is not cut and only gains the
-        new vertex as a corner. Edges are split in order of their ids; new edges are not split again. New vertices get
-        the highest ids, in the order of the splits. Attribute values at the new vertex and at its corners are
-        interpolated between the ends of the edge. At a seam, the two sides are interpolated separately.
+        In a mesh of triangles, the split of an inner edge adds 1 vertex, 3 edges and 2 faces. The split of a boundary
+        edge adds 1 vertex, 2 edges and 1 face. If a face beside the edge has more than three corners, the face is not
+        cut and only gains the new vertex as a corner. Edges are split in order of their ids; new edges are not split
+        again. New vertices get the highest ids, in the order of the splits. Attribute values at the new vertex and at
+        its corners are interpolated between the ends of the edge. At a seam (an edge whose corner values, such as UVs,
+        differ between its two sides), the corner values of each side are interpolated separately.
 
         Example: ``scene.split_edges(edges="All")``, in a recipe ``SplitEdges(edges: All)``
 
         :param edges: The edges to split. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
-        :param at: The position of the new vertex on the edge. From 0 to 1, exclusive. If ``edges`` is
-            ``sel.Between("v", "w")``, position 0 is at v and position 1 is at w. For all other selections, position 0
-            is at the end of the edge with the lower id. Defaults to ``0.5``.
+        :param at: The position of the new vertex on the edge, as a fraction of the length of the edge. Above 0 and
+            below 1. If ``edges`` is ``sel.Between("v", "w")``, position 0 is at v and position 1 is at w. For all other
+            selections, position 0 is at the end whose vertex has the lower id. Defaults to ``0.5``.
         :param on_refusal: What to do when a split is refused. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
-            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+            ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
+                element.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
@@ -963,37 +1001,41 @@ class SceneOperations:
     ) -> Self:
         """Collapses edges, so that the two ends of each edge become one vertex.
 
-        In a mesh of triangles, a collapse removes 1 vertex, 3 edges and 2 faces. A collapse of a boundary edge removes
-        1 vertex, 2 edges and 1 face. If a face beside the edge has more than three corners, the face is not removed and
-        only loses a corner. Of the two ends, the vertex with the lower id is kept. Edges are collapsed in order of
-        their ids. An edge that an earlier collapse removed counts as refused.
+        In a mesh of triangles, the collapse of an inner edge removes 1 vertex, 3 edges and 2 faces. The collapse of a
+        boundary edge removes 1 vertex, 2 edges and 1 face. If a face beside the edge has more than three corners, the
+        face is not removed and only loses a corner. Of the two ends, the vertex with the lower id is kept. Edges are
+        collapsed in order of their ids. An edge that an earlier collapse removed counts as refused.
 
-        A collapse is refused if it would change the topology of the surface or make elements coincide:
+        A collapse is refused if it would change the topology of the surface or make elements coincide. The report or
+        the error message gives one of these reasons:
 
-        - ``JoinsBoundaries``: an edge inside the surface joins two boundary vertices.
-        - ``Link``: the ends have a common neighbor that is not a corner of a triangle beside the edge, for example on a
-          tube with three sides or at a hole with three edges.
-        - ``DuplicateEdge``: a second edge joins the ends.
+        - ``JoinsBoundaries``: both ends of the edge are on the boundary, but the edge itself is not.
+        - ``Link``: the ends have a common neighboring vertex that is not a corner of a triangle beside the edge.
+          Examples are the edges around a tube with three sides, and the edges of a hole with three edges.
+        - ``DuplicateEdge``: a second edge joins the same two vertices.
         - ``RepeatedVertex``: both ends are also corners of a face that is not beside the edge.
-        - ``Vanishes``: around the edge, the collapse would leave no face, as for a single triangle, or only two faces
-          that lie back to back, as for a tetrahedron.
-        - ``SameFace``: the same face is on both sides of the edge, or would be on both sides of another edge.
+        - ``Vanishes``: at the remaining vertex, the collapse would leave no face (as for a single triangle), or only
+          two faces that lie back to back (as for a tetrahedron).
+        - ``SameFace``: the same face is on both sides of the edge, or the collapse would put the same face on both
+          sides of another edge.
         - ``SameOpposite``: the two triangles beside the edge share another edge.
 
         Attribute values at the remaining vertex and at its corners are interpolated between the ends of the edge. At a
-        seam, the two sides are interpolated separately. When two edges become one, the remaining edge gets the larger
-        of the two crease values and the tags of both edges. Normals are dropped.
+        seam (an edge whose corner values, such as UVs, differ between its two sides), the corner values of each side
+        are interpolated separately. When two edges become one, the remaining edge gets the larger of their crease
+        values (sharpness for subdivision) and the tags of both edges. Normals are dropped.
 
         Example: ``scene.collapse_edges(edges="All", on_refusal="Skip")``, in a recipe ``CollapseEdges(edges: All,
         on_refusal: Skip)``
 
         :param edges: The edges to collapse. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
-        :param at: The position of the remaining vertex on the edge, from 0 to 1. If ``edges`` is ``sel.Between("v",
-            "w")``, position 0 is at v and position 1 is at w. For all other selections, position 0 is at the end of the
-            edge with the lower id. Defaults to ``0.5``.
+        :param at: The position of the remaining vertex on the old edge, as a fraction of the length of the edge, from 0
+            to 1. If ``edges`` is ``sel.Between("v", "w")``, position 0 is at v and position 1 is at w. For all other
+            selections, position 0 is at the end whose vertex has the lower id. Defaults to ``0.5``.
         :param on_refusal: What to do when a collapse is refused. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
-            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+            ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
+                element.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
@@ -1011,23 +1053,26 @@ class SceneOperations:
     ) -> Self:
         """Removes edges and merges the faces beside them.
 
-        Edges are removed in order of their ids. Each removal is checked against the mesh as edited so far. Each removal
-        reduces the number of edges by 1 and the number of faces by 1. Of the two faces beside the edge, the face with
-        the lower id is kept, with its values. No vertex is removed or moved. To remove vertices that are left with two
-        edges, use ``dissolve_vertices(vertices=sel.Valence(2))`` in a later operation. The remaining elements keep
-        their order and their values but get new ids.
+        Edges are removed in order of their ids. Each removal is checked against the mesh that the earlier removals have
+        produced. A removal reduces the number of edges by 1 and the number of faces by 1. Of the two faces beside the
+        edge, the face with the lower id is kept, with its values. No vertex is removed or moved. To remove vertices
+        that are left with two edges, use ``dissolve_vertices(vertices=sel.Valence(2))`` in a later operation. The
+        remaining elements keep their order and their values but get new ids.
 
         An edge cannot be removed if it is on the boundary, if the same face is on both of its sides, or if one of its
-        ends has only two edges. An edge also cannot be removed if its two faces have a common corner that is not an end
-        of the edge. A seam edge is removed only if ``seams`` is ``Drop``.
+        ends has only two edges. An edge also cannot be removed if its two faces have a common vertex that is not an end
+        of the edge. A seam (an edge whose corner values, such as UVs, differ between its two sides) is removed only if
+        ``seams`` is ``Drop``.
 
         Example: ``scene.dissolve_edges(edges=sel.Between(0, 1))``, in a recipe ``DissolveEdges(edges: Between(0, 1))``
 
         :param edges: The edges to remove. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
         :param on_refusal: What to do when an edge cannot be removed. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
-            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
-        :param seams: What to do at seams. Defaults to ``"Refuse"``.
+            ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
+                element.
+        :param seams: What to do with a seam (an edge whose corner values, such as UVs, differ between its two sides).
+            Defaults to ``"Refuse"``.
             ``"Refuse"``: Refuse the edit.
             ``"Drop"``: Edit anyway.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
@@ -1048,39 +1093,41 @@ class SceneOperations:
     ) -> Self:
         """Replaces edges with faces of constant width.
 
-        A selected edge and both of its ends are removed, and a new face replaces the edge. The new face extends into
-        both faces beside the old edge, up to the distance ``width`` from this edge. An edge that is not selected, but
-        shares an end with a selected edge, is cut near this end. If the two edges are neighboring sides of a face, the
-        cut is where the distance from the selected edge is ``width``, but at most four times ``width`` from the shared
-        end. Otherwise, the cut is at the distance ``width`` from the shared end. Where two selected edges are
-        neighboring sides of a face, the new vertex lies inside this face. If three or more new vertices surround an old
-        vertex, another new face joins them. All edges are beveled together, so a cube that is beveled at all edges
-        keeps all of its symmetries.
+        A selected edge and both of its ends are removed, and a new face replaces the edge. On both sides, the new face
+        extends up to the distance ``width`` from the old edge. An edge that is not selected, but shares an end with a
+        selected edge, is shortened at this end. If the two edges are not neighboring sides of a face, the new end is at
+        the distance ``width`` from the old end. If they are, the new end is where the distance from the selected edge
+        is ``width``, but at most four times ``width`` from the old end. If two selected edges are neighboring sides of
+        a face, a new vertex inside this face replaces the corner between them. If three or more new vertices replace an
+        old vertex, another new face joins the new vertices. All edges are beveled together, so a cube that is beveled
+        at all edges keeps all of its symmetries.
 
         The ends of the edges are removed, so the ids of the vertices after them change. New vertices get the highest
-        ids. Faces keep their ids. New faces get the highest ids: first the faces of edges, in order of the edges, then
-        the faces of vertices. Edges get new ids.
+        ids. Faces keep their ids. New faces get the highest ids: first the faces that replace edges, in order of these
+        edges, then the faces that replace vertices. Edges get new ids.
 
-        A new vertex has the values of the old face at its position, so textures do not change. A new face has the
-        values (material, tags) of one of the old faces beside it. It is not specified which of these faces is used, but
-        the choice is the same in every run. New edges have zero values (no crease, no tags). Normals are dropped.
+        The values of a new vertex are interpolated in an old face at the position of the vertex, so textures stay in
+        place. A new face has the values (material, tags) of one of the old faces beside it. It is not specified which
+        of these faces is used, but the choice is the same in every run. New edges have zero values (no crease, no
+        tags). Normals are dropped.
 
         An edge cannot be beveled if it is on the boundary (``Boundary``), or if one of its ends has only one other edge
-        and this other edge is not selected (``FewEdges``). An edge also cannot be beveled if the bevels at both ends of
-        an edge would overlap (``OutsideEdge``). If the result would not be manifold, no edge is beveled
-        (``NonManifold``).
+        and this other edge is not selected (``FewEdges``). If the bevels at the two ends of any edge would overlap, the
+        selected edges at these ends cannot be beveled (``OutsideEdge``). If the result would not be manifold, no edge
+        is beveled (``NonManifold``).
 
         Example: ``scene.bevel_edges(edges=sel.Between(0, 2), width=0.25)``, in a recipe ``BevelEdges(edges: Between(0,
         2), width: 0.25)``
 
         :param edges: The edges to bevel. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
-        :param width: The distance from the beveled edge to the new edge in each of the two faces beside it, in scene
-            units. Either ``width`` or ``fraction`` must be given.
-        :param fraction: The width as a fraction of the length of the shortest edge that is selected or shares a vertex
-            with a selected edge. From 0 to 1, exclusive.
+        :param width: The distance, in scene units, from the beveled edge to each of the two new edges that replace it,
+            one in each of the faces beside the beveled edge. Either ``width`` or ``fraction`` must be given.
+        :param fraction: The width, divided by the length of the shortest edge among the selected edges and all edges
+            that share a vertex with them. Above 0 and below 1.
         :param on_refusal: What to do when an edge cannot be beveled. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
-            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+            ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
+                element.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
@@ -1100,10 +1147,10 @@ class SceneOperations:
 
         Sets the edge attribute ``crease`` of the selected edges and the vertex attribute ``corner`` of the selected
         vertices to ``sharpness``. Elements that are not selected keep their values, or get 0 if the attribute did not
-        exist before the operation. Loop and Catmull-Clark subdivision keep an edge or a vertex sharp for as many levels
-        as its sharpness, and smooth it in later levels. For example, an edge with sharpness 2.5 is sharp for two levels
-        and half sharp in the third level. With sharpness 10, an edge is sharp at every level. Boundary edges are always
-        sharp.
+        exist before the operation. With sharpness s, Loop and Catmull-Clark subdivision keep an edge or a vertex sharp
+        in the first s levels and smooth it in later levels. For example, an edge with sharpness 2.5 is sharp in the
+        first two levels. In the third level, the positions are halfway between the sharp and the smooth result. An edge
+        with sharpness 10 stays sharp, however many levels follow. Boundary edges are always sharp.
 
         At least one of ``edges`` and ``vertices`` must be given. The geometry does not change. The report counts the
         elements whose value changed.
@@ -1136,10 +1183,10 @@ class SceneOperations:
 
         A face with n corners becomes n triangles. Each poked face adds 1 vertex, n edges and n - 1 faces. The first
         triangle keeps the id of the face. The other triangles and the new vertices and edges get the highest ids, in
-        order of the faces. The new vertex is at the mean of the corners, moved along the normal of the face by
-        ``distance``. Vertex and corner attributes that edits interpolate get, at the new vertex, the mean of their
-        values at the corners. The triangles have the values of their face, and the new edges have zero values (no
-        crease, no tags). If ``distance`` is not 0, normals are dropped.
+        order of the poked faces. The new vertex is at the mean of the positions of the corners, moved along the normal
+        of the face by ``distance``. At the new vertex, interpolated attributes of vertices and corners, such as UVs,
+        get the mean of their values at the corners of the face. The triangles have the values of their face, and the
+        new edges have zero values (no crease, no tags). If ``distance`` is not 0, normals are dropped.
 
         A face cannot be poked if it contains a vertex twice, if the position of the new vertex would not be finite, or
         if the mesh already has the largest supported number of elements.
@@ -1153,7 +1200,8 @@ class SceneOperations:
             is at the center. Defaults to ``0.0``.
         :param on_refusal: What to do when a face cannot be poked. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
-            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+            ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
+                element.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
@@ -1170,12 +1218,12 @@ class SceneOperations:
     ) -> Self:
         """Cuts each face in two with an edge between two of its corners.
 
-        Each pair (v, w) of vertices cuts the face that has both vertices as corners. The new edge joins the two
-        vertices. Each cut adds 1 edge and 1 face. Cuts are made in the order of the list, so a face can be cut several
-        times. A cut from v to w divides the face into two parts. The part to the right of the line from v to w is the
-        new face, and the other part keeps the id of the old face. New edges and faces get the highest ids. Corners keep
-        their values. The new face has the values of the old face, and the new edge has zero values (no crease, no
-        tags).
+        Each pair (v, w) of vertices in ``between`` cuts the face that has both vertices as corners. The new edge joins
+        the two vertices. Each cut adds 1 edge and 1 face. Cuts are made in the order of the list, so a face can be cut
+        several times. A cut from v to w divides the face into two parts. Seen from outside, the part to the right of
+        the line from v to w becomes the new face. The other part keeps the id of the old face. New edges and faces get
+        the highest ids. Corners keep their values. The new face has the values of the old face, and the new edge has
+        zero values (no crease, no tags).
 
         A cut is refused if the two vertices are the same or are already joined by an edge. A cut is also refused if no
         face has both vertices as corners, or if several faces do, because the cut would then be ambiguous.
@@ -1185,7 +1233,8 @@ class SceneOperations:
         :param between: The cuts, as a list of pairs of vertex ids, for example ``[(0, 2), (5, 9)]``.
         :param on_refusal: What to do when a cut is refused. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
-            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+            ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
+                element.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
@@ -1204,14 +1253,15 @@ class SceneOperations:
         """Removes faces and leaves holes.
 
         All faces are removed at once, so their order does not matter. Edges left without a face are removed. Vertices
-        that lose their last edge are also removed, unless ``keep_vertices`` is true. Vertices that were isolated before
+        that lose their last edge are also removed, unless ``keep_vertices`` is true. Vertices that had no edge before
         the operation are kept. The remaining elements keep their order and their values but get new ids. To delete
         edges or vertices together with their faces, select the faces with ``sel.FacesBeside("edges")`` or
         ``sel.FacesAround("vertices")``.
 
         The removal is refused if the remaining faces around a vertex would form several fans that meet only at that
-        vertex. With ``on_refusal="Skip"``, faces are instead removed one by one, in order of their ids, in repeated
-        passes until no more selected faces can be removed. The selected faces that remain are counted as refused.
+        vertex. In this case, the operation with ``on_refusal="Skip"`` tries to remove the faces one by one, in order of
+        their ids. The operation repeats these attempts until no more selected faces can be removed. The report counts
+        the selected faces that remain as refused.
 
         Example: ``scene.delete_faces(faces="All")``, in a recipe ``DeleteFaces(faces: All)``
 
@@ -1219,7 +1269,8 @@ class SceneOperations:
             ``meshwright.sel``.
         :param on_refusal: What to do when not all faces can be removed. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
-            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+            ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
+                element.
         :param keep_vertices: Whether to keep vertices that are left without an edge. Defaults to ``False``.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
         :param id, progress: See :meth:`Scene.apply`.
@@ -1240,26 +1291,28 @@ class SceneOperations:
     ) -> Self:
         """Moves faces out of the surface and connects them to their old rim with side faces.
 
-        Selected faces that share an edge form a region and move together, with one normal and one center. A region is
-        first scaled, then rotated, and then moved. The fixed point of scaling and rotation is the mean of the vertices
-        of the region. Side faces with four corners are added along the rim of the region. The rim of a region consists
-        of the edges with a face of the region on exactly one side. If all faces of an open sheet are extruded, the
-        result is a box that is open where the sheet was. A closed region has no rim, so its faces only move. If the
-        area vectors of the faces cancel each other out, as in a closed region, the region has no normal, and ``by``
-        must be an ``choice.Offset``.
+        Selected faces that are connected across edges form a region. A region moves as a whole, and has one normal and
+        one center. A region is first scaled, then rotated, and then moved. Scaling and rotation are about the center of
+        the region, which is the mean position of its vertices. Side faces with four corners are added along the rim of
+        the region. The rim of a region consists of the edges with a face of the region on exactly one side. If all
+        faces of an open sheet are extruded, the result is a box that is open where the sheet was. A closed region (for
+        example, all faces of a cube) has no rim, so it moves without new side faces. A region has no normal if the area
+        vectors of its faces cancel each other out, as in a closed region. For a region without a normal, ``by`` must be
+        an ``choice.Offset``.
 
-        The faces keep their ids, so the same selection can be extruded again in later operations, for example to grow
-        an arm out of a body. Vertices and edges inside a region also keep their ids. The vertices and edges of the old
-        rim do not move, and the moved faces get a new rim. New side faces get the highest ids. They are ordered by
-        region (by the lowest face id of each region), then by face, and then counter-clockwise around each face from
-        its first corner. The new vertices are in the same order as the side faces. Each new vertex is a copy of the
-        first vertex of the corresponding side face.
+        The moved faces keep their ids. A later operation can therefore extrude the same faces again, for example to
+        grow an arm out of a body. Vertices and edges inside a region also keep their ids. The vertices and edges of the
+        old rim do not move, and the moved faces get a new rim. New side faces get the highest ids. They are ordered by
+        region (by the lowest face id of each region), then by the id of the adjacent moved face. Around each moved
+        face, the order is counter-clockwise from its first corner. Each side face adds one new vertex, so the new
+        vertices are in the order of the side faces. A new vertex is a copy of the first vertex of its side face. The
+        first vertex is on the old rim.
 
-        A side face has the values of the adjacent moved face (material, tags). The corners of a side face have the
-        values of the corners of the moved face, so textures have no seam between the two faces. However, a side face
-        shows only one line of the texture: the line along the edge of the moved face, stretched over the whole side
-        face. The edges of the new rim have the values of the edges of the old rim (creases, tags). The edges between
-        the old and the new rim have zero values (no crease, no tags). Normals are dropped.
+        A side face has the attribute values (material, tags) of the adjacent moved face. The corners of a side face
+        have the values of the corners of the moved face, so textures have no seam between the two faces. However, a
+        side face shows only one line of the texture: the line along the edge of the moved face, stretched over the
+        whole side face. The edges of the new rim have the values of the edges of the old rim (creases, tags). The edges
+        between the old and the new rim have zero values (no crease, no tags). Normals are dropped.
 
         Example: ``scene.extrude_faces(faces=sel.Faces([0]), by=choice.Distance(0.5))``, in a recipe
         ``ExtrudeFaces(faces: Faces([0]), by: Distance(0.5))``
@@ -1293,15 +1346,15 @@ class SceneOperations:
     ) -> Self:
         """Shrinks faces and surrounds each face with a ring of faces.
 
-        Each face is inset separately, even if selected faces share edges. The inner face keeps the id of the face, and
-        existing vertices do not move. A face with n corners adds n vertices, 2 n edges and n faces with four corners.
-        New vertices and faces get the highest ids: in order of the selected faces, and counter-clockwise around each
-        face from its first corner.
+        Each face is inset separately, even if selected faces share edges. The shrunk inner face keeps the id of the
+        selected face, and existing vertices do not move. For a face with n corners, the operation adds n vertices, 2 n
+        edges and n faces with four corners. New vertices and faces get the highest ids. They are numbered in order of
+        the selected faces, and counter-clockwise around each face from its first corner.
 
-        Values at a new corner or vertex are interpolated between the value at the outer corner and the mean of the
-        values at all corners of the face. Textures therefore do not change. The faces of the ring have the values of
-        the old face (material, tags). The edges of the inner face have the values of the outer edges. Normals are
-        dropped.
+        Attribute values at a new corner or vertex are interpolated in the same way as its position, so textures do not
+        move on the surface. The interpolation is between the value at the outer corner and the mean of the values at
+        all corners of the face. The faces of the ring have the values of the old face (material, tags). The edges of
+        the inner face have the values of the old edges beside them. Normals are dropped.
 
         A face cannot be inset if it is on both sides of one of its edges.
 
@@ -1311,10 +1364,11 @@ class SceneOperations:
         :param faces: The faces to inset. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
             ``meshwright.sel``.
         :param fraction: The position of each corner of the inner face on the line from the old corner to the center of
-            the face. From 0 (the old corner) to 1 (the center), exclusive.
+            the face. More than 0 (the old corner) and less than 1 (the center).
         :param on_refusal: What to do when a face cannot be inset. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
-            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+            ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
+                element.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
@@ -1334,14 +1388,16 @@ class SceneOperations:
         """Shrinks and raises faces, and surrounds each face with a ring of faces.
 
         Works like ``inset_faces()``, and also moves the inner face along its normal. Each face is beveled separately,
-        even if selected faces share edges. The inner face keeps the id of the face, and existing vertices do not move.
-        A face with n corners adds n vertices, 2 n edges and n faces with four corners. New vertices and faces get the
-        highest ids: in order of the selected faces, and counter-clockwise around each face from its first corner. A
-        zero-area face has no normal, so its inner face is not raised.
+        even if selected faces share edges. The shrunk inner face keeps the id of the selected face, and existing
+        vertices do not move. For a face with n corners, the operation adds n vertices, 2 n edges and n faces with four
+        corners. New vertices and faces get the highest ids. They are numbered in order of the selected faces, and
+        counter-clockwise around each face from its first corner. A zero-area face has no normal, so its inner face is
+        not raised.
 
-        Values at a new corner or vertex are interpolated between the value at the outer corner and the mean of the
-        values at all corners of the face. The faces of the ring have the values of the old face (material, tags). The
-        edges of the inner face have the values of the outer edges. Normals are dropped.
+        Attribute values at a new corner or vertex are interpolated with the parameter ``fraction``: from the value at
+        the outer corner (0) to the mean of the values at all corners of the face (1). The faces of the ring have the
+        values of the old face (material, tags). The edges of the inner face have the values of the old edges beside
+        them. Normals are dropped.
 
         A face cannot be beveled if it is on both sides of one of its edges.
 
@@ -1351,12 +1407,13 @@ class SceneOperations:
         :param faces: The faces to bevel. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
             ``meshwright.sel``.
         :param fraction: The position of each corner of the inner face on the line from the old corner to the center of
-            the face. From 0 (the old corner) to 1 (the center), exclusive.
+            the face. More than 0 (the old corner) and less than 1 (the center).
         :param distance: The distance by which the inner face moves along its normal, in scene units. A negative
-            distance moves the inner face inwards.
+            distance moves the inner face in the direction opposite to its normal.
         :param on_refusal: What to do when a face cannot be beveled. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
-            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+            ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
+                element.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
@@ -1374,17 +1431,18 @@ class SceneOperations:
     ) -> Self:
         """Removes vertices and merges the faces around them.
 
-        Vertices are removed in order of their ids. Each removal is checked against the mesh as edited so far. All faces
-        around the vertex become one face, which has the id and the values of the face with the lowest id. If the vertex
-        is on the boundary, its two boundary edges become one. If the vertex has only two edges, these edges become one
-        edge, and the faces beside the edge lose a corner. When two edges become one, the edge with the lower id is
-        kept, with its values. The remaining elements keep their order and their values but get new ids. Normals are
-        dropped.
+        Vertices are removed in order of their ids. Each removal is checked against the mesh as edited so far. If a
+        vertex has three or more edges, all faces around it become one face. The merged face replaces the face with the
+        lowest id and has its values. If the vertex is on the boundary, its two boundary edges also become one edge. If
+        the vertex has only two edges, these edges become one edge, and each face beside this edge loses a corner. When
+        two edges become one, the edge with the lower id is kept, with its values. The remaining elements keep their
+        order and their values but get new ids. Normals are dropped.
 
-        A vertex cannot be removed if it is isolated or has a single edge, or if a neighbor would be left with a single
-        edge inside a face. A vertex also cannot be removed if a face would contain a vertex twice or have fewer than
-        three corners, or if an edge would join two vertices that are already joined. A vertex at a seam is removed only
-        if ``seams`` is ``Drop``.
+        A vertex cannot be removed if it is isolated or has a single edge. It also cannot be removed if a neighboring
+        vertex would be left with a single edge, which ends inside a face. A removal is also refused if a face would
+        contain a vertex twice or have fewer than three corners. The same applies if a new edge would join two vertices
+        that an edge already joins. At a seam, texture coordinates or other corner values differ between the two sides
+        of an edge. A vertex at a seam is removed only if ``seams`` is ``Drop``.
 
         Example: ``scene.dissolve_vertices(vertices=sel.Vertices([1]))``, in a recipe ``DissolveVertices(vertices:
         Vertices([1]))``
@@ -1393,7 +1451,8 @@ class SceneOperations:
             ``meshwright.sel``.
         :param on_refusal: What to do when a vertex cannot be removed. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
-            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+            ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
+                element.
         :param seams: What to do at seams. Defaults to ``"Refuse"``.
             ``"Refuse"``: Refuse the edit.
             ``"Drop"``: Edit anyway.
@@ -1414,32 +1473,34 @@ class SceneOperations:
     ) -> Self:
         """Replaces vertices with faces.
 
-        Each edge at a selected vertex is cut near this vertex, and a new face joins the cuts. The distance of a cut
-        from the vertex is a fraction of the length that the edge had before the operation. The new face has as many
-        corners as the vertex had edges. If both ends of an edge are selected, the fraction must be below 0.5. For
-        example, a fraction of 0.25 turns a cube into a truncated cube.
+        Each edge at a selected vertex is cut near this vertex. A new face with a corner at each cut replaces the
+        vertex. For example, if all vertices of a cube are beveled with ``fraction=0.25``, the result is a truncated
+        cube. The distance of a cut from the vertex is ``fraction`` times the length that the edge had before the
+        operation. If both ends of an edge are selected, ``fraction`` must be below 0.5.
 
         The selected vertices are removed, so the ids of the vertices after them change. New vertices get the highest
-        ids, in order of the selected vertices and clockwise around each vertex. Faces keep their ids; new faces get the
-        highest ids, in order of the vertices.
+        ids, in order of the selected vertices and clockwise around each vertex. Old faces keep their ids. New faces get
+        the highest ids, in order of the selected vertices.
 
-        Values at the cuts are interpolated between the ends of the edge, so textures do not change. A new face has the
-        values (material, tags) of one of the faces at the vertex. Which face is used is not specified, but the choice
-        is the same in every run. New edges have zero values (no crease, no tags). Normals are dropped.
+        Attribute values at a cut are interpolated between the two ends of the cut edge, so textures do not move on the
+        surface. A new face has the values (material, tags) of one of the faces at the vertex. Which face is used is not
+        specified, but the choice is the same in every run. New edges have zero values (no crease, no tags). Normals are
+        dropped.
 
-        A vertex cannot be beveled if it is on the boundary, if it has fewer than three edges, or if one of its edges is
-        too short after earlier cuts.
+        A vertex cannot be beveled if it is on the boundary or has fewer than three edges. It also cannot be beveled if
+        an earlier cut has left one of its edges too short for a second cut.
 
         Example: ``scene.bevel_vertices(vertices="All", fraction=0.25)``, in a recipe ``BevelVertices(vertices: All,
         fraction: 0.25)``
 
         :param vertices: The vertices to bevel. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of
             ``meshwright.sel``.
-        :param fraction: The distance of the cuts from the vertex, as a fraction of the edge length. From 0 to 1,
-            exclusive.
+        :param fraction: The distance of each cut from the vertex, as a fraction of the length of the cut edge. More
+            than 0 and less than 1.
         :param on_refusal: What to do when a vertex cannot be beveled. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
-            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+            ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
+                element.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
@@ -1456,14 +1517,14 @@ class SceneOperations:
         """Computes a unit normal for every vertex, from the faces around it.
 
         The normals are written to the vertex attribute ``normal``, which is replaced if it exists. Corner normals are
-        removed, because they would contradict the vertex normals. A vertex that has no faces or only zero-area faces,
-        or whose face normals cancel each other out, gets the zero vector. The report counts these vertices.
+        removed, because they would contradict the vertex normals. A vertex gets the zero vector if it has no faces or
+        only zero-area faces, or if the normals of its faces cancel each other out. The report counts these vertices.
 
         Example: ``scene.vertex_normals()``, in a recipe ``VertexNormals()``
 
-        :param weight: The weights of the faces around a vertex. Defaults to ``"Area"``.
+        :param weight: How the normals of the faces around a vertex are weighted. Defaults to ``"Area"``.
             ``"Area"``: The area of the face.
-            ``"Angle"``: The angle of the face at the vertex, at most 180 degrees.
+            ``"Angle"``: The angle of the face at the vertex.
             ``"Uniform"``: The same weight for all faces.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
         :param id, progress: See :meth:`Scene.apply`.
@@ -1481,16 +1542,17 @@ class SceneOperations:
         """Computes tangents for normal maps with the ``MikkTSpace`` algorithm, which many other tools also use.
 
         The mesh needs texture coordinates and normals, such as the normals that ``vertex_normals()`` computes. The
-        tangents are written to the corner attribute ``tangent``, which is replaced if it exists. A tangent is a unit
-        vector perpendicular to the normal, followed by the sign of the bitangent as the fourth number. ``.glb`` and
-        ``.gltf`` files store the attribute as ``TANGENT``. Polygons are triangulated in the same way as for ``.glb``
-        and ``.gltf`` files. Operations that change the shape or the faces remove the tangents, except a ``transform()``
-        that does not mirror the points. Corners at which the texture coordinates define no direction get an arbitrary
-        tangent. The report counts these corners.
+        tangents are written to the corner attribute ``tangent``, which is replaced if it exists. Each value has four
+        numbers: a unit vector perpendicular to the normal, and then the sign of the bitangent (1 or -1). ``.glb`` and
+        ``.gltf`` files store the attribute as ``TANGENT``. For the computation, polygons are triangulated in the same
+        way as for ``.glb`` and ``.gltf`` files. Later operations that change the shape or the faces remove the
+        tangents, except a ``transform()`` that does not mirror the points. If the texture coordinates define no
+        direction at a corner, the corner gets an arbitrary tangent. An example is a face whose corners all have the
+        same texture coordinates. The report counts these corners.
 
         Example: ``scene.tangents()``, in a recipe ``Tangents()``
 
-        :param uv: The name of the texture coordinates of the normal map. Defaults to ``uv``.
+        :param uv: The name of the attribute with the texture coordinates for the normal map. Defaults to ``uv``.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
@@ -1509,31 +1571,35 @@ class SceneOperations:
     ) -> Self:
         """Covers holes with faces.
 
-        A hole is a boundary loop: a loop of edges with a face on one side only. The outer rim of an open sheet is also
-        a boundary loop; use ``around`` or ``max_edges`` to exclude it. No vertices are added, and existing elements
-        keep their ids. A hole with n edges gets 1 face with n corners, or n - 2 triangles and n - 3 edges.
+        A hole is a boundary loop: a closed loop of edges, each of which has a face on one side only. The outer rim of
+        an open sheet is also a boundary loop; use ``around`` or ``max_edges`` to exclude it. No vertices are added, and
+        existing elements keep their ids. With ``with_="Face"``, a hole with n edges gets one face with n corners. With
+        ``with_="Triangles"``, it gets n - 2 triangles and n - 3 new edges.
 
         For holes with up to 500 edges, the triangles have the smallest possible total area. A hole with more than 500
-        edges is filled one triangle at a time. Each triangle is added at the corner whose two neighbors are closest to
-        each other. Triangles at straight and reflex corners are added last. If the hole is far from convex, the
-        triangles can overlap. Two vertices that are already joined by an edge are not joined by a second edge. If no
-        triangulation without duplicate edges is found, the hole cannot be filled (``DuplicateEdge``). A hole with two
-        edges cannot be filled (``WrongPlace``). Use ``stitch()`` to close it.
+        edges is filled one triangle at a time. Each triangle cuts off the corner of the remaining hole whose two
+        neighboring vertices are closest to each other. Straight and reflex corners are cut off last. If such a large
+        hole is far from convex, the triangles can overlap. In holes of any size, a new edge never joins two vertices
+        that an existing edge already joins. If no triangulation without such a duplicate edge is found, filling the
+        hole is refused (reason: ``DuplicateEdge``). A hole with only two edges cannot be filled (reason:
+        ``WrongPlace``). To close a hole with two edges, use ``stitch()``.
 
-        New faces have the values of a face beside the hole. New corners have the values of the corner at the same
-        vertex in the adjacent face. Normals are dropped if a hole was filled.
+        New faces have the values of a face beside the hole. A new corner has the values of an existing corner at the
+        same vertex. Normals are dropped if a hole was filled.
 
         Example: ``scene.fill_holes()``, in a recipe ``FillHoles()``
 
         :param around: Fill only holes with at least one of these vertices. Defaults to ``"All"``. ``"All"``,
             ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
-        :param max_edges: Fill only holes with at most this number of edges. If omitted, holes of any size.
+        :param max_edges: Fill only holes with at most this number of edges. If omitted, holes with any number of edges
+            are filled.
         :param with_: The faces that cover a hole. Defaults to ``"Triangles"``.
             ``"Triangles"``: Triangles.
             ``"Face"``: One face with all vertices of the hole as corners.
         :param on_refusal: What to do when a hole cannot be filled. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
-            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+            ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
+                element.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
@@ -1550,19 +1616,21 @@ class SceneOperations:
     ) -> Self:
         """Joins two holes with a band of faces.
 
-        Each hole is identified by one of its vertices. The band starts at a new edge that joins the two given vertices,
-        and goes around both holes. Holes with n and m edges, where n is at least m, are joined by m quadrilaterals and
-        n - m evenly spread triangles. The operation adds n edges and no vertices. Both holes can be in one connected
-        part of the mesh, which then gets a tunnel or a handle. They can also be in two separate parts of the same mesh.
-        (``join()`` joins two objects into one.)
+        A hole is a boundary loop. Each hole is given by one of its vertices. The band starts at a new edge that joins
+        the two given vertices, and runs once around both holes. Let n and m be the numbers of edges of the two holes,
+        where n is at least m. The band then consists of m quadrilaterals and n - m evenly spread triangles. The
+        operation adds n edges and no vertices. Both holes can be in one connected part of the mesh, which then gets a
+        tunnel or a handle. They can also be in two separate parts of the mesh, which then become connected. To bridge
+        holes of two objects, first use ``join()`` to make one mesh of the objects.
 
-        Each new face copies the attribute values of the adjacent face at the hole with more edges. New corners have the
-        values of the corners at the same vertices in the adjacent faces. Normals are dropped.
+        Each new face copies the attribute values of the adjacent face at the hole with more edges. If both holes have
+        the same number of edges, the adjacent face at the hole of ``first`` is used. A new corner has the values of an
+        existing corner at the same vertex. Normals are dropped.
 
-        The operation is refused if a vertex is not on the boundary (``NotBoundary``), or if both vertices are on the
-        same hole (``WrongPlace``). The operation is also refused if the band would join two vertices that are already
-        joined by an edge (``DuplicateEdge``). In this case, the operation can succeed with other vertices of the same
-        holes.
+        The operation is refused if one of the given vertices is not on the boundary (reason: ``NotBoundary``), or if
+        both are on the same hole (reason: ``WrongPlace``). The operation is also refused if a new edge would join two
+        vertices that an edge already joins (reason: ``DuplicateEdge``). In this last case, try other vertices of the
+        same holes.
 
         Example: ``scene.bridge_loops(first=0, second=5)``, in a recipe ``BridgeLoops(first: 0, second: 5)``
 
@@ -1584,28 +1652,32 @@ class SceneOperations:
     ) -> Self:
         """Joins boundary edges that coincide.
 
-        Two boundary edges coincide if both pairs of corresponding ends are at most ``distance`` apart. Two edges that
-        coincide only with each other form a pair. Choose a ``distance`` that is less than the lengths of the edges. If
-        an edge coincides with several edges, none of these edges is joined (``NonManifold``). Unlike ``weld()``, this
-        operation never merges vertices inside the surface or vertices whose edges do not coincide.
+        Two boundary edges coincide if each end of one edge is at most ``distance`` from the corresponding end of the
+        other edge. Two edges that coincide only with each other form a pair and are joined. If an edge coincides with
+        several edges, joining these edges is refused (reason: ``NonManifold``). To avoid this refusal, choose a
+        ``distance`` that is less than the lengths of the edges. ``weld()`` merges all vertices that are close together,
+        but ``stitch()`` merges only the ends of edges that it joins.
 
-        When two vertices or two edges become one, the one with the lower id is kept, with its position and values. The
-        vertex or edge with the higher id is removed, so the ids of the vertices or edges after it change. Faces and
-        corners do not change, so an edge whose sides have different UVs becomes a seam. Remaining holes with two edges
-        are also closed.
+        When two vertices become one, the vertex with the lower id is kept, with its position and values. When two edges
+        become one, the edge with the lower id is kept, with its values. The other vertex or edge is removed, so the ids
+        of all later vertices or edges change. Faces and corners do not change, so an edge whose sides have different
+        UVs becomes a seam. If a hole with only two edges remains beside a joined edge, the two edges of this hole are
+        also joined.
 
-        A pair of edges cannot be joined if both edges belong to the same face (``SameFace``), or if two edges would
-        then join the same vertices (``DuplicateEdge``). A pair also cannot be joined if the ends of an edge would
-        become one vertex, or if a face would contain a vertex twice (``WrongPlace``).
+        A pair of edges cannot be joined if both edges belong to the same face (reason: ``SameFace``), or if two other
+        edges would then join the same two vertices (reason: ``DuplicateEdge``). A pair also cannot be joined if both
+        ends of another edge would become one vertex (reason: ``WrongPlace``), or if a face would contain a vertex twice
+        (reason: ``RepeatedVertex``).
 
         Example: ``scene.stitch(distance=0)``, in a recipe ``Stitch(distance: 0)``
 
         :param distance: The largest distance between corresponding ends of two edges, in scene units. With 0, only ends
             at equal positions are joined.
-        :param on_refusal: What to do when a pair cannot be joined, or when more than two edges coincide. Defaults to
-            ``"Error"``.
+        :param on_refusal: What to do when a pair cannot be joined, or when an edge coincides with several edges.
+            Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
-            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+            ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
+                element.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
@@ -1622,22 +1694,25 @@ class SceneOperations:
     ) -> Self:
         """Opens the mesh along edges.
 
-        The edges can form paths, loops and trees. A loop can cut out a piece. Each edge becomes two edges, one for each
-        side of the cut. If the cuts separate the faces around a vertex into several parts, each part gets a separate
-        copy of the vertex. The part that contains the face with the lowest id keeps the id of the vertex, and new
-        vertices get the highest ids. Faces keep their ids, and no vertex moves. Copies of vertices and edges have the
-        values of the originals. Corners keep their values. ``stitch()`` is the inverse.
+        The edges can form paths, loops and trees. A closed loop can separate a region of faces from the rest of the
+        mesh. Each cut edge becomes two boundary edges, one for each side of the cut. If the cuts divide the faces
+        around a vertex into several groups, each group gets a separate copy of the vertex. The group that contains the
+        face with the lowest id keeps the old vertex, and the other copies get the highest ids. Faces keep their ids,
+        and no vertex moves. Copies of vertices and edges have the values of the originals. Corners keep their values.
+        ``stitch()`` is the inverse operation: it joins the two sides of a cut again.
 
-        All edges are cut at once. An edge on the boundary cannot be cut (``Boundary``). An edge also cannot be cut if
-        both of its ends are inside the mesh and no other cut continues at either end, because such a cut would not open
-        the mesh (``DuplicateEdge``).
+        An edge on the boundary cannot be cut (reason: ``Boundary``). An edge also cannot be cut if neither of its ends
+        is on the boundary or on another edge to cut (reason: ``DuplicateEdge``). The two sides of such a cut would
+        still join the same two vertices, so the mesh would not open. All edges are cut at once, so a longer path inside
+        the mesh can be cut.
 
         Example: ``scene.cut(edges="All")``, in a recipe ``Cut(edges: All)``
 
         :param edges: The edges to cut. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
         :param on_refusal: What to do when an edge cannot be cut. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
-            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+            ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
+                element.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
@@ -1652,20 +1727,21 @@ class SceneOperations:
         id: str | None = None,
         progress: bool | Progress | None = None,
     ) -> Self:
-        """Tags the selected vertices and removes the tag from all other vertices. In later operations,
-        ``sel.Tagged("rim")`` selects the vertices with the tag ``rim``.
+        """Gives a tag (a named mark) to the selected vertices and removes this tag from all other vertices. For
+        example, if the name of the tag is ``rim``, ``sel.Tagged("rim")`` selects the tagged vertices in later
+        operations.
 
         If a later operation copies a tagged vertex, as ``extrude_faces()`` does, the copy is also tagged. If a later
-        operation adds a vertex on an edge, as ``split_edges()`` does, the new vertex is not tagged. An existing tag of
-        the same name is replaced. If an attribute of another type has this name, the operation fails. The geometry does
-        not change. The report counts the vertices that gained or lost the tag.
+        operation adds a vertex on an edge, as ``split_edges()`` does, the new vertex is not tagged. An existing vertex
+        tag of the same name is replaced. If a vertex attribute that is not a tag already has this name, the operation
+        fails. The geometry does not change. The report counts the vertices that gained or lost the tag.
 
         Example: ``scene.tag_vertices(name="some", vertices="Boundary")``, in a recipe ``TagVertices(name: "some",
         vertices: Boundary)``
 
         :param name: The name of the tag. The name must not be empty and must not start or end with whitespace.
-        :param vertices: The vertices to tag. An empty selection gives an empty tag. ``"All"``, ``"Boundary"``,
-            ``"Isolated"``, or a value of ``meshwright.sel``.
+        :param vertices: The vertices to tag. If the selection is empty, the tag exists but no vertex has it. ``"All"``,
+            ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
@@ -1680,19 +1756,19 @@ class SceneOperations:
         id: str | None = None,
         progress: bool | Progress | None = None,
     ) -> Self:
-        """Tags the selected edges and removes the tag from all other edges. In later operations, ``sel.Tagged("rim")``
-        selects the edges with the tag ``rim``.
+        """Gives a tag (a named mark) to the selected edges and removes this tag from all other edges. For example, if
+        the name of the tag is ``rim``, ``sel.Tagged("rim")`` selects the tagged edges in later operations.
 
-        When a tagged edge is split or subdivided, its parts are also tagged. An existing tag of the same name is
-        replaced. If an attribute of another type has this name, the operation fails. The geometry does not change. The
-        report counts the edges that gained or lost the tag.
+        When a later operation splits or subdivides a tagged edge, the parts of this edge are also tagged. An existing
+        edge tag of the same name is replaced. If an edge attribute that is not a tag already has this name, the
+        operation fails. The geometry does not change. The report counts the edges that gained or lost the tag.
 
         Example: ``scene.tag_edges(name="marked", edges=sel.EdgeLoop(sel.Longest(count=2)))``, in a recipe
         ``TagEdges(name: "marked", edges: EdgeLoop(Longest(count: 2)))``
 
         :param name: The name of the tag. The name must not be empty and must not start or end with whitespace.
-        :param edges: The edges to tag. An empty selection gives an empty tag. ``"All"``, ``"Boundary"``, or a value of
-            ``meshwright.sel``.
+        :param edges: The edges to tag. If the selection is empty, the tag exists but no edge has it. ``"All"``,
+            ``"Boundary"``, or a value of ``meshwright.sel``.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
@@ -1707,19 +1783,19 @@ class SceneOperations:
         id: str | None = None,
         progress: bool | Progress | None = None,
     ) -> Self:
-        """Tags the selected faces and removes the tag from all other faces. In later operations, ``sel.Tagged("rim")``
-        selects the faces with the tag ``rim``.
+        """Gives a tag (a named mark) to the selected faces and removes this tag from all other faces. For example, if
+        the name of the tag is ``rim``, ``sel.Tagged("rim")`` selects the tagged faces in later operations.
 
-        When a tagged face is split or subdivided, its parts are also tagged. An existing tag of the same name is
-        replaced. If an attribute of another type has this name, the operation fails. The geometry does not change. The
-        report counts the faces that gained or lost the tag.
+        When a later operation splits or subdivides a tagged face, the parts of this face are also tagged. An existing
+        face tag of the same name is replaced. If a face attribute that is not a tag already has this name, the
+        operation fails. The geometry does not change. The report counts the faces that gained or lost the tag.
 
         Example: ``scene.tag_faces(name="some", faces=sel.Facing(direction=(0, 0, 1), within=45))``, in a recipe
         ``TagFaces(name: "some", faces: Facing(direction: (0, 0, 1), within: 45))``
 
         :param name: The name of the tag. The name must not be empty and must not start or end with whitespace.
-        :param faces: The faces to tag. An empty selection gives an empty tag. ``"All"``, ``"Boundary"``,
-            ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
+        :param faces: The faces to tag. If the selection is empty, the tag exists but no face has it. ``"All"``,
+            ``"Boundary"``, ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
@@ -1742,48 +1818,53 @@ class SceneOperations:
     ) -> Self:
         """Splits every triangle into four and smooths the surface, for a number of levels.
 
-        A level turns V vertices, E edges and F triangles into V + E vertices, 2 E + 3 F edges and 4 F triangles. V - E
-        + F does not change. Old vertices keep their ids, and the vertex on edge e has the id V + e. Edge e becomes
-        edges 2e and 2e + 1, and face f becomes faces 4f to 4f + 3. All faces must be triangles.
+        A level turns V vertices, E edges and F triangles into V + E vertices, 2 E + 3 F edges and 4 F triangles. The
+        Euler characteristic V - E + F does not change. Old vertices keep their ids, and the new vertex on edge e has
+        the id V + e. Edge e becomes edges 2e and 2e + 1, and face f becomes faces 4f to 4f + 3. All faces must be
+        triangles.
 
         Vertex attributes are smoothed with the same weights as the positions. Texture coordinates and other corner
-        values are smoothed according to ``face_varying``, and seams are kept. Parts of an edge or a triangle copy the
-        values of the old edge or triangle. Normals are dropped, because they would be wrong. An edge or a vertex to
-        which ``crease()`` gave the sharpness s stays sharp for s levels.
+        values are smoothed according to ``face_varying``, and seams are kept. When an edge or a triangle is split, its
+        parts copy its attribute values, such as tags and materials. Normals are dropped, because they would be wrong.
+        An edge or a vertex to which ``crease()`` gave the sharpness s stays sharp for s levels.
 
         Example: ``scene.loop_subdivide(levels=2)``, in a recipe ``LoopSubdivide(levels: 2)``
 
-        :param levels: The number of levels. Each level multiplies the number of triangles by four. Defaults to 1. With
-            ``until``, ``levels`` is the maximum number of levels and defaults to 16.
+        :param levels: The number of levels. Each level multiplies the number of triangles by four. Without ``until``,
+            ``levels`` defaults to 1. With ``until``, ``levels`` is the maximum number of levels and defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
                 than ``below``.
-        :param weights: The weights at old vertices. Defaults to ``"Warren"``.
-            ``"Warren"``: u is 3/16 for n = 3, otherwise 3/(8n).
-            ``"Loop"``: u is (5/8 - (3/8 + cos(2π/n)/4)²)/n, as in Loop's thesis, 1987.
+        :param weights: The weights for the new position of an old vertex: a weighted mean of its old position and its
+            neighbors. Defaults to ``"Warren"``.
+            ``"Warren"``: The weight u of a neighbor is 3/16 if the vertex has n = 3 neighbors, and otherwise 3/(8n).
+            ``"Loop"``: If the vertex has n neighbors, the weight u of a neighbor is (5/8 - (3/8 + cos(2π/n)/4)²)/n, as
+                in Loop's thesis, 1987.
         :param boundary: How vertices on the boundary move. Defaults to ``"EdgesOnly"``.
             ``"EdgesOnly"``: The boundary becomes a smooth curve that depends on boundary vertices only.
             ``"EdgesAndCorners"``: Like ``EdgesOnly``, but boundary vertices with one face stay in place.
-            ``"Fixed"``: Boundary vertices stay in place, and new vertices on the boundary lie in the middle of their
-                edges.
+            ``"Fixed"``: Boundary vertices stay in place, and each new vertex on the boundary lies in the middle of an
+                old boundary edge.
         :param creasing: How the sharpness of creases decreases from level to level. Defaults to ``"Uniform"``.
             ``"Uniform"``: The sharpness decreases by 1.
             ``"Chaikin"``: The sharpness is averaged with the sharpness of the neighboring edges of the crease, then
                 decreases by 1.
         :param face_varying: How texture coordinates and other corner values are smoothed. Defaults to ``"All"``.
             ``"None"``: Values are smoothed everywhere.
-            ``"CornersOnly"``: Like ``None_``, but the value of a piece with a single face does not change.
-            ``"CornersPlus1"``: Like ``CornersOnly``, but values also do not change where three or more pieces meet.
+            ``"CornersOnly"``: Like ``None_``, but if only one face has a value at a vertex, this value does not change.
+            ``"CornersPlus1"``: Like ``CornersOnly``, but values also do not change at a vertex with three or more
+                different values.
             ``"CornersPlus2"``: Like ``CornersPlus1``, but values also do not change at the ends of seams.
             ``"Boundaries"``: Values are interpolated linearly along seams and boundaries, and smoothed elsewhere.
             ``"All"``: Values are interpolated linearly everywhere: each new value is a mean of values of one old face.
         :param to_limit: Whether to move the vertices of the last level to the limit surface and to store the normals
             and tangents of this surface. Defaults to ``False``.
         :param faces: The faces to refine. If omitted, all faces. Triangles next to the refined faces are cut in two or
-            four, so that no vertex lies inside an edge. The surface outside the refined faces does not move. For the
-            ids of new elements, see ``subdivision::refine_faces``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``,
-            or a value of ``meshwright.sel``.
+            four, so that no vertex lies in the middle of an edge of a neighboring triangle. The surface outside the
+            refined faces does not move. The documentation of the Rust function ``subdivision::refine_faces`` describes
+            the ids of new elements. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
+            ``meshwright.sel``.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
@@ -1805,21 +1886,21 @@ class SceneOperations:
     ) -> Self:
         """Splits every face into quads and smooths the surface, for a number of levels.
 
-        A level creates a quad at each corner of each face. A level turns V vertices, E edges and F faces with C corners
-        in total into V + E + F vertices, 2 E + C edges and C quads. V - E + F does not change. Old vertices keep their
-        ids. The vertex on edge e has the id V + e, and the vertex at the center of face f has the id V + E + f. Edge e
-        becomes edges 2e and 2e + 1. The quads are numbered in the order of the old faces and, in each face, in the
-        order of its corners.
+        Each level creates one quad at each corner of each old face. A level turns V vertices, E edges and F faces with
+        C corners in total into V + E + F vertices, 2 E + C edges and C quads. The Euler characteristic V - E + F does
+        not change. Old vertices keep their ids. The vertex on edge e has the id V + e, and the vertex at the center of
+        face f has the id V + E + f. Edge e becomes edges 2e and 2e + 1. The quads are numbered in the order of the old
+        faces and, in each face, in the order of its corners.
 
         Vertex attributes are smoothed with the same weights as the positions. Texture coordinates and other corner
-        values are smoothed according to ``face_varying``, and seams are kept. Parts of an edge or a face copy the
-        values of the old edge or face. Normals are dropped, because they would be wrong. An edge or a vertex to which
-        ``crease()`` gave the sharpness s stays sharp for s levels.
+        values are smoothed according to ``face_varying``, and seams are kept. When an edge or a face is split, its
+        parts copy its attribute values, such as tags and materials. Normals are dropped, because they would be wrong.
+        An edge or a vertex to which ``crease()`` gave the sharpness s stays sharp for s levels.
 
         Example: ``scene.catmull_clark(levels=2)``, in a recipe ``CatmullClark(levels: 2)``
 
-        :param levels: The number of levels. Each level replaces every corner of a face with a quad. Defaults to 1. With
-            ``until``, ``levels`` is the maximum number of levels and defaults to 16.
+        :param levels: The number of levels. Each level replaces every corner of a face with a quad. Without ``until``,
+            ``levels`` defaults to 1. With ``until``, ``levels`` is the maximum number of levels and defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
@@ -1827,25 +1908,26 @@ class SceneOperations:
         :param boundary: How vertices on the boundary move. Defaults to ``"EdgesOnly"``.
             ``"EdgesOnly"``: The boundary becomes a smooth curve that depends on boundary vertices only.
             ``"EdgesAndCorners"``: Like ``EdgesOnly``, but boundary vertices with one face stay in place.
-            ``"Fixed"``: Boundary vertices stay in place, and new vertices on the boundary lie in the middle of their
-                edges.
+            ``"Fixed"``: Boundary vertices stay in place, and each new vertex on the boundary lies in the middle of an
+                old boundary edge.
         :param creasing: How the sharpness of creases decreases from level to level. Defaults to ``"Uniform"``.
             ``"Uniform"``: The sharpness decreases by 1.
             ``"Chaikin"``: The sharpness is averaged with the sharpness of the neighboring edges of the crease, then
                 decreases by 1.
         :param face_varying: How texture coordinates and other corner values are smoothed. Defaults to ``"All"``.
             ``"None"``: Values are smoothed everywhere.
-            ``"CornersOnly"``: Like ``None_``, but the value of a piece with a single face does not change.
-            ``"CornersPlus1"``: Like ``CornersOnly``, but values also do not change where three or more pieces meet.
+            ``"CornersOnly"``: Like ``None_``, but if only one face has a value at a vertex, this value does not change.
+            ``"CornersPlus1"``: Like ``CornersOnly``, but values also do not change at a vertex with three or more
+                different values.
             ``"CornersPlus2"``: Like ``CornersPlus1``, but values also do not change at the ends of seams.
             ``"Boundaries"``: Values are interpolated linearly along seams and boundaries, and smoothed elsewhere.
             ``"All"``: Values are interpolated linearly everywhere: each new value is a mean of values of one old face.
         :param to_limit: Whether to move the vertices of the last level to the limit surface and to store the normals
             and tangents of this surface. Defaults to ``False``.
         :param faces: The faces to refine. If omitted, all faces. Faces next to the refined faces get the new vertices
-            on common edges as additional corners. The surface outside the refined faces does not move. For the ids of
-            new elements, see ``subdivision::refine_faces``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a
-            value of ``meshwright.sel``.
+            on common edges as additional corners. The surface outside the refined faces does not move. The
+            documentation of the Rust function ``subdivision::refine_faces`` describes the ids of new elements.
+            ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
@@ -1864,20 +1946,21 @@ class SceneOperations:
     ) -> Self:
         """Splits every face into smaller faces without moving vertices, for a number of levels.
 
-        ``into="Triangles"`` requires a mesh of triangles. A level turns V vertices, E edges and F triangles into V + E
-        vertices, 2 E + 3 F edges and 4 F triangles. ``into="Quads"`` accepts all polygons and creates a quad at each
-        corner. V vertices, E edges and F faces with C corners in total become V + E + F vertices, 2 E + C edges and C
-        quads. Old vertices keep their ids and positions, and the vertex on edge e has the id V + e. Edge e becomes
-        edges 2e and 2e + 1. Triangle f becomes faces 4f to 4f + 3. The quads are numbered in the order of the old
-        faces. The vertex at the center of face f has the id V + E + f.
+        With ``into="Triangles"``, all faces must be triangles. A level then turns V vertices, E edges and F triangles
+        into V + E vertices, 2 E + 3 F edges and 4 F triangles. Triangle f becomes faces 4f to 4f + 3. With
+        ``into="Quads"``, faces can have any number of corners, and each corner becomes a quad. A level then turns V
+        vertices, E edges and F faces with C corners in total into V + E + F vertices, 2 E + C edges and C quads. The
+        quads are numbered in the order of the old faces. The new vertex at the center of face f has the id V + E + f.
+        In both cases, old vertices keep their ids and positions, and the new vertex on edge e has the id V + e. Edge e
+        becomes edges 2e and 2e + 1.
 
-        Vertex attributes are interpolated. Corner values are interpolated within each old face separately. Parts of an
-        edge or a face copy the values of the old edge or face, including sharpness. Normals are dropped.
+        Vertex attributes are interpolated. Corner values are interpolated within each old face separately. When an edge
+        or a face is split, its parts copy its attribute values, including the sharpness of edges. Normals are dropped.
 
         Example: ``scene.midpoint(levels=2, into="Quads")``, in a recipe ``Midpoint(levels: 2, into: Quads)``
 
-        :param levels: The number of levels. Each level multiplies the number of faces by about four. Defaults to 1.
-            With ``until``, ``levels`` is the maximum number of levels and defaults to 16.
+        :param levels: The number of levels. Each level multiplies the number of faces by about four. Without ``until``,
+            ``levels`` defaults to 1. With ``until``, ``levels`` is the maximum number of levels and defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
@@ -1887,9 +1970,9 @@ class SceneOperations:
             ``"Quads"``: Splits each face with n corners into n quads around its center.
         :param faces: The faces to refine. If omitted, all faces. With ``into="Triangles"``, triangles next to the
             refined faces are cut in two or four. With ``into="Quads"``, faces next to the refined faces get the new
-            vertices on common edges as additional corners. For the ids of new elements, see
-            ``subdivision::refine_faces``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
-            ``meshwright.sel``.
+            vertices on common edges as additional corners. The documentation of the Rust function
+            ``subdivision::refine_faces`` describes the ids of new elements. ``"All"``, ``"Boundary"``,
+            ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
@@ -1907,18 +1990,20 @@ class SceneOperations:
         """Splits every triangle into four and smooths the surface without moving the old vertices, for a number of
         levels.
 
-        A level turns V vertices, E edges and F triangles into V + E vertices, 2 E + 3 F edges and 4 F triangles. V - E
-        + F does not change. Old vertices keep their ids, and the vertex on edge e has the id V + e. Edge e becomes
-        edges 2e and 2e + 1, and face f becomes faces 4f to 4f + 3. All faces must be triangles.
+        A level turns V vertices, E edges and F triangles into V + E vertices, 2 E + 3 F edges and 4 F triangles. The
+        Euler characteristic V - E + F does not change. Old vertices keep their ids, and the new vertex on edge e has
+        the id V + e. Edge e becomes edges 2e and 2e + 1, and face f becomes faces 4f to 4f + 3. All faces must be
+        triangles.
 
         Vertex attributes are interpolated with the same weights as the positions. Corner values are interpolated
-        linearly, separately in each old triangle. Parts of an edge or a triangle copy the values of the old edge or
-        triangle. Normals are dropped, because they would be wrong. Sharpness has no effect and is copied unchanged.
+        linearly, separately in each old triangle. When an edge or a triangle is split, its parts copy its attribute
+        values, such as tags and materials. Normals are dropped, because they would be wrong. Sharpness has no effect
+        and is copied unchanged.
 
         Example: ``scene.butterfly(levels=1)``, in a recipe ``Butterfly(levels: 1)``
 
-        :param levels: The number of levels. Each level multiplies the number of triangles by four. Defaults to 1. With
-            ``until``, ``levels`` is the maximum number of levels and defaults to 16.
+        :param levels: The number of levels. Each level multiplies the number of triangles by four. Without ``until``,
+            ``levels`` defaults to 1. With ``until``, ``levels`` is the maximum number of levels and defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
@@ -1939,23 +2024,24 @@ class SceneOperations:
     ) -> Self:
         """Splits every triangle into three, flips the old edges, and smooths the surface, for a number of levels.
 
-        A level turns V vertices, E edges and F triangles into V + F vertices, E + 3 F edges and 3 F triangles. In
-        addition, every second level adds one vertex and one edge for each boundary edge. V - E + F does not change. Old
-        vertices keep their ids. The vertex in face f has the id V + f, and face f becomes faces 3f to 3f + 2. All faces
-        must be triangles. Levels are counted from the start of the operation. One operation of two levels therefore
-        cuts the boundary edges, but two operations of one level leave the boundary unchanged.
+        A level turns V vertices, E edges and F triangles into V + F vertices, E + 3 F edges and 3 F triangles. Every
+        second level also cuts the boundary edges, and thus adds one more vertex and one more edge for each boundary
+        edge. The Euler characteristic V - E + F does not change. Old vertices keep their ids. The new vertex in face f
+        has the id V + f, and face f becomes faces 3f to 3f + 2. All faces must be triangles. Each step counts its own
+        levels from 1. One operation of two levels therefore cuts the boundary edges. Two steps of one level each leave
+        the boundary edges uncut.
 
         Vertex attributes are smoothed with the same weights as the positions. Corner values are interpolated linearly
         within each old triangle separately. A triangle next to a flipped edge covers parts of two old triangles. If the
         flipped edge was a seam, the triangle mixes texture coordinates of both sides of the seam, which distorts
-        textures. New triangles copy the values of their old triangle. Parts of a boundary edge copy the values of the
-        boundary edge. All other edges have zero values (no crease, no tags). Normals are dropped, because they would be
-        wrong.
+        textures. Each new triangle copies the attribute values, such as tags and materials, of the old triangle that
+        was split. Parts of a boundary edge copy the values of the boundary edge. All other edges have zero values (no
+        crease, no tags). Normals are dropped, because they would be wrong.
 
         Example: ``scene.sqrt3(levels=1)``, in a recipe ``Sqrt3(levels: 1)``
 
-        :param levels: The number of levels. Each level multiplies the number of triangles by three. Defaults to 1. With
-            ``until``, ``levels`` is the maximum number of levels and defaults to 16.
+        :param levels: The number of levels. Each level multiplies the number of triangles by three. Without ``until``,
+            ``levels`` defaults to 1. With ``until``, ``levels`` is the maximum number of levels and defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
@@ -1977,21 +2063,23 @@ class SceneOperations:
         """Replaces every edge and every vertex with a face and shrinks the old faces, for a number of levels.
 
         A level turns a closed mesh with V vertices, E edges and F faces into a mesh with 2 E vertices, 4 E edges and V
-        + E + F faces. If the mesh has a boundary, a level creates additional elements along the boundary. V - E + F
-        does not change. The face inside old face f has the id f, and the face of edge e has the id F + e. The faces of
-        vertices have the highest ids. Isolated vertices are kept. The ids of isolated vertices follow the ids of all
-        other vertices. Isolated vertices and inner vertices of valence 2 do not become faces.
+        + E + F faces. If the mesh has a boundary, a level creates additional elements along the boundary. The Euler
+        characteristic V - E + F does not change. The shrunk face inside old face f has the id f, and the new face at
+        old edge e has the id F + e. The new faces at old vertices have the highest ids. Isolated vertices are kept. The
+        ids of isolated vertices follow the ids of all other vertices. Isolated vertices do not become faces, and
+        neither do vertices inside the mesh that have only two edges.
 
         Vertex attributes are smoothed with the same weights as the positions. Corner values are smoothed within each
-        old face separately. The new faces at edges and vertices mix corner values of several old faces. At a seam, this
-        distorts textures. A face inside an old face copies the values of the old face; the face of an edge or a vertex
-        copies the values of an adjacent face. The two new edges along an old edge copy the values of this edge. All
-        other edges have zero values (no crease, no tags). Normals are dropped, because they would be wrong.
+        old face separately. The new faces at edges and vertices mix corner values of several old faces. At a seam, the
+        mixed values distort textures. A face inside an old face copies the attribute values of the old face. The new
+        face at an edge or a vertex copies the values of an adjacent face. The two new edges along an old edge copy the
+        values of this edge. All other edges have zero values (no crease, no tags). Normals are dropped, because they
+        would be wrong.
 
         Example: ``scene.doo_sabin(levels=1)``, in a recipe ``DooSabin(levels: 1)``
 
-        :param levels: The number of levels. Each level multiplies the number of faces by about four. Defaults to 1.
-            With ``until``, ``levels`` is the maximum number of levels and defaults to 16.
+        :param levels: The number of levels. Each level multiplies the number of faces by about four. Without ``until``,
+            ``levels`` defaults to 1. With ``until``, ``levels`` is the maximum number of levels and defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
@@ -2014,29 +2102,30 @@ class SceneOperations:
     ) -> Self:
         """Cuts meshes along a plane.
 
-        Every edge that crosses the plane gets a vertex on the plane. Every face that crosses the plane is cut along the
-        plane. A concave face can be cut several times. A vertex counts as on the plane if its distance from the plane
-        is at most 1e-9 times the largest extent of the mesh, or at most 1e-14 times the largest absolute coordinate.
-        Such a vertex is not moved. When an edge is cut, the part at the start of its first half-edge keeps the id of
-        the edge. When a face is cut, the part with the first corner keeps the id of the face. New elements get the
-        highest ids. Where an edge crosses the plane, attributes are interpolated. At a seam, the two sides are
-        interpolated separately.
+        Every edge that crosses the plane gets a new vertex at the crossing point. Every face that crosses the plane is
+        cut along the plane. A concave face can be cut in several places. A vertex near the plane is treated as if it
+        were on the plane, and is not moved. Near means a distance from the plane of at most 1e-9 times the longest side
+        of the bounding box, or at most 1e-14 times the largest absolute coordinate. Every edge has two half-edges. When
+        an edge is cut, the part at the start of the half-edge with the lower id keeps the id of the edge. When a face
+        is cut, the part with the first corner keeps the id of the face. New elements get the highest ids. Where an edge
+        crosses the plane, attributes are interpolated. At a seam, the two sides are interpolated separately.
 
-        With ``keep="Front"`` or ``keep="Back"``, the other side of the plane is removed. A face in the plane belongs to
-        the back if its normal points to the front, because the face then closes the solid behind the plane. Vertices
-        left without a face are removed. If the remaining faces around a vertex form several fans, each fan gets a
+        With ``keep="Front"``, the part of the mesh behind the plane is removed. With ``keep="Back"``, the part in front
+        of the plane is removed. A face that lies in the plane belongs to the back if its normal points to the front,
+        because the face then closes the solid behind the plane. Vertices that are left without a face are removed. If
+        the remaining faces around a vertex form several fans (groups of faces connected across edges), each fan gets a
         separate copy of the vertex. No faces are added to close the cut. To close the cut, use ``fill_holes()`` in a
         later operation.
 
         Example: ``scene.bisect(normal=(0, 0, 1))``, in a recipe ``Bisect(normal: (0, 0, 1))``
 
-        :param normal: The normal of the plane, which points to the front. The length of the normal does not matter but
-            must not be 0.
+        :param normal: The normal of the plane. It points to the front side. The length of the normal does not matter
+            but must not be 0.
         :param point: A point on the plane.
-        :param keep: The side to keep. Defaults to ``"Both"``.
+        :param keep: The part of the mesh to keep: one side of the plane, or both sides. Defaults to ``"Both"``.
             ``"Both"``: Both sides.
-            ``"Front"``: The side that the normal points to.
-            ``"Back"``: The side that the normal points away from.
+            ``"Front"``: The side of the plane that the normal of the plane points to.
+            ``"Back"``: The side of the plane that the normal of the plane points away from.
         :param tag: The name of a tag for the edges on the plane. Edges that already have the tag keep it. If omitted,
             no edges are tagged.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
@@ -2057,10 +2146,11 @@ class SceneOperations:
         """Replaces one half of a mesh with the mirror image of the other half.
 
         The mesh is cut along a plane, as with ``bisect()``. The half on the side ``from_`` is kept and mirrored, and
-        the halves are joined at the plane. Vertices near the plane (see ``bisect()``) are moved exactly onto it, so
-        that the result is symmetric. Faces in the plane are removed, because they would become walls inside the result.
-        Where the surface only touches the plane, the halves are not joined. The report counts the faces that are
-        removed completely, not the faces that are cut.
+        the halves are joined at the plane. Vertices that ``bisect()`` would treat as on the plane are moved exactly
+        onto the plane, so that the result is symmetric. Faces that lie in the plane are removed, because they would
+        become walls inside the result. The halves are joined at the vertices on the plane that are on the boundary of
+        the kept half. Where the surface only touches the plane, without a boundary there, the halves are not joined.
+        The report counts the faces that are removed whole. Faces that the plane cuts are not counted.
 
         The elements of the kept half come first, in their old order. The elements of the mirror image follow.
         Attributes are copied, so both halves have the same texture coordinates, tags and joint weights. Normals and
@@ -2068,12 +2158,12 @@ class SceneOperations:
 
         Example: ``scene.symmetrize(normal=(1, 0, 0))``, in a recipe ``Symmetrize(normal: (1, 0, 0))``
 
-        :param normal: The normal of the plane, which points to the front. The length of the normal does not matter but
-            must not be 0.
+        :param normal: The normal of the plane. It points to the front side. The length of the normal does not matter
+            but must not be 0.
         :param point: A point on the plane.
         :param from_: The half that is kept and mirrored. Defaults to ``"Front"``.
-            ``"Front"``: The side that the normal points to.
-            ``"Back"``: The side that the normal points away from.
+            ``"Front"``: The side of the plane that the normal of the plane points to.
+            ``"Back"``: The side of the plane that the normal of the plane points away from.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
@@ -2095,57 +2185,59 @@ class SceneOperations:
     ) -> Self:
         """Removes triangles from meshes, and changes the surface as little as possible.
 
-        Edges are collapsed, starting with the edges whose collapse changes the surface least. The change is measured by
-        the squared distance of the new vertex to the planes of the original triangles that it replaces (Garland,
-        Heckbert, 1997). The operation ends when ``faces`` or ``ratio`` is reached, or when every remaining collapse is
-        refused or could exceed ``error``. At least one of ``faces``, ``ratio`` and ``error`` must be given, but not
-        both ``faces`` and ``ratio``. All faces must be triangles.
+        Edges are collapsed, starting with the edges whose collapse changes the surface least. A collapse merges the two
+        ends of an edge into one vertex. The change is measured by the squared distance of this vertex to the planes of
+        the original triangles around the merged vertices (Garland, Heckbert, 1997). The operation ends when the number
+        of faces given by ``faces`` or ``ratio`` is reached. It also ends when every remaining collapse would change one
+        of the properties below or could exceed ``error``. At least one of ``faces``, ``ratio`` and ``error`` must be
+        given, but not both ``faces`` and ``ratio``. All faces must be triangles.
 
         The following properties are kept:
 
-        - Topology: holes, handles and separate parts stay.
-        - Lines: the boundary, seams of texture coordinates and normals, borders between face tags or materials, edges
-          with a tag or a crease, and ``features``. A line can lose vertices, but its ends, and the vertices where lines
-          meet, keep their exact positions.
+        - Topology: the numbers of holes, handles and separate parts do not change.
+        - Lines: lines consist of boundary edges, seams of texture coordinates or normals, edges between faces with
+          different tags or materials, tagged edges, creases, and the edges of ``features``. A line can lose vertices,
+          but its ends, and the vertices where lines meet, keep their exact positions.
         - Attributes: changes of texture coordinates, normals, colors and other numbers count as changes of the surface
           (Hoppe, 1999), and new vertices get the values that fit best. Values are never mixed across a line, and no
-          triangle is turned over in the texture. Normals are kept, so that a simplified mesh is shaded like the
-          original. The numbers that ``measure()`` stores also count, and the report lists them. If they must not
-          influence the result, use ``measure()`` after this operation.
+          triangle is turned over in the texture. Stored normals are kept, so that a simplified mesh is shaded like the
+          original. The vertex attributes that ``measure()`` stores also influence the result, and the report lists
+          their names. To avoid this influence, use ``measure()`` after this operation.
         - Vertex tags: vertices with different tags, different sharpness, or different values of a whole-number
           attribute are not merged.
 
-        In a texture, the border of a chart is also simplified, and can then cross a chart that is close to it. The
-        report counts the faces that overlap in the texture. To leave more space between charts, use ``pack_uvs()`` with
-        a larger ``padding`` before this operation.
+        Seams divide a texture into charts. The borders of charts are also simplified, and a simplified border can cross
+        a neighboring chart in the texture. The report counts the faces that overlap in the texture. To leave more space
+        between charts, use ``pack_uvs()`` with a larger ``padding`` before this operation.
 
-        No triangle is turned over. Remaining elements get new ids, in the order of their old ids. If the number of
-        faces cannot be reached and ``error`` is not given, the operation is refused as ``Unreached``, and the message
-        states the reasons. With ``on_refusal="Skip"``, the operation keeps the mesh with the fewest faces that it
-        reached.
+        No collapse turns a triangle over. Remaining elements get new ids, in the order of their old ids. If ``error``
+        is not given and the number of faces cannot be reached, the operation is refused (reason: ``Unreached``), and
+        the message states why. With ``on_refusal="Skip"``, the result is instead the simplified mesh with the fewest
+        faces that the operation reached.
 
         Example: ``scene.simplify(ratio=0.5)``, in a recipe ``Simplify(ratio: 0.5)``
 
-        :param faces: The number of faces to reach, for each mesh. The result can have one face fewer than this number.
-            A mesh that already has at most this number of faces does not change.
+        :param faces: The number of faces to reach, for each mesh. The result can have one face fewer, because a
+            collapse inside the mesh removes two faces. A mesh that already has at most this number of faces does not
+            change.
         :param ratio: The number of faces to reach, as a fraction of the number of faces of each mesh.
         :param error: The largest allowed Hausdorff distance between the old and the new surface, in scene units. The
-            limit is guaranteed, because the operation adds up upper bounds of the distances by which the collapses move
-            the surface. The true distance is usually between a third of the limit and the limit. If omitted, there is
-            no limit.
+            limit is guaranteed: the operation sums upper bounds of the movements of all collapses. The sum
+            overestimates the true distance. If the limit ends the operation, the true distance is usually between a
+            third of the limit and the limit. If omitted, there is no limit.
         :param features: Edges to keep as lines, in addition to the lines that are always kept. For example,
             ``sel.Sharp(above=30)``. If omitted, no additional edges. ``"All"``, ``"Boundary"``, or a value of
             ``meshwright.sel``.
         :param pin: Vertices that are never removed and keep their exact positions, for example ``Boundary``. If
             omitted, no vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
-        :param intersections: Whether the operation is allowed to create intersections of faces. Such intersections can
+        :param intersections: Whether the operation is allowed to make faces intersect each other. Intersections can
             occur where parts of the surface are close together. Defaults to ``"Allow"``.
-            ``"Allow"``: New intersections are allowed, and not detected.
-            ``"Refuse"``: No changed face intersects another face, so a mesh without self-intersections stays without
-                self-intersections.
+            ``"Allow"``: New intersections are allowed.
+            ``"Refuse"``: The operation refuses every change that would make a changed face intersect another face.
         :param on_refusal: What to do if the number of faces cannot be reached. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
-            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+            ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
+                element.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
@@ -2164,17 +2256,17 @@ class SceneOperations:
     ) -> Self:
         """Makes levels of detail: simplified copies of an object.
 
-        The copies are named after the object, for example ``rock_lod1``, ``rock_lod2`` and so on. Each copy is made
-        from the previous copy in the same way as with ``simplify()``, and keeps the same attributes, materials and
-        lines. If nodes place the object, each of these nodes gets one sibling node for each copy. The sibling node
-        places the copy.
+        The copies are named after the object, for example ``rock_lod1``, ``rock_lod2`` and so on. Each copy is made as
+        with ``simplify()``, which keeps attributes, materials and lines. The first copy is made from the object, and
+        each further copy from the previous copy. If the scene has nodes that reference the object, each of these nodes
+        gets one sibling node for each copy. The sibling node references the copy and has the same transform.
 
         Example: ``scene.lods(from_="mesh", ratios=[0.5, 0.25])``, in a recipe ``Lods(from: "mesh", ratios: [0.5,
         0.25])``
 
         :param from_: The name of the object.
-        :param ratios: The number of faces of each copy, as a fraction of the number of faces of the object. Each
-            fraction must be smaller than the previous one.
+        :param ratios: The number of faces of each copy, as a fraction of the number of faces of the original object.
+            Each fraction must be smaller than the previous fraction in the list.
         :param to: The text before the number in the names of the copies. If omitted, the name of the object followed by
             ``_lod``.
         :param features: Edges to keep as lines, in addition to the lines that ``simplify()`` always keeps. For example,
@@ -2182,7 +2274,8 @@ class SceneOperations:
             ``meshwright.sel``.
         :param on_refusal: What to do if the number of faces of a copy cannot be reached. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
-            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+            ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
+                element.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Lods', {'from': from_, 'ratios': ratios, 'to': to, 'features': features, 'on_refusal': on_refusal}, None, id, progress)
@@ -2205,40 +2298,46 @@ class SceneOperations:
 
         Each pass splits long edges, collapses short edges, flips edges so that most vertices have six edges, and moves
         vertices along the surface (Botsch, Kobbelt, 2004). Most edges of the result have 4/5 to 4/3 of the target
-        length. All vertices lie on the original surface, with one exception. A new vertex stays where it is if moving
-        it onto the surface would turn a triangle too far or would move the surface too far. The target length of edges
-        is either ``length``, or it follows ``curvature``. With ``curvature``, edges are short where the surface is
-        curved, and long where it is flat (Dunyach and others, 2013). Exactly one of ``length`` and ``curvature`` must
-        be given. All faces must be triangles.
+        length. Nearly all vertices of the result lie on the original surface. The only exceptions are new vertices that
+        cannot move onto the surface without turning a triangle too far or moving the surface too far. The parameter
+        ``length`` gives the same target length to all edges. With the parameter ``curvature``, edges are short where
+        the surface is curved, and long where it is flat (Dunyach and others, 2013). Exactly one of ``length`` and
+        ``curvature`` must be given. All faces must be triangles.
 
         The following properties are kept:
 
-        - Topology: holes, handles and separate parts stay.
-        - Lines: the boundary, seams of texture coordinates and normals, borders between face tags or materials, edges
-          with a tag or a crease, and ``features``. Vertices on a line slide along it. The ends of lines, the vertices
-          where lines meet, and corners where a line turns by more than 40 degrees keep their exact positions. Other
-          sharp edges are rounded.
+        - Topology: the numbers of holes, handles and separate parts do not change.
+        - Lines: lines consist of boundary edges, seams of texture coordinates or normals, edges between faces with
+          different tags or materials, tagged edges, creases, and the edges of ``features``. Vertices on a line can only
+          slide along this line. The ends of lines, the vertices where lines meet, and corners where a line turns by
+          more than 40 degrees keep their exact positions. Sharp edges that are not on a line are rounded. To keep sharp
+          edges, select them with ``features``.
         - Attributes: each vertex and corner gets the values of the original surface at its position. Values are never
           interpolated across a line.
-        - Vertex tags: a new vertex has a tag if all old vertices around its position had the tag. A tagged vertex can
-          move only inside a tagged region. A tagged vertex is inside such a region if all corners of one of its
-          triangles, or both of its neighbors on a line, also have the tag. All other tagged vertices keep their exact
-          positions. Vertices with sharpness also keep their exact positions.
+        - Vertex tags: a new vertex gets a tag if all old vertices around its position have the tag. Usually, these old
+          vertices are the three corners of the old triangle at this position. A tagged vertex can move only inside a
+          tagged region. A tagged vertex is inside such a region if all corners of one of its triangles, or both of its
+          neighbors on a line, also have the tag. All other tagged vertices keep their exact positions. Vertices to
+          which ``crease()`` gave a sharpness also keep their exact positions.
 
-        The number of faces depends on the area of the mesh, which is not known before the run. Therefore ``check``
-        shows the largest number of faces that fits the memory budget. When the operation starts, it estimates the
-        number of faces from the area. The operation fails if the estimate exceeds the memory budget.
+        The number of faces depends on the area of the mesh, which is not known before the run. Therefore the command
+        ``check``, which examines a recipe but does not run it, shows the largest number of faces that fits the memory
+        budget. When the operation starts, it estimates the number of faces from the area. The operation fails if a mesh
+        with this number of faces would exceed the memory budget.
 
-        Edits that would turn a triangle by more than 60 degrees are refused. All elements get new ids. If the distance
-        between the result and the original could exceed ``error``, the operation is refused as ``Unreached``. With
-        ``on_refusal="Skip"``, a refused operation does not change the mesh.
+        The passes leave out every split, collapse, flip or move that would turn a triangle by more than 60 degrees. All
+        elements get new ids. If the operation cannot prove that the distance between the result and the original is at
+        most ``error``, the operation is refused (reason: ``Unreached``). With ``on_refusal="Skip"``, a refused
+        operation leaves the mesh unchanged, and the run continues.
 
         Example: ``scene.remesh(length=0.5)``, in a recipe ``Remesh(length: 0.5)``
 
         :param length: The target length of edges, in scene units.
-        :param curvature: Target lengths that follow the curvature. Replaces ``length``.
-            ``"error"``: The intended distance between the surface and the triangles, in scene units. It is not
-                guaranteed. To guarantee a distance, use the parameter ``error`` of the operation.
+        :param curvature: Target lengths that follow the curvature of the surface, instead of one target length for all
+            edges.
+            ``"error"``: The intended largest distance between the original surface and the new triangles, in scene
+                units. This distance is not guaranteed. To guarantee a distance, use the other parameter ``error``,
+                which belongs to the operation itself: ``remesh(error=..)``.
             ``"min"``: The smallest target length of edges, in scene units.
             ``"max"``: The largest target length of edges, in scene units.
         :param features: Edges to keep as lines, in addition to the lines that are always kept. For example,
@@ -2254,7 +2353,8 @@ class SceneOperations:
         :param on_refusal: What to do if the distance between the result and the original could exceed ``error``.
             Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
-            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+            ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
+                element.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
@@ -2284,30 +2384,32 @@ class SceneOperations:
         - ``choice.Implicit``: strong smoothing of meshes with many small faces in one pass; shrinks.
         - ``choice.Denoise``: scans of objects with flat sides and sharp edges; nearly the same.
 
-        If ``boundary`` is ``Fixed``, vertices on the boundary do not move, so that adjacent objects still fit together.
+        If ``boundary`` is ``Fixed``, vertices on the boundary do not move, so that objects that touch along their
+        boundaries still fit together.
 
         Example: ``scene.smooth(by=choice.Taubin())``, in a recipe ``Smooth(by: Taubin())``
 
         :param by: The method.
             ``choice.Laplacian(..)``: Moves each vertex towards the mean of its neighbors.
-            ``choice.Taubin(..)``: Moves each vertex towards the mean of its neighbors, and then back by a slightly
-                larger factor.
-            ``choice.Implicit(..)``: Moves the surface by mean curvature flow for the given time, in one stable step.
-            ``choice.Denoise(..)``: Filters the normals of the faces, so that similar normals become equal, then moves
-                the vertices to fit the normals.
-        :param passes: The number of passes. If omitted, 1 for ``choice.Implicit`` and 10 for the other methods. For
-            ``choice.Denoise``, the number of passes over the normals. At most 10000.
+            ``choice.Taubin(..)``: Moves each vertex towards the mean of its neighbors, and then away from this mean
+                with a slightly larger factor.
+            ``choice.Implicit(..)``: Moves the surface by mean curvature flow.
+            ``choice.Denoise(..)``: Filters the normals of the faces, so that similar normals of nearby faces become
+                nearly equal.
+        :param passes: The number of passes. At most 10000. If omitted, 1 for ``choice.Implicit`` and 10 for the other
+            methods. With ``choice.Denoise``, ``passes`` counts only the passes that filter the normals, not the passes
+            that then move the vertices.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
         :param pin: Vertices that do not move. If omitted, no vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
         :param boundary: How vertices on the boundary move. Defaults to ``"Fixed"``.
             ``"Fixed"``: The vertices do not move.
-            ``"Free"``: The boundary is smoothed as a set of curves, so the movement of a vertex on the boundary depends
+            ``"Free"``: The boundary is smoothed as a set of curves: the movement of a vertex on the boundary depends
                 only on its neighbors along the boundary.
-        :param keep_volume: Whether to restore the original volume of the mesh. To restore the volume, the operation
-            finally shifts all moved vertices along their normals by the same distance. The mesh must be closed.
-            Defaults to ``False``.
+        :param keep_volume: Whether to restore the original volume of the mesh after smoothing. To restore the volume,
+            the operation shifts all vertices that it is allowed to move by the same distance along their normals. The
+            mesh must be closed. Defaults to ``False``.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
@@ -2326,29 +2428,31 @@ class SceneOperations:
         """Copies attributes from the nearest points of another object.
 
         The operation copies vertex, corner and face attributes from the object ``from_`` to elements of the same kind
-        in the changed mesh. Numbers and vectors of vertices and corners are interpolated inside the face that contains
-        the nearest point. Whole numbers, tags, and attributes that edits do not interpolate are copied from the nearest
-        corner of the face that contains the nearest point. Values of faces are copied from the face that contains the
-        nearest point. If the attribute already exists with the same type of values, it is overwritten. If the attribute
-        already exists with a different type of values, the operation fails. Without ``on``, a method of a scene acts on
-        all meshes except ``from_``.
+        in the changed mesh. For each element, the operation finds the nearest point on the surface of ``from_``, and
+        the face that contains this point. Numbers and vectors of vertices and corners are interpolated inside this
+        face. Whole numbers, tags, and attributes that edits do not interpolate are copied from the corner of this face
+        that is nearest to the point. Values of faces are copied from this face. If the changed mesh already has the
+        attribute with the same type of values, the attribute is overwritten. If the type of values differs, the
+        operation fails. If the operation does not name its objects with ``on``, it changes all meshes except ``from_``.
 
-        All corners of a face take their values from one side of each seam, so no triangle is stretched across a seam of
-        texture coordinates. Usually the corners take their values from the side that is nearest to the center of the
-        face. Seams divide the source into charts. The chart that is nearest to a corner is used instead if it is much
-        nearer to the whole face than the chart that is nearest to the center of the face. This happens where parts of
-        the source intersect.
+        All corners of a face take their values from the same side of a seam of the source object. No triangle is
+        therefore stretched across the seam in the texture. Usually the side that is nearest to the center of the face
+        is used. Seams divide the source object into charts. Where parts of the source object intersect, the chart that
+        is nearest to the center can be far from the corners of the face. If the chart that is nearest to a corner is
+        much nearer to the whole face, this chart is used instead.
 
-        Elements whose distance from the source exceeds ``within`` keep their values, or get zeros if the attribute is
-        new. If the distance of a corner or of the center of a face exceeds ``within``, all corners of the face keep
-        their values or get zeros. The report counts the elements that are too far away.
+        Elements that are farther from the source object than ``within`` keep their values, or get zeros if the
+        attribute is new. All corners of a face are treated alike. If one of the corners or the center of the face is
+        too far away, all corners of the face keep their values or get zeros. The report counts the elements that take
+        no values from the source object.
 
         Example: ``scene.transfer(from_="scan", attributes=["uv", "color"], within=0.01)``, in a recipe ``Transfer(from:
         "scan", attributes: ["uv", "color"], within: 0.01)``
 
         :param from_: The name of the object with the attributes.
         :param attributes: The names of the attributes, for example ``["uv", "color"]``.
-        :param within: The largest distance from the source, in scene units. If omitted, there is no limit.
+        :param within: The largest distance from the object ``from_`` at which an element takes values, in scene units.
+            If omitted, there is no limit.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
@@ -2369,12 +2473,14 @@ class SceneOperations:
         Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch
         with the surface.
 
-        With ``falloff="r"``, vertices near the selected vertices also move. At the distance d from the nearest selected
-        vertex, the movement is multiplied by the weight (1 - (d/r)²)². The weight is 1 at selected vertices and falls
-        smoothly to 0 at the distance r. Distances are measured along straight lines, not along the surface.
+        With ``falloff="r"``, vertices that are nearer than r to a selected vertex also move, but less far. At the
+        distance d from the nearest selected vertex, the movement is multiplied by the weight (1 - (d/r)²)². The weight
+        is 1 at selected vertices and falls smoothly to 0 at the distance r. Distances are measured along straight
+        lines, not along the surface.
 
         With ``by=choice.Distance(..)``, each vertex moves along its own normal, which is the mean of the normals of its
-        faces, weighted by their areas. Vertices without a normal do not move. The report counts them.
+        faces, weighted by the areas of the faces. Vertices without a normal, such as isolated vertices, do not move.
+        The report counts these vertices.
 
         Example: ``scene.move_vertices(vertices=sel.Vertices([0]), by=choice.Offset((0, 0, 0.5)))``, in a recipe
         ``MoveVertices(vertices: Vertices([0]), by: Offset((0, 0, 0.5)))``
@@ -2383,11 +2489,11 @@ class SceneOperations:
             ``meshwright.sel``.
         :param by: How the vertices move.
             ``choice.Offset(..)``: Moves by this offset along x, y and z, in scene units.
-            ``choice.Distance(..)``: Moves by this distance along the normal of each vertex, in scene units.
-            ``choice.To(..)``: Moves by one common offset, so that the mean of the selected vertices arrives at this
-                point.
-            ``choice.Rotate(..)``: Rotates around an axis through the mean of the selected vertices.
-            ``choice.Scale(..)``: Scales along x, y and z about the mean of the selected vertices.
+            ``choice.Distance(..)``: Moves each vertex by this distance along its normal, in scene units.
+            ``choice.To(..)``: Moves all selected vertices by the same offset, so that the mean of their positions
+                becomes this point.
+            ``choice.Rotate(..)``: Rotates around an axis through the mean of the positions of the selected vertices.
+            ``choice.Scale(..)``: Scales along x, y and z about the mean of the positions of the selected vertices.
         :param falloff: The distance from the selected vertices at which the movement has fallen to 0, in scene units.
             If omitted, only the selected vertices move.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
@@ -2407,17 +2513,18 @@ class SceneOperations:
     ) -> Self:
         """Moves vertices along their normals, by amounts that vary over the surface.
 
-        Each vertex moves along its normal by ``distance`` times the value of ``by``. The normal of a vertex is the mean
-        of the normals of its faces, weighted by their areas. Vertices without a normal do not move. The report counts
-        them. Normals and tangents are dropped. Faces, element ids and other attributes do not change.
+        Each vertex moves along its normal by ``distance`` times the value that ``by`` gives for this vertex. The normal
+        of a vertex is the mean of the normals of its faces, weighted by the areas of the faces. Vertices without a
+        normal, such as isolated vertices, do not move. The report counts these vertices. Normals and tangents are
+        dropped. Faces, element ids and other attributes do not change.
 
-        The values are computed without functions whose results differ between machines, so the result is identical on
-        all machines.
+        The computation uses only functions that give the same results on all machines, so the displaced mesh is
+        identical on all machines.
 
         Example: ``scene.displace(by=choice.Noise(scale=0.5, seed=7), distance=0.1)``, in a recipe ``Displace(by:
         Noise(scale: 0.5, seed: 7), distance: 0.1)``
 
-        :param by: The values by which ``distance`` is multiplied.
+        :param by: The source of the values by which ``distance`` is multiplied, for example noise or an image.
             ``choice.Noise(..)``: Smooth noise from -1 to 1 (Perlin, "Improving Noise", 2002).
             ``choice.Random(..)``: A random number from -1 to 1 for each vertex.
             ``choice.Attribute(..)``: A vertex attribute that holds one number for each vertex.
@@ -2449,10 +2556,11 @@ class SceneOperations:
         """Bends a mesh, so that an axis becomes an arc of a circle.
 
         Vertices at or below ``from_`` do not move. Between ``from_`` and ``to``, the axis becomes an arc of the same
-        length, which turns by ``angle`` in total. Vertices above ``to`` move rigidly. Vertices between the axis and the
-        center of the circle move closer together, and vertices on the other side of the axis move apart. The distance
-        between the center of the circle and the axis is (to - from) / angle, with the angle in radians. Parts of the
-        mesh beyond the center of the circle turn inside out. Source: Barr, "Global and Local Deformations of Solid
+        length. The direction of the arc turns by ``angle`` from one end to the other. The part above ``to`` moves
+        rigidly with the end of the arc. Vertices between the axis and the center of the circle move closer together,
+        and vertices on the other side of the axis move apart. The distance between the center of the circle and the
+        axis is (to - from) / angle, with the angle in radians. Parts of the mesh that lie beyond the center of the
+        circle, as seen from the axis, turn inside out. Source: Barr, "Global and Local Deformations of Solid
         Primitives", 1984.
 
         Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch
@@ -2460,22 +2568,22 @@ class SceneOperations:
 
         Example: ``scene.bend(axis="Z", angle=90)``, in a recipe ``Bend(axis: Z, angle: 90)``
 
-        :param axis: The axis that becomes an arc.
+        :param axis: The direction of the axis that becomes an arc. The axis goes through the point ``about``.
             ``"X"``: The x axis.
             ``"Y"``: The y axis.
             ``"Z"``: The z axis.
         :param angle: The angle by which the axis turns from ``from_`` to ``to``, in degrees. A negative angle bends to
             the other side.
-        :param towards: The axis towards which the upper end bends. If omitted, the axis after ``axis`` in the order x,
-            y, z, x.
+        :param towards: The coordinate axis in whose positive direction the upper end bends. If omitted, the axis after
+            ``axis`` in the order x, y, z, x.
             ``"X"``: The x axis.
             ``"Y"``: The y axis.
             ``"Z"``: The z axis.
         :param about: A point on the axis. The coordinate of the point along the axis does not matter.
         :param from_: The coordinate along the axis at which the deformation starts. If omitted, the lowest coordinate
-            of the mesh.
+            of the mesh along the axis.
         :param to: The coordinate along the axis at which the deformation is complete. If omitted, the highest
-            coordinate of the mesh. Must not be less than ``from_``.
+            coordinate of the mesh along the axis. Must not be less than ``from_``.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
@@ -2498,26 +2606,27 @@ class SceneOperations:
     ) -> Self:
         """Rotates vertices around an axis, by an angle that grows along the axis.
 
-        The angle grows linearly from 0 at ``from_`` to ``angle`` at ``to``. Below ``from_`` and above ``to``, vertices
-        rotate by the angle of the nearer end. The volume changes only because edges stay straight, so the volume of a
-        fine mesh hardly changes. A twist by the opposite angle undoes a twist. Source: Barr, "Global and Local
-        Deformations of Solid Primitives", 1984.
+        The angle grows linearly from 0 at ``from_`` to ``angle`` at ``to``. Vertices below ``from_`` do not move, and
+        vertices above ``to`` rotate by ``angle``. A twist of a smooth surface would keep the volume exactly. The volume
+        of a mesh changes slightly, because its edges stay straight, but the change is small if the mesh is fine. A
+        second twist with the opposite angle and the same other parameters undoes the first twist. Source: Barr, "Global
+        and Local Deformations of Solid Primitives", 1984.
 
         Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch
         with the surface. Only vertices move, so refine the mesh first if its faces are large.
 
         Example: ``scene.twist(axis="Z", angle=90)``, in a recipe ``Twist(axis: Z, angle: 90)``
 
-        :param axis: The axis of the rotation.
+        :param axis: The direction of the axis of the rotation. The axis goes through the point ``about``.
             ``"X"``: The x axis.
             ``"Y"``: The y axis.
             ``"Z"``: The z axis.
         :param angle: The angle at ``to``, in degrees, counter-clockwise if the axis points to the viewer.
         :param about: A point on the axis. The coordinate of the point along the axis does not matter.
         :param from_: The coordinate along the axis at which the deformation starts. If omitted, the lowest coordinate
-            of the mesh.
+            of the mesh along the axis.
         :param to: The coordinate along the axis at which the deformation is complete. If omitted, the highest
-            coordinate of the mesh. Must not be less than ``from_``.
+            coordinate of the mesh along the axis. Must not be less than ``from_``.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
@@ -2540,25 +2649,26 @@ class SceneOperations:
     ) -> Self:
         """Scales vertices towards or away from an axis, by a factor that changes along the axis.
 
-        The factor changes linearly from 1 at ``from_`` to ``factor`` at ``to``. Below ``from_`` and above ``to``, the
-        factor of the nearer end applies. Coordinates along the axis do not change. Source: Barr, "Global and Local
-        Deformations of Solid Primitives", 1984.
+        The factor changes linearly from 1 at ``from_`` to ``factor`` at ``to``. Vertices below ``from_`` do not move,
+        and vertices above ``to`` are scaled by ``factor``. Coordinates along the axis do not change. Source: Barr,
+        "Global and Local Deformations of Solid Primitives", 1984.
 
         Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch
         with the surface. Only vertices move, so refine the mesh first if its faces are large.
 
         Example: ``scene.taper(axis="Z", factor=0.5)``, in a recipe ``Taper(axis: Z, factor: 0.5)``
 
-        :param axis: The axis. Points on the axis do not move.
+        :param axis: The direction of the axis. The axis goes through the point ``about``, and points on the axis do not
+            move.
             ``"X"``: The x axis.
             ``"Y"``: The y axis.
             ``"Z"``: The z axis.
         :param factor: The factor at ``to``. More than 0. A factor below 1 makes the upper end narrower.
         :param about: A point on the axis. The coordinate of the point along the axis does not matter.
         :param from_: The coordinate along the axis at which the deformation starts. If omitted, the lowest coordinate
-            of the mesh.
+            of the mesh along the axis.
         :param to: The coordinate along the axis at which the deformation is complete. If omitted, the highest
-            coordinate of the mesh. Must not be less than ``from_``.
+            coordinate of the mesh along the axis. Must not be less than ``from_``.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
@@ -2580,11 +2690,13 @@ class SceneOperations:
     ) -> Self:
         """Deforms vertices with a box of control points.
 
-        The box has a grid of ``size`` control points along x, y and z. ``moves`` moves some of the control points, and
-        the space in the box follows smoothly. Each point in the box moves to a sum of the control points with Bernstein
-        polynomials as weights (Sederberg, Parry, "Free-Form Deformation of Solid Geometric Models", 1986). If all
-        control points move by the same offset, the whole box moves by this offset. A control point attracts the
-        surface, but the surface usually does not reach it, except at the corners of the box.
+        The box contains a regular grid of control points. ``size`` gives the number of control points along x, y and z.
+        ``moves`` moves some of the control points, and the space in the box is deformed smoothly. The new position of a
+        point in the box is the weighted sum of the new positions of all control points, with Bernstein polynomials as
+        weights (Sederberg, Parry, "Free-Form Deformation of Solid Geometric Models", 1986). If all control points move
+        by the same offset, the whole box moves by this offset. If only one control point moves, the points in the box
+        move in the same direction, but less far. Only a point at a corner of the box moves as far as the control point
+        at this corner.
 
         Vertices outside the box do not move. Normals and tangents are dropped. Faces, element ids and other attributes
         do not change, so textures stretch with the surface. Only vertices move, so refine the mesh first if its faces
@@ -2593,11 +2705,14 @@ class SceneOperations:
         Example: ``scene.lattice(size=(3, 3, 3), moves=[((2, 2, 2), (0.5, 0.5, 0.5))])``, in a recipe ``Lattice(size:
         (3, 3, 3), moves: [((2, 2, 2), (0.5, 0.5, 0.5))])``
 
-        :param size: The number of control points along x, y and z, from 2 to 16 each.
-        :param moves: The control points that move: their indices along x, y and z, counted from 0, and the offset in
-            scene units. A control point that is listed several times moves by the sum of its offsets.
-        :param min: The lowest corner of the box. If omitted, the lowest corner of the bounding box of the mesh.
-        :param max: The highest corner of the box. If omitted, the highest corner of the bounding box of the mesh.
+        :param size: The numbers of control points along x, y and z. Each number is from 2 to 16.
+        :param moves: The control points that move. Each entry consists of the indices of a control point along x, y and
+            z, which start at 0, and its offset in scene units. A control point that is listed several times moves by
+            the sum of its offsets.
+        :param min: The corner of the box with the lowest coordinates. If omitted, the same corner of the bounding box
+            of the mesh is used.
+        :param max: The corner of the box with the highest coordinates. If omitted, the same corner of the bounding box
+            of the mesh is used.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
@@ -2619,28 +2734,31 @@ class SceneOperations:
     ) -> Self:
         """Moves vertices onto the surface of another object (shrinkwrap).
 
-        Only vertices in ``vertices`` that are not in ``pin`` move. All other vertices keep their exact positions.
-        Without ``on``, a method of a scene acts on all meshes except the object ``onto``, which does not change.
+        Only vertices in ``vertices`` that are not in ``pin`` move. All other vertices keep their exact positions. If
+        the operation does not name objects with ``on``, it acts on all meshes except the object that ``onto`` names.
         Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch
         with the surface.
 
-        Vertices that would move farther than ``distance`` do not move. With ``Normal`` and ``choice.Direction``, a
-        vertex moves along a line, and vertices whose line misses the surface do not move either. The report counts the
-        vertices that would move too far, and the vertices whose line misses the surface.
+        Vertices that would move farther than ``distance`` do not move. With ``along="Normal"``, a vertex moves along
+        the line of its normal, and with ``along=choice.Direction(..)``, along a ray in this direction. If this line or
+        ray misses the surface, the vertex does not move. The report counts the vertices that would move too far, and
+        the vertices whose line or ray misses the surface.
 
         Example: ``scene.project(onto="scan", distance=0.1)``, in a recipe ``Project(onto: "scan", distance: 0.1)``
 
-        :param onto: The name of the object with the surface.
-        :param along: Where each vertex goes. Defaults to ``"Nearest"``.
+        :param onto: The name of the object onto whose surface the vertices move.
+        :param along: How the operation finds the point of the surface to which a vertex moves. Defaults to
+            ``"Nearest"``.
             ``"Nearest"``: Moves to the nearest point of the surface.
-            ``"Normal"``: Moves to the nearest point of the surface on the line through the vertex along its normal, on
-                either side.
+            ``"Normal"``: Moves to the nearest point at which the surface meets the line through the vertex along its
+                normal.
             ``choice.Direction(..)``: Moves to the first point of the surface in this direction.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
         :param pin: Vertices that do not move. If omitted, no vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
-        :param distance: The largest distance that a vertex moves, in scene units. If omitted, any distance.
+        :param distance: The largest distance that a vertex is allowed to move, in scene units. If omitted, there is no
+            limit.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
@@ -2659,12 +2777,14 @@ class SceneOperations:
         """Stores a quantity, such as a curvature or a distance, as an attribute of vertices or faces.
 
         Later operations can select elements by the attribute (``sel.Where``), move vertices by it (``displace()``),
-        show it in a picture (``picture()``), and save it to files (``save()``). The attribute is not updated when the
-        mesh changes. Positions and other attributes do not change. Quantities are computed in the space of the mesh,
-        without the transforms of nodes. The report states the lowest, the mean and the highest value of each object.
+        show it in a picture (``picture()``), and save it to files (``save()``). If a later operation changes the mesh,
+        the quantity is not computed again. Positions and other attributes do not change. Quantities are computed from
+        the coordinates that the mesh stores. The transforms of the nodes that place the mesh in the scene are not
+        applied. The report states the lowest, the mean and the highest value of each object.
 
-        An attribute of the same name is replaced if it belongs to the same elements (vertices or faces) and has one
-        floating-point number for each element. Otherwise the operation fails.
+        If the mesh already has an attribute of this name, the attribute is replaced. The operation fails if the
+        existing attribute belongs to a different kind of element, or does not hold one floating-point number for each
+        element.
 
         Example: ``scene.measure(of="MeanCurvature")``, in a recipe ``Measure(of: MeanCurvature)``
 
@@ -2676,7 +2796,7 @@ class SceneOperations:
             ``choice.PrincipalCurvature(..)``: A principal curvature at each vertex, in 1 / scene unit: an eigenvalue of
                 the curvature tensor of Cohen-Steiner and Morvan, 2003.
             ``"Area"``: The area of each face, in scene units².
-            ``"VertexArea"``: The area of each vertex, in scene units².
+            ``"VertexArea"``: The area of the surface that belongs to each vertex, in scene units².
             ``"MinAngle"``: The smallest angle of each face, in degrees.
             ``"AspectRatio"``: The aspect ratio of each face: 1 for regular polygons, and more than 1 for all other
                 polygons (Stimpson, Ernst, Knupp, Pébay, Thompson, "The Verdict Geometric Quality Library", 2007).
@@ -2686,17 +2806,16 @@ class SceneOperations:
                 scene units, by the heat method (Crane, Weischedel, Wardetzky, "Geodesics in Heat", 2013; Sharp, Crane,
                 2020).
             ``"Thickness"``: The thickness of the solid at each vertex, in scene units.
-            ``choice.Occlusion(..)``: The ambient occlusion of each vertex: the fraction of the rays from the vertex
-                that meet the mesh, from 0 (open) to 1 (enclosed).
+            ``choice.Occlusion(..)``: The ambient occlusion of each vertex.
             ``choice.Winding(..)``: The winding number of another mesh of the scene around each vertex: 1 inside, 0
                 outside, and numbers between 0 and 1 near gaps of the other mesh (Jacobson, Kavan, Sorkine-Hornung,
                 2013; Barill, Dickson, Schmidt, Levin, Jacobson, 2018).
-        :param name: The name of the attribute. If omitted, the attribute has the name of the quantity in lower case,
-            such as ``mean_curvature``. For principal curvatures, the default names are ``largest_curvature`` and
-            ``smallest_curvature``.
-        :param missing: The value for elements at which the quantity is not defined, such as the curvature of a vertex
-            without faces. The report counts these elements. If omitted, 0 for quantities that can be negative, and -1
-            for all others.
+        :param name: The name of the attribute. If omitted, the attribute gets the name of the quantity in lower case,
+            for example ``mean_curvature`` for ``MeanCurvature``. For principal curvatures, the default names are
+            ``largest_curvature`` and ``smallest_curvature``.
+        :param missing: The value for elements at which the quantity is not defined. For example, a vertex without faces
+            has no curvature. The report counts these elements. If omitted, the value is 0 for quantities that can be
+            negative, and -1 for all other quantities.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
@@ -2718,37 +2837,43 @@ class SceneOperations:
     ) -> Self:
         """Computes texture coordinates without overlaps.
 
-        The surface is cut into charts, which are flattened and packed into a square page. Charts grow from flat regions
-        as far as ``max_angle`` allows. The charts are flattened by least squares conformal maps (Levy and others, 2002)
-        and the hybrid method of Liu and others (2008). A chart is cut again if it would overlap itself or exceed
-        ``max_stretch``. It is also cut again if the ratio of the largest to the smallest stretch would exceed 1.15 on
-        more than 5 % of its area. All charts of a mesh have the same scale, and no chart is mirrored. A polygon stays
-        in one chart. Each mesh gets its own page, on which the charts are arranged as by ``pack_uvs()``.
+        The surface is cut into charts, which are connected parts of the surface. The charts are flattened and packed
+        into the page, the square of the texture with u and v from 0 to 1. Each chart grows from a flat region, as long
+        as the normals of its faces differ from their mean by at most ``max_angle``. Each chart is flattened by a least
+        squares conformal map (Levy and others, 2002), which the hybrid method of Liu and others (2008) then improves. A
+        chart is cut again if its flattened shape overlaps itself or exceeds ``max_stretch``. A chart is also cut again
+        if its angles are distorted too much. A small circle on the surface becomes an ellipse in the texture. On 95 %
+        of the area of a chart, the ratio of the axes of this ellipse is at most 1.15. All charts of a mesh have the
+        same scale, and no chart is mirrored. No polygon is divided between charts. Each mesh gets its own page, on
+        which the charts are arranged as by ``pack_uvs()``.
 
-        The coordinates are written to the corner attribute ``uv``, which is replaced if it exists. Edges at which
-        charts meet become seams. Positions, faces and other attributes do not change, but tangents are removed.
-        Zero-area faces have no area in the texture. The report counts them. If a polygon is bent so far that it
-        overlaps itself in the texture, the operation is refused as ``WrongPlace``. Before this operation, triangulate
-        polygons that would overlap themselves. With ``on_refusal="Skip"``, the triangles of such a polygon overlap in
-        the texture.
+        The coordinates are written to the corner attribute with the name ``uv``, which is replaced if it exists. Edges
+        at which charts meet become seams of the texture coordinates. Positions, faces and other attributes do not
+        change, but tangents are removed because they depend on the texture coordinates. Zero-area faces also have zero
+        area in the texture. The report counts the faces with zero area in the texture. If a polygon is bent so far that
+        it overlaps itself in the texture, the operation fails and gives the reason ``WrongPlace``. To avoid this
+        failure, triangulate such polygons before this operation. With ``on_refusal="Skip"``, the operation does not
+        fail, and the triangles of such a polygon overlap in the texture.
 
         Example: ``scene.unwrap(max_angle=60)``, in a recipe ``Unwrap(max_angle: 60)``
 
         :param seams: Edges that become borders of charts, for example ``sel.Tagged("seam")`` or
-            ``sel.Sharp(above=60)``. The algorithm also chooses borders itself. If omitted, the algorithm chooses all
-            borders. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
+            ``sel.Sharp(above=60)``. The algorithm adds more borders where charts need them. If omitted, the algorithm
+            chooses all borders. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
         :param max_angle: The largest angle between the normal of a face and the mean normal of its chart, in degrees.
             Smaller angles give more charts with less stretch. Defaults to ``70.0``.
-        :param max_stretch: The largest ratio between the area scale of a triangle and the area scale of its whole
-            chart. The area scale is the area in the texture divided by the area on the surface. Defaults to ``4.0``.
-        :param page: The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for any size.
-            The size only determines how large the padding is. Defaults to ``1024``.
-        :param padding: The number of empty texels around each chart. The distance between two charts is at least twice
-            this number. Defaults to 2.
+        :param max_stretch: The largest factor by which the area scale of a triangle is allowed to be larger or smaller
+            than the area scale of its whole chart. The area scale is the area in the texture divided by the area on the
+            surface. Defaults to ``4.0``.
+        :param page: The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for every size.
+            The size matters only for ``padding``, which is a number of texels. Defaults to ``1024``.
+        :param padding: The width of the empty border around each chart, in texels. The distance between two charts is
+            at least twice this width. Defaults to 2.
         :param uv: The name of the texture coordinates. Defaults to ``uv``.
         :param on_refusal: What to do if a polygon overlaps itself in the texture. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
-            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+            ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
+                element.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
@@ -2766,22 +2891,23 @@ class SceneOperations:
     ) -> Self:
         """Moves, rotates and scales charts of texture coordinates so that they do not overlap and have the same scale.
 
-        A chart is a set of faces that are connected without seams of the texture coordinates. After the operation, the
-        area of each chart in the texture is proportional to its area on the surface. The shape of each chart does not
-        change, even if it is stretched, mirrored or overlaps itself. Each zero-area chart becomes a point. The report
-        counts zero-area charts and charts that overlap themselves. Each mesh gets its own page, that is, the whole
-        square of a texture. Tangents are removed, because charts are rotated.
+        A chart is a set of faces that are connected across edges at which the texture coordinates have no seam. After
+        the operation, the area of each chart in the texture is proportional to its area on the surface. The shape of
+        each chart in the texture does not change. The operation does not repair charts that are stretched or mirrored,
+        or that overlap themselves. A chart with zero area on the surface or in the texture becomes a point. The report
+        counts these zero-area charts, and the charts that overlap themselves. Each mesh gets its own page, that is, the
+        whole square of a texture. Tangents are removed, because charts are rotated.
 
-        Up to 256 charts can lie in the hollows and holes of each other. More charts are packed in rows, which is much
-        faster but leaves more of the page empty.
+        If a mesh has at most 256 charts, charts can be placed in the hollows and holes of other charts. If a mesh has
+        more charts, all charts are packed in rows. Rows are computed much faster, but leave more of the page empty.
 
         Example: ``scene.pack_uvs(page=2048, padding=4)``, in a recipe ``PackUvs(page: 2048, padding: 4)``
 
         :param uv: The name of the texture coordinates. Defaults to ``uv``.
-        :param page: The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for any size.
-            The size only determines how large the padding is. Defaults to ``1024``.
-        :param padding: The number of empty texels around each chart. The distance between two charts is at least twice
-            this number. Defaults to 2.
+        :param page: The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for every size.
+            The size matters only for ``padding``, which is a number of texels. Defaults to ``1024``.
+        :param padding: The width of the empty border around each chart, in texels. The distance between two charts is
+            at least twice this width. Defaults to 2.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
@@ -2808,10 +2934,10 @@ class SceneOperations:
     ) -> Self:
         """Draws the scene into an image file.
 
-        The extension of the file determines the format. A single image has the extension ``.png``. With ``turntable``,
-        ``.gif`` gives an animated GIF, and ``.apng`` or ``.png`` gives an animated PNG. The file is written only if the
-        whole recipe succeeds. The scene does not change. Drawing needs no GPU and gives the same bytes on every
-        machine.
+        The extension of the file determines the format. Without ``turntable``, the picture is a single image, and the
+        extension must be ``.png``. With ``turntable``, the extension ``.gif`` gives an animated GIF, and ``.apng`` or
+        ``.png`` gives an animated PNG. The file is written only if the whole recipe succeeds. The scene does not
+        change. Drawing needs no GPU and gives the same bytes on every machine.
 
         Example: ``scene.picture(path="a.png", size=(64, 48), highlight=sel.Edges(sel.Sharp(above=30)), color_by={"of":
         "Valence"}, style={"wireframe": {}})``, in a recipe ``Picture(path: "a.png", size: (64, 48), highlight:
@@ -2822,41 +2948,44 @@ class SceneOperations:
             name of this file without its extension.
         :param size: The width and the height of each view in pixels.
         :param camera: The camera.
-            ``choice.Fit(..)``: Looks from a side, at the distance from which the picture shows the whole scene.
+            ``choice.Fit(..)``: Looks at the scene from a given side.
             ``choice.LookAt(..)``: Looks from one point to another point.
-        :param views: Several cameras, which replace ``camera``. The views of the cameras are placed side by side.
-        :param columns: The number of views in a row. If omitted, the number of views, but at most 4.
+        :param views: Several cameras, which replace ``camera``. The picture shows the views of all these cameras, side
+            by side.
+        :param columns: The number of views in each row of the picture. If omitted, up to 4 views share one row, and
+            more views are placed in rows of 4.
         :param style: The style: shading, lines, background.
             ``"shading"``: The lighting of surfaces.
-            ``"sharp"``: The minimum angle between the normals of two faces, in degrees, at which the edge between the
-                faces is shaded as sharp. This angle has no effect if the mesh has normals.
+            ``"sharp"``: The smallest angle between the normals of two faces at which the edge between the faces is
+                shaded as sharp, in degrees. This angle has no effect if the mesh stores normals.
             ``"occlusion"``: The strength of ambient occlusion, which darkens hollows, from 0 (none) to 1.
             ``"background"``: The background.
             ``"color"``: The color of all surfaces. If omitted, surfaces have the colors of the scene.
             ``"back"``: The color of the back of faces. The back is visible where a mesh is open or inside out.
-            ``"wireframe"``: Draws the edges of meshes, and grids on Bezier patches. Lines that are only a few pixels
-                apart are thinner, so that they do not cover the surface.
+            ``"wireframe"``: Draws the edges of meshes, and grid lines on Bezier patches. Lines that are only a few
+                pixels apart are drawn thinner, so that they do not cover the surface.
             ``"boundary"``: Draws the boundary edges of meshes.
             ``"creases"``: Draws crease edges. The width of a crease grows with its sharpness, up to twice ``width``.
-            ``"normals"``: Draws vertex normals as short lines. The value is the length of the lines as a fraction of
-                the size of the scene.
+            ``"normals"``: Draws vertex normals as short lines. The value is the length of the lines, as a fraction of
+                the radius of the bounding sphere of the scene.
             ``"points"``: Draws dots at all vertices of meshes and all points of polylines. The value is the diameter of
                 the dots in pixels.
             ``"control_nets"``: Draws the control nets of Bezier patches and the control polygons of curves.
-            ``"ids"``: Labels vertices or faces with their ids. Only small meshes can be labeled.
+            ``"ids"``: Labels vertices or faces with their ids. Fails if a mesh has more than 2000 of these elements.
             ``"curve_width"``: The width of curves and polylines in pixels.
         :param highlight: Elements to highlight in orange, as in ``sel.Edges(sel.Sharp(above=30))`` or
             ``sel.Faces(sel.Tagged("top"))``. ``"All"``, ``"Boundary"``, ``"Isolated"``, ``"SelfIntersecting"``, or a
             value of ``meshwright.sel``.
         :param highlight_width: The width of highlighted edges and the diameter of highlighted vertices, in pixels. The
-            default width and the default diameter depend on the shorter side of a view: 2.8 and 7.5 for 240 pixels, 3.4
-            and 10 for 480, 4 and 13 for 960, 8 and 26 for 1920. If there are many highlighted vertices, they are drawn
-            smaller. Hidden edges are drawn faintly, and hidden vertices as rings.
+            defaults grow with the shorter side of a view. For a side of 240 pixels, the width is 2.8 and the diameter
+            7.5. For 480 pixels, they are 3.4 and 10; for 960 pixels, 4 and 13; for 1920 pixels, 8 and 26. If there are
+            many highlighted vertices, their default diameter is smaller. Edges behind a surface are drawn faintly, and
+            vertices behind a surface as rings.
         :param marks: More selections of elements to highlight, each with its own color.
             ``"of"``: The elements.
             ``"color"``: The color.
-            ``"width"``: The width of edges and the diameter of vertices, in pixels. If omitted, the defaults of
-                ``highlight_width``.
+            ``"width"``: The width of edges and the diameter of vertices, in pixels. If omitted, the defaults are those
+                of ``highlight_width``.
         :param color_by: What the colors of the surface show: a quantity (``"Valence"``, ``"MinAngle"``, ``"Area"``,
             ``"DihedralAngle"``, ``"MeanCurvature"``, ``"GaussianCurvature"``, or a value of ``meshwright.choice``), the
             name of an attribute, or a mapping with more details.
@@ -2864,12 +2993,13 @@ class SceneOperations:
             ``"map"``: The color map. The default is ``Classes`` for valences, ``Diverging`` for curvatures, and
                 ``Viridis`` for all other quantities.
             ``"range"``: The values that the first and the last color represent, as in ``(0, 60)``. If omitted, the
-                range depends on the values of the quantity. For curvatures, the range is symmetric about 0. It leaves
-                out the lowest and the highest eighth of the values, or fewer values if all remaining values are 0.
-            ``"legend"``: Whether a legend in a corner explains the colors.
+                range is computed from the values of the quantity. For curvatures, the range is symmetric about 0, and
+                the lowest and the highest eighth of the values are ignored. If all remaining values are 0, fewer values
+                are ignored.
+            ``"legend"``: Whether a legend in a corner of the picture explains the colors.
         :param turntable: If given, the picture is an animation in which the camera moves once around the scene.
             ``"frames"``: The number of images.
-            ``"seconds"``: The duration of the turn.
+            ``"seconds"``: The duration of the turn, in seconds.
         :param images: The folder of texture images that are not stored next to their model. The path is relative to the
             folder of the recipe. If omitted, the folder of the recipe. Missing images are not drawn, and the report
             lists them.
@@ -2897,12 +3027,12 @@ class SceneOperations:
         """Draws Bezier curves, and de Casteljau's construction of their points, into an image file.
 
         The figure has one panel for each combination of a curve and a value of ``t``. With ``by_level``, the figure has
-        one panel for each combination of a curve, a value of ``t`` and a level. A panel shows the curve, its control
-        polygon, every level of de Casteljau's algorithm in a different color, and the constructed point. Both axes have
-        the same scale. With ``by_level``, each panel shows one level more than the previous panel for the same value of
-        ``t``. Only the last panel for a value of ``t`` shows the constructed point. The extension of the file
-        determines the format: ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The scene
-        does not change.
+        one panel for each combination of a curve, a value of ``t`` and a level of de Casteljau's algorithm. A panel
+        shows the curve, its control polygon, every level of the algorithm in a different color, and the constructed
+        point. Both axes have the same scale. With ``by_level``, the panels for a curve and a value of ``t`` form a
+        sequence. The first panel shows only the first level of the algorithm, and each further panel shows one level
+        more. Only the last of these panels shows the constructed point. The extension of the file determines the
+        format: ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The scene does not change.
 
         Example: ``scene.curve_figure(path="figure.svg", t=[0.25, 0.5])``, in a recipe ``CurveFigure(path: "figure.svg",
         t: [0.25, 0.5])``
@@ -2910,16 +3040,19 @@ class SceneOperations:
         :param path: The file. For a scene, a relative path is relative to the working directory; in a recipe, to the
             output folder. If ``name`` is a recipe parameter whose value is a file, ``{name.stem}`` is replaced by the
             name of this file without its extension.
-        :param t: The parameters of the constructed points, from 0 (start) to 1 (end). If empty, only the curves and
-            their control polygons are drawn.
+        :param t: The curve parameters at which points are constructed, from 0 (start of the curve) to 1 (end). If
+            empty, only the curves and their control polygons are drawn.
         :param by_level: Whether each level of the algorithm has its own panel. If false, one panel shows all levels.
             Defaults to ``False``.
-        :param before: The name of a curve that shows an earlier state of the other curves. The earlier curve is drawn
-            faintly behind the other curves, with arrows to the control points that moved.
-        :param width: The width of the figure in SVG pixels. The font size is 12 to 19 pixels. Defaults to ``640``.
-        :param columns: The number of panels in a row. If omitted, the number of values of ``t`` (with ``by_level``, the
-            number of levels), but at most 4.
-        :param scale: The number of PNG pixels per SVG pixel. Has no effect on ``.svg`` files. Defaults to ``2``.
+        :param before: The name of a curve that is the earlier state of the drawn curves. The earlier curve is drawn
+            faintly behind each drawn curve. Arrows lead from the old positions of control points to their new
+            positions.
+        :param width: The width of the figure in SVG pixels. The font size is 12 pixels in narrow panels and up to 19
+            pixels in wide panels. Defaults to ``640``.
+        :param columns: The number of panels in each row. If omitted, each row has as many panels as ``t`` has values
+            (with ``by_level``, as the curve has levels), but at most 4.
+        :param scale: The width and height of one SVG pixel, in pixels of a ``.png`` file. Has no effect on ``.svg``
+            files. Defaults to ``2``.
         :param labels: Whether points are labeled with their names. Defaults to ``True``.
         :param legend: Whether there is a legend below the panels. Defaults to ``True``.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
@@ -2942,13 +3075,13 @@ class SceneOperations:
 
         Each half-edge is drawn as an arrow beside its edge and inside its face, and is labeled with its name. A thin
         curve leads from the head of the arrow to the next half-edge of the face. The twin of a half-edge is on the
-        other side of the edge. Half-edges on the boundary have no face and are gray. The viewer looks at the faces from
-        the direction of their mean normal. Faces that face away from the viewer or are seen nearly edge-on are left
-        out, and the report counts them. The extension of the file determines the format: ``.svg`` or ``.png``. The file
-        is written only if the whole recipe succeeds. The scene does not change.
+        other side of the edge. At a boundary edge, the half-edge without a face is also drawn, in gray. The viewer
+        looks at the faces from the direction of their mean normal. Faces that face away from the viewer or are seen
+        nearly edge-on are left out, and the report counts them. The extension of the file determines the format:
+        ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The scene does not change.
 
         The name of an element is a letter followed by the id of the element: ``v`` for vertices, ``h`` for half-edges,
-        ``f`` for faces. Half-edges ``2e`` and ``2e + 1`` belong to edge ``e``.
+        ``f`` for faces. The half-edges with the ids ``2e`` and ``2e + 1`` belong to the edge with the id ``e``.
 
         Example: ``scene.half_edge_figure(path="figure.svg")``, in a recipe ``HalfEdgeFigure(path: "figure.svg")``
 
@@ -2958,7 +3091,8 @@ class SceneOperations:
         :param faces: The faces to draw, at most 200. Defaults to ``"All"``. ``"All"``, ``"Boundary"``,
             ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
         :param width: The width of the figure in SVG pixels. Defaults to ``640``.
-        :param scale: The number of PNG pixels per SVG pixel. Has no effect on ``.svg`` files. Defaults to ``2``.
+        :param scale: The width and height of one SVG pixel, in pixels of a ``.png`` file. Has no effect on ``.svg``
+            files. Defaults to ``2``.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
@@ -2980,10 +3114,9 @@ class SceneOperations:
         """Draws the charts of the texture coordinates of a mesh into an image file.
 
         A gray frame shows the page of the texture, where u and v are from 0 to 1; v points upwards. Thick lines are the
-        borders of charts, and thin lines are the other edges. Coordinates outside the page are also drawn. To make room
-        for coordinates outside the page, the figure becomes higher or its scale becomes smaller. The extension of the
-        file determines the format: ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The
-        scene does not change.
+        borders of charts, and thin lines are the other edges. Charts outside the page are also drawn. To make room for
+        these charts, the figure becomes higher or its scale becomes smaller. The extension of the file determines the
+        format: ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The scene does not change.
 
         Example: ``scene.uv_picture(path="uv.svg")``, in a recipe ``UvPicture(path: "uv.svg")``
 
@@ -2993,11 +3126,12 @@ class SceneOperations:
         :param uv: The name of the texture coordinates. Defaults to ``uv``.
         :param fill: What the colors inside charts show. Defaults to ``"Charts"``.
             ``"None"``: No colors.
-            ``"Charts"``: The charts, in eight colors that repeat.
-            ``"Stretch"``: The stretch of angles.
+            ``"Charts"``: The charts: each chart has one of eight colors.
+            ``"Stretch"``: The distortion of angles.
         :param edges: Whether edges inside charts are drawn. Defaults to ``True``.
         :param width: The width of the figure in SVG pixels. Defaults to ``640``.
-        :param scale: The number of PNG pixels per SVG pixel. Has no effect on ``.svg`` files. Defaults to ``2``.
+        :param scale: The width and height of one SVG pixel, in pixels of a ``.png`` file. Has no effect on ``.svg``
+            files. Defaults to ``2``.
         :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
@@ -3032,18 +3166,20 @@ class MeshOperations:
         """Writes objects to a file.
 
         The extension determines the format: ``.obj``, ``.gltf``, ``.glb``, ``.ply``, ``.stl`` or ``.off`` for meshes,
-        ``.bez`` for Bezier patches, ``.bzc`` for a curve, and ``.mws`` for a complete scene without any loss. ``.csv``
-        is a table of the positions and attributes of vertices, faces or corners, and ``.npz`` has the arrays of a mesh
-        for ``NumPy``. ``load()`` cannot read ``.csv`` and ``.npz`` files. If the name ends with ``.gz``, as in
-        ``a.obj.gz``, the file is compressed with gzip. Files in the formats ``.glb``, ``.mws`` and ``.npz`` cannot be
-        compressed with gzip. The report lists the content that the format cannot store.
+        ``.bez`` for Bezier patches, ``.bzc`` for a curve, and ``.mws`` for a complete scene without any loss. A
+        ``.csv`` file is a table of the positions and attributes of vertices, faces or corners. An ``.npz`` file stores
+        the arrays of a mesh for the Python library ``NumPy``. ``load()`` cannot read ``.csv`` and ``.npz`` files. If
+        ``path`` ends with ``.gz``, as in ``a.obj.gz``, the file is compressed with gzip. Files in the formats ``.glb``,
+        ``.mws`` and ``.npz`` cannot be compressed with gzip. The report lists the content of the objects that the
+        format cannot store.
 
         Example: ``mesh.save(path="a.obj")``
 
         :param path: The file. A relative path is relative to the working directory.
         :param images: What to do with the images of materials. If omitted, images are embedded in ``.glb`` files. For
-            ``.gltf`` and ``.obj``, images in the folder of the source model are copied to the folder of the output
-            file. OBJ cannot embed images, so images that are embedded in the source model are also written to files.
+            ``.gltf`` and ``.obj``, the image files of the model that was loaded are copied to the folder of the output
+            file. If images are embedded in the loaded model, a ``.gltf`` file also embeds them. For ``.obj``, they are
+            written to separate files, because OBJ cannot embed images.
             ``"Embed"``: Store the images in the file or, for ``.gltf``, in its ``.bin`` file.
             ``"Copy"``: Write the images to files in the folder of the written file.
             ``"Keep"``: Write only the paths of the images, as in the original model.
@@ -3052,21 +3188,23 @@ class MeshOperations:
             ``"Meshopt"``: The extension ``EXT_meshopt_compression``.
         :param quantize: The number of bits for each attribute of the geometry in ``.glb`` and ``.gltf`` files. If
             omitted, numbers are stored as 32-bit floats. ``quantize={}`` uses the default number of bits for each
-            attribute. The report states the largest errors of positions, of normals and tangents, and of texture
-            coordinates.
+            attribute. The report states the largest rounding errors of this operation: in positions, in normals and
+            tangents, and in texture coordinates.
             ``"position"``: The number of bits of each coordinate of a position. Positions are rounded to the points of
                 a grid. The grid covers the bounding box of the object and has the same spacing along all axes. Along
                 the longest side of the box, the grid has 2^bits - 1 steps. Positions of objects with joints or morph
                 targets are not quantized. Defaults to 16.
             ``"normal"``: The number of bits of each of the two numbers that represent a normal or a tangent. The two
                 numbers locate a point on an octahedron. Defaults to 8.
-            ``"uv"``: The number of bits of each texture coordinate. A set of texture coordinates is not quantized if a
-                coordinate is outside the range from 0 to 1. Defaults to 16.
+            ``"uv"``: The number of bits of each texture coordinate. If one coordinate in a set of texture coordinates
+                is outside the range from 0 to 1, the whole set is not quantized. Defaults to 16.
             ``"color"``: The number of bits of each component of a color. Defaults to 8.
-        :param weight_sets: For ``.gltf`` and ``.glb``, the number of sets of four joints that are written for each
-            vertex of a skinned mesh. If omitted, the number of sets in the file from which the mesh was read, or 1 if
-            this number is not known.
-        :param rows: For ``.csv``, the kind of elements that the rows list. If omitted, vertices.
+        :param weight_sets: For a skinned mesh in a ``.gltf`` or ``.glb`` file, the largest number of sets of joints for
+            each vertex. A set has four joints and their weights, so with 2, for example, up to eight joints move a
+            vertex. If omitted, the number of sets in the file from which the mesh was read, or 1 if this number is not
+            known.
+        :param rows: For ``.csv``, the elements that have a row in the table: vertices, faces or corners. If omitted,
+            vertices.
             ``"Vertices"``: Vertices.
             ``"Faces"``: Faces.
             ``"Corners"``: The corners of the faces, face by face.
@@ -3088,21 +3226,23 @@ class MeshOperations:
     ) -> Self:
         """Turns Bezier patches into a mesh.
 
-        Acts on all objects that consist of patches, or on the objects in ``on``. Each object becomes one mesh of the
-        same name. Every patch is divided into ``segments`` x ``segments`` cells. The ids of elements follow the order
-        of the patches. Patches share no vertices. If two patches have the same control points on a common side, their
-        vertices on this side have bitwise equal positions, so that ``weld(distance=0)`` joins the patches. A side whose
-        points coincide, as at the pole of a teapot's lid, becomes one vertex. Zero-area patches give no faces. The
-        report counts these patches. The mesh has UVs and normals only if they are requested.
+        Acts on the objects that the operation lists in ``on``. Each object becomes one mesh of the same name. Every
+        patch is divided into ``segments`` x ``segments`` cells. Elements of earlier patches have lower ids. Different
+        patches share no vertices. If two patches have the same control points on a common side, their vertices on this
+        side have bitwise equal positions, so that ``weld(distance=0)`` joins the patches. A side whose points coincide,
+        as at the pole of a teapot's lid, becomes one vertex. Patches without area give no faces. The report counts
+        these patches. The mesh has UVs only with ``uvs=True``, and normals only with ``normals=True``.
 
         Example: ``mesh.tessellate(segments=3)``
 
         :param segments: The number of cells along each side of a patch. Defaults to ``8``.
-        :param faces: The faces that a cell becomes. Defaults to ``"Triangles"``.
-            ``"Triangles"``: Two triangles, divided by the diagonal from the corner with the lowest u and v.
+        :param faces: Whether each cell becomes triangles or quads. Defaults to ``"Triangles"``.
+            ``"Triangles"``: Two triangles, divided by the diagonal from the corner with the lowest u and v to the
+                opposite corner.
             ``"Quads"``: One quad.
-        :param uvs: Whether to store the parameters (u, v) of each patch as UVs of corners. The UVs of each patch cover
-            the whole square from 0 to 1. Defaults to ``False``.
+        :param uvs: Whether to store the patch parameters (u, v) of each vertex as UVs of the face corners at this
+            vertex. The UVs of different patches overlap, because each patch covers the whole square from 0 to 1.
+            Defaults to ``False``.
         :param normals: Whether to store the exact unit normals of the patches as vertex normals. Defaults to ``False``.
         :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
@@ -3118,13 +3258,13 @@ class MeshOperations:
     ) -> Self:
         """Replaces curves with polylines whose points lie on the curves.
 
-        Each curve becomes one polyline with ``segments`` + 1 points in the plane z = 0, at the parameters 0, 1 /
-        segments, 2 / segments and so on, up to 1. The first and the last point are exactly the first and the last
-        control point of the curve.
+        Each curve becomes one polyline in the plane z = 0. The polyline has ``segments`` + 1 points, at the curve
+        parameters 0, 1 / segments, 2 / segments and so on, up to 1. The first and the last point are exactly the first
+        and the last control point of the curve.
 
         Example: ``mesh.sample_curve(segments=1)``
 
-        :param segments: The number of straight segments.
+        :param segments: The number of straight segments of each polyline.
         :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
@@ -3137,15 +3277,17 @@ class MeshOperations:
         id: str | None = None,
         progress: bool | Progress | None = None,
     ) -> Self:
-        """Replaces curves with the levels of de Casteljau's algorithm.
+        """Replaces each curve with polylines that show the levels of de Casteljau's algorithm.
 
         A curve with n control points becomes n polylines in the plane z = 0. The first polyline is the control polygon
-        with n points. Each of the following polylines has one point fewer than the polyline before it. The last
-        polyline has a single point, the point of the curve at ``t``.
+        with n points. The points of each later polyline divide the segments of the polyline before it in the ratio t :
+        1 - t, so the number of points decreases by one. The last polyline has a single point, the point of the curve at
+        ``t``.
 
         Example: ``mesh.curve_levels(t=0)``
 
-        :param t: The parameter of the point, from 0 (the start of the curve) to 1 (its end).
+        :param t: The curve parameter at which the algorithm computes a point, from 0 (the start of the curve) to 1 (the
+            end).
         :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
@@ -3159,10 +3301,10 @@ class MeshOperations:
         id: str | None = None,
         progress: bool | Progress | None = None,
     ) -> Self:
-        """Moves one control point of curves.
+        """Moves one control point of each curve.
 
-        The other control points do not move. The point of the curve at a parameter t moves by B(t) times the offset of
-        the control point, where B is the Bernstein polynomial of the control point.
+        The other control points do not move. The point of the curve at a parameter t moves by B(t) d. Here, d is the
+        displacement of the control point, and B is the Bernstein polynomial of the control point.
 
         Example: ``mesh.move_control_point(index=1, to=(2, -3.5))``
 
@@ -3184,15 +3326,16 @@ class MeshOperations:
     ) -> Self:
         """Moves one control point of Bezier patches.
 
-        Acts on all objects that consist of patches, or on the objects in ``on``. Control points of the same object that
-        are at the same position move together, so that patches with a common side stay joined. The point of a patch at
-        the parameters (u, v) moves by B(u) C(v) times the offset of the control point, where B and C are the Bernstein
-        polynomials of its column and its row. The report counts the objects.
+        Acts on the objects that the operation lists in ``on``. Control points of the same object that are at the same
+        position move together, so that patches with a common side stay joined. The point of a patch at the parameters
+        (u, v) moves by B(u) C(v) d. Here, d is the displacement of the control point, and B and C are the Bernstein
+        polynomials of its column and its row. The report counts the changed objects.
 
         Example: ``mesh.move_patch_point(index=5, to=(1, 2, 0.5))``
 
-        :param index: The index of the control point, from 0: 16 times the index of the patch, plus 4 times the row,
-            plus the column. Every object on which the operation acts must have a control point with this index.
+        :param index: The index of the control point in the object: 16 p + 4 r + c. Here, p is the index of the patch, r
+            is the row and c is the column, all counted from 0. Every object on which the operation acts must have a
+            control point with this index.
         :param to: The new position ``(x, y, z)``, in scene units.
         :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
@@ -3213,24 +3356,27 @@ class MeshOperations:
         """Scales, rotates and moves objects.
 
         Points are first scaled, then rotated, then moved. The operation changes the points of meshes, patches, curves
-        and polylines. If nodes place an object and ``space`` is ``Scene``, the operation changes the placements of
-        these nodes instead of the points. Everything below these nodes also moves. With ``space="Scene"``, the
-        operation moves a skinned mesh by moving its joints. If the placement of a node is animated, the node gets a new
-        parent, and the operation moves this parent instead. If ``space`` is ``Scene``, ``on:`` is omitted and ``about``
-        is not ``Center``, all other root nodes also move, for example the nodes of cameras and lights. A curve must
-        stay in the plane z = 0.
+        and polylines. If nodes of the scene (as in glTF) place an object and ``space`` is ``Scene``, the operation
+        changes the transforms of these nodes instead of the points. The descendants of these nodes move with them. A
+        skinned mesh follows its joints, so with ``space="Scene"``, the operation moves the joints. If the transform of
+        a node is animated, the animation would overwrite the change. The operation therefore gives this node a new
+        parent and moves the parent. If ``space`` is ``Scene``, ``on:`` is omitted and ``about`` is not ``Center``, root
+        nodes without an object also move, such as the nodes of cameras and lights. The operation fails if a curve would
+        leave the plane z = 0.
 
-        Ids do not change. If the points of a mesh change, its normals, tangents and deltas of morph targets are also
-        transformed; other attributes do not change. If the points are mirrored (one or three negative factors in
-        ``scale``), the faces are also reversed, so that they stay counter-clockwise seen from outside. In a reversed
-        face, the first corner stays first, and the other corners follow in reverse order. In mirrored patches, u and v
-        are exchanged, so that the same side of the surface remains the outside. Like any operation that changes the
-        connectivity, mirroring the points drops attributes whose edit rule is ``Drop``, such as tangents of corners.
+        Ids do not change. If the points of a mesh change, the normals, tangents and deltas of morph targets of this
+        mesh are also transformed. Other attributes do not change. If the points are mirrored (one or three negative
+        factors in ``scale``), the faces are also reversed, so that they stay counter-clockwise seen from outside. In a
+        reversed face, the first corner stays first, and the other corners follow in reverse order. In mirrored patches,
+        u and v are exchanged, so that the same side of the surface remains the outside. Attributes with the edit rule
+        ``Drop``, such as tangents of corners, are removed by every step that changes the connectivity. Mirroring the
+        points removes them too.
 
         Example: ``mesh.transform(scale=(2, 1, 1), rotate=[{"axis": "Z", "angle": 90}], move=(3, 1, 0))``
 
-        :param scale: The scale factors along x, y and z. Factors must not be 0. A negative factor mirrors.
-        :param rotate: The rotations, applied in order.
+        :param scale: The scale factors along x, y and z. Factors must not be 0. A negative factor mirrors along its
+            axis.
+        :param rotate: The rotations, applied in the order of the list.
             ``"axis"``: The direction of the axis.
             ``"angle"``: The angle of the rotation, in degrees. A positive angle is counter-clockwise if the axis points
                 towards the viewer. Rotations by multiples of 90 degrees have no rounding errors.
@@ -3241,7 +3387,7 @@ class MeshOperations:
             ``choice.Point(..)``: A point with the coordinates x, y, z.
         :param space: The coordinate system in which objects are scaled, rotated and moved. Defaults to ``"Scene"``.
             ``"Scene"``: The space of the scene.
-            ``"Object"``: The space of each object.
+            ``"Object"``: The own space of each object.
         :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
@@ -3256,19 +3402,19 @@ class MeshOperations:
     ) -> Self:
         """Merges vertices that are close together, and joins the faces at them.
 
-        Vertices at most ``distance`` apart are linked. Vertices that are connected by a chain of links merge into one,
-        even if the ends of the chain are farther apart than ``distance``. The merged vertex has the position and the
-        values of the vertex with the lowest id. The other vertices are removed, so the ids of the vertices after them
-        change. Edges between the same two vertices become one edge with the values of the first edge. Corner values
-        stay with their corners, so UV seams are kept.
+        Two vertices are linked if they are at most ``distance`` apart. Vertices that are connected by a chain of links
+        merge into one, even if the ends of the chain are farther apart than ``distance``. Of the vertices that merge,
+        the vertex with the lowest id remains, with its position and values. The others are removed, so the ids of later
+        vertices change. If several edges then join the same two vertices, they become one edge with the values of the
+        edge with the lowest id. Corner values, such as UVs, stay with the corners of the faces, so UV seams are kept.
 
         If neighboring corners of a face merge, the face loses a corner. A face is removed if it has fewer than three
-        corners left or would contain a vertex twice. Joined faces may have opposite orientations. If the orientations
-        in a connected part can be made to agree, its faces form two groups of equal orientation. All faces of the
-        smaller group are reversed. If faces are reversed, the report counts them, and the normals of vertices and
-        corners are dropped. Where the result would still not be manifold, vertices and edges are copied. For example, a
-        third face at an edge gets a copy of the edge. The report counts the copies. If no vertices merge, the mesh does
-        not change.
+        corners left or would contain a vertex twice. After the merge, neighboring faces can have opposite orientations.
+        If all orientations in a connected part of the mesh can be made to agree, the operation reverses the faces with
+        the less frequent orientation. If faces are reversed, the report counts them, and the normals of vertices and
+        corners are dropped. If the result is still not a manifold, vertices and edges are copied. For example, if three
+        faces share an edge, the third face gets a copy of the edge. The report counts the copies. If no vertices merge,
+        the mesh does not change.
 
         Example: ``mesh.weld(distance=0)``
 
@@ -3286,13 +3432,14 @@ class MeshOperations:
         id: str | None = None,
         progress: bool | Progress | None = None,
     ) -> Self:
-        """Reverses the orientation of faces, so that their other side is the outside.
+        """Reverses the orientation of faces, so that their inside and outside are exchanged.
 
         Adjacent faces must have the same orientation, so only whole connected components can be reversed. If a selected
-        face shares an edge with a face that is not selected, the operation is refused. No vertex moves, and all
-        elements keep their ids. The first corner of a face stays first, and the other corners follow in reverse order.
-        Normals are negated. Attributes whose edit rule is ``Drop``, such as tangents of corners, are dropped. Other
-        attributes stay with their elements, and corner values stay with their vertex and face.
+        face shares an edge with a face that is not selected, the operation fails. No vertex moves, and all elements
+        keep their ids. The first corner of a face stays first, and the other corners follow in reverse order. Normals
+        are negated. Attributes with the edit rule ``Drop`` (removed by every change of the connectivity), such as
+        tangents of corners, are removed. Vertices, edges and faces keep all other values. The values of a corner stay
+        at the same vertex of the same face.
 
         Example: ``mesh.reverse()``
 
@@ -3313,12 +3460,13 @@ class MeshOperations:
         """Cuts polygons into triangles.
 
         A quadrilateral is cut along its shorter diagonal. If both diagonals have the same length, the quadrilateral is
-        cut along the diagonal at its vertex with the lowest id. Two lengths count as the same if the relative
-        difference of their squares is at most 1e-12. If the chosen diagonal gives a zero-area triangle, or a triangle
-        that is turned over relative to the normal of the face, the other diagonal is used, unless it has the same
-        problem. A quadrilateral with a reflex corner is therefore cut at that corner. If a diagonal would join two
-        vertices that are already joined by an edge or by a diagonal of another face, the quadrilateral is cut along its
-        other diagonal where possible. The report counts the duplicate diagonals that remain.
+        cut along the diagonal that contains its vertex with the lowest id. Two lengths count as the same if the
+        relative difference of their squares is at most 1e-12. A diagonal is bad if one of its two triangles has zero
+        area or is turned over: clockwise where the face is counter-clockwise. If the diagonal chosen so far is bad and
+        the other one is not, the other one is used. A quadrilateral with a reflex corner (an angle above 180 degrees)
+        is therefore cut at that corner. A diagonal is a duplicate if its ends are also joined by an edge or by a
+        diagonal of another face. A duplicate is replaced with the other diagonal if the other one is equally good and
+        not itself a duplicate. The report counts the duplicates that remain.
 
         A face with more than four corners is projected along its normal. The projected face is cut by ear clipping, or
         into monotone pieces if it has more than 4096 corners. Then diagonals are flipped until the triangulation is a
@@ -3327,8 +3475,9 @@ class MeshOperations:
         corners. A face that cannot be triangulated in this way becomes a triangle fan around its vertex with the lowest
         id. The report counts these faces.
 
-        The triangles of a face take its place in the order of the faces and have its values. Vertices and edges keep
-        their ids. The corners of the triangles have the values of the corners of the face at the same vertices.
+        In the order of the faces, the triangles of a face replace the face, so the ids of later faces change. The
+        triangles have the values of the face. Vertices and edges keep their ids. A corner of a triangle has the values
+        of the old face's corner at the same vertex.
 
         Example: ``mesh.triangulate()``
 
@@ -3352,26 +3501,29 @@ class MeshOperations:
     ) -> Self:
         """Replaces the edge between two triangles with the other diagonal of the quadrilateral that they form.
 
-        Edges are flipped in order of their ids. Each flip is checked against the mesh as edited so far. A flip is
-        refused if the edge is on the boundary, if the same face is on both sides of the edge, or if an end of the edge
-        has only two edges. A flip is also refused if the two corners opposite to the edge are the same vertex or are
-        already joined by an edge. At a seam, a flip is refused unless ``seams`` is ``Drop``. All elements keep their
-        ids, and no vertex moves. Vertices, edges and faces keep their values. Each of the two faces gets one new
-        corner. The new corner of a face gets its values from the corner of the other face at the same vertex. All other
-        corners keep their values.
+        Edges are flipped in order of their ids. Each flip is checked against the mesh that the earlier flips have
+        produced. A flip is refused if the edge is on the boundary, if the same face is on both sides of the edge, or if
+        an end of the edge has only two edges. A flip is also refused if the two corners opposite to the edge are the
+        same vertex or are already joined by an edge. If the edge is a seam (an edge whose corner values, such as UVs,
+        differ between its two sides), the flip is refused unless ``seams`` is ``Drop``. All elements keep their ids,
+        and no vertex moves. Vertices, edges and faces keep their values. Each of the two faces gets one new corner. The
+        new corner of a face gets its values from the corner of the other face at the same vertex. All other corners
+        keep their values.
 
-        If a face beside the edge has more than three corners, each end of the edge moves to the next corner of the
-        polygon that the two faces form. With ``until="Delaunay"`` or ``until="Valence"``, such an edge is not flipped.
+        If a face beside the edge has more than three corners, consider the polygon that the two faces form together.
+        Each end of the edge moves to the next corner of this polygon, counter-clockwise. With ``until="Delaunay"`` or
+        ``until="Valence"``, only edges between two triangles are flipped.
 
-        With ``until="Delaunay"`` or ``until="Valence"``, an edge is flipped only if the flip improves the mesh. Edges
-        are checked again, pass after pass, until a pass flips no edge or ``passes`` is reached. Flips with
-        ``until="Delaunay"`` or ``until="Valence"`` neither fold the surface nor create zero-area triangles. If a flip
-        that would improve the mesh is refused, the operation does not fail. An edge whose flip is refused is left
-        unchanged, and the report counts the refusals by reason. The report also states the number of passes, and
-        whether the operation stopped because ``passes`` was reached.
+        With ``until="Delaunay"`` or ``until="Valence"``, an edge is flipped only if the flip improves the mesh. The
+        operation makes several passes over the edges. It stops after a pass that flips no edge, or after ``passes``
+        passes. Flips with ``until="Delaunay"`` or ``until="Valence"`` neither fold the surface nor create zero-area
+        triangles. If a flip that would improve the mesh is refused, the edge is left unchanged, and the operation does
+        not fail. The report counts the refused flips for each reason. The report also states the number of passes, and
+        whether the operation stopped because of the limit ``passes``.
 
         On a surface that is not flat, a flip changes the shape. To keep creases and other edges, exclude them from
-        ``edges``, for example with ``sel.Flat(below=30)`` or ``sel.Not(sel.Tagged("keep"))``.
+        ``edges``. For example, ``sel.Flat(below=30)`` selects only edges at which the surface bends by less than 30
+        degrees, and ``sel.Not(sel.Tagged("keep"))`` selects only edges without the tag "keep".
 
         Example: ``mesh.flip_edges(edges="All")``
 
@@ -3380,15 +3532,16 @@ class MeshOperations:
         :param until: Which edges are flipped, and when to stop. Defaults to ``"Once"``.
             ``"Once"``: Flip each edge once.
             ``"Delaunay"``: Flip edges until no flip reduces the sum of the cotangents of all angles of all triangles.
-            ``"Valence"``: Flip edges until no flip brings the valences of the vertices closer to 6, or to 4 on the
-                boundary.
+            ``"Valence"``: Flip edges until no flip brings the valences (the numbers of edges) of the vertices closer to
+                their targets.
         :param passes: The largest number of passes over the edges. Ignored with ``until="Once"``, which makes one pass.
             Defaults to ``100``.
-        :param on_refusal: What to do when a flip is refused. Ignored unless ``until`` is ``Once``. Defaults to
-            ``"Error"``.
+        :param on_refusal: What to do when a flip is refused. Used only with ``until="Once"``. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
-            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
-        :param seams: What to do at seams. Defaults to ``"Refuse"``.
+            ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
+                element.
+        :param seams: What to do with a seam (an edge whose corner values, such as UVs, differ between its two sides).
+            Defaults to ``"Refuse"``.
             ``"Refuse"``: Refuse the edit.
             ``"Drop"``: Edit anyway.
         :param id, progress: See :class:`Mesh`.
@@ -3405,23 +3558,25 @@ class MeshOperations:
         id: str | None = None,
         progress: bool | Progress | None = None,
     ) -> Self:
-        """Inserts a vertex on each edge and joins it to the opposite corners of the triangles beside the edge.
+        """Inserts a vertex on each edge and joins this vertex to the opposite corners of the triangles beside the edge.
 
-        In a mesh of triangles, a split adds 1 vertex, 3 edges and 2 faces. A split of a boundary edge adds 1 vertex, 2
-        edges and 1 face. If a face beside the edge has more than three corners, the face is not cut and only gains the
-        new vertex as a corner. Edges are split in order of their ids; new edges are not split again. New vertices get
-        the highest ids, in the order of the splits. Attribute values at the new vertex and at its corners are
-        interpolated between the ends of the edge. At a seam, the two sides are interpolated separately.
+        In a mesh of triangles, the split of an inner edge adds 1 vertex, 3 edges and 2 faces. The split of a boundary
+        edge adds 1 vertex, 2 edges and 1 face. If a face beside the edge has more than three corners, the face is not
+        cut and only gains the new vertex as a corner. Edges are split in order of their ids; new edges are not split
+        again. New vertices get the highest ids, in the order of the splits. Attribute values at the new vertex and at
+        its corners are interpolated between the ends of the edge. At a seam (an edge whose corner values, such as UVs,
+        differ between its two sides), the corner values of each side are interpolated separately.
 
         Example: ``mesh.split_edges(edges="All")``
 
         :param edges: The edges to split. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
-        :param at: The position of the new vertex on the edge. From 0 to 1, exclusive. If ``edges`` is
-            ``sel.Between("v", "w")``, position 0 is at v and position 1 is at w. For all other selections, position 0
-            is at the end of the edge with the lower id. Defaults to ``0.5``.
+        :param at: The position of the new vertex on the edge, as a fraction of the length of the edge. Above 0 and
+            below 1. If ``edges`` is ``sel.Between("v", "w")``, position 0 is at v and position 1 is at w. For all other
+            selections, position 0 is at the end whose vertex has the lower id. Defaults to ``0.5``.
         :param on_refusal: What to do when a split is refused. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
-            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+            ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
+                element.
         :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
@@ -3438,36 +3593,40 @@ class MeshOperations:
     ) -> Self:
         """Collapses edges, so that the two ends of each edge become one vertex.
 
-        In a mesh of triangles, a collapse removes 1 vertex, 3 edges and 2 faces. A collapse of a boundary edge removes
-        1 vertex, 2 edges and 1 face. If a face beside the edge has more than three corners, the face is not removed and
-        only loses a corner. Of the two ends, the vertex with the lower id is kept. Edges are collapsed in order of
-        their ids. An edge that an earlier collapse removed counts as refused.
+        In a mesh of triangles, the collapse of an inner edge removes 1 vertex, 3 edges and 2 faces. The collapse of a
+        boundary edge removes 1 vertex, 2 edges and 1 face. If a face beside the edge has more than three corners, the
+        face is not removed and only loses a corner. Of the two ends, the vertex with the lower id is kept. Edges are
+        collapsed in order of their ids. An edge that an earlier collapse removed counts as refused.
 
-        A collapse is refused if it would change the topology of the surface or make elements coincide:
+        A collapse is refused if it would change the topology of the surface or make elements coincide. The report or
+        the error message gives one of these reasons:
 
-        - ``JoinsBoundaries``: an edge inside the surface joins two boundary vertices.
-        - ``Link``: the ends have a common neighbor that is not a corner of a triangle beside the edge, for example on a
-          tube with three sides or at a hole with three edges.
-        - ``DuplicateEdge``: a second edge joins the ends.
+        - ``JoinsBoundaries``: both ends of the edge are on the boundary, but the edge itself is not.
+        - ``Link``: the ends have a common neighboring vertex that is not a corner of a triangle beside the edge.
+          Examples are the edges around a tube with three sides, and the edges of a hole with three edges.
+        - ``DuplicateEdge``: a second edge joins the same two vertices.
         - ``RepeatedVertex``: both ends are also corners of a face that is not beside the edge.
-        - ``Vanishes``: around the edge, the collapse would leave no face, as for a single triangle, or only two faces
-          that lie back to back, as for a tetrahedron.
-        - ``SameFace``: the same face is on both sides of the edge, or would be on both sides of another edge.
+        - ``Vanishes``: at the remaining vertex, the collapse would leave no face (as for a single triangle), or only
+          two faces that lie back to back (as for a tetrahedron).
+        - ``SameFace``: the same face is on both sides of the edge, or the collapse would put the same face on both
+          sides of another edge.
         - ``SameOpposite``: the two triangles beside the edge share another edge.
 
         Attribute values at the remaining vertex and at its corners are interpolated between the ends of the edge. At a
-        seam, the two sides are interpolated separately. When two edges become one, the remaining edge gets the larger
-        of the two crease values and the tags of both edges. Normals are dropped.
+        seam (an edge whose corner values, such as UVs, differ between its two sides), the corner values of each side
+        are interpolated separately. When two edges become one, the remaining edge gets the larger of their crease
+        values (sharpness for subdivision) and the tags of both edges. Normals are dropped.
 
         Example: ``mesh.collapse_edges(edges="All", on_refusal="Skip")``
 
         :param edges: The edges to collapse. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
-        :param at: The position of the remaining vertex on the edge, from 0 to 1. If ``edges`` is ``sel.Between("v",
-            "w")``, position 0 is at v and position 1 is at w. For all other selections, position 0 is at the end of the
-            edge with the lower id. Defaults to ``0.5``.
+        :param at: The position of the remaining vertex on the old edge, as a fraction of the length of the edge, from 0
+            to 1. If ``edges`` is ``sel.Between("v", "w")``, position 0 is at v and position 1 is at w. For all other
+            selections, position 0 is at the end whose vertex has the lower id. Defaults to ``0.5``.
         :param on_refusal: What to do when a collapse is refused. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
-            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+            ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
+                element.
         :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
@@ -3484,23 +3643,26 @@ class MeshOperations:
     ) -> Self:
         """Removes edges and merges the faces beside them.
 
-        Edges are removed in order of their ids. Each removal is checked against the mesh as edited so far. Each removal
-        reduces the number of edges by 1 and the number of faces by 1. Of the two faces beside the edge, the face with
-        the lower id is kept, with its values. No vertex is removed or moved. To remove vertices that are left with two
-        edges, use ``dissolve_vertices(vertices=sel.Valence(2))`` in a later operation. The remaining elements keep
-        their order and their values but get new ids.
+        Edges are removed in order of their ids. Each removal is checked against the mesh that the earlier removals have
+        produced. A removal reduces the number of edges by 1 and the number of faces by 1. Of the two faces beside the
+        edge, the face with the lower id is kept, with its values. No vertex is removed or moved. To remove vertices
+        that are left with two edges, use ``dissolve_vertices(vertices=sel.Valence(2))`` in a later operation. The
+        remaining elements keep their order and their values but get new ids.
 
         An edge cannot be removed if it is on the boundary, if the same face is on both of its sides, or if one of its
-        ends has only two edges. An edge also cannot be removed if its two faces have a common corner that is not an end
-        of the edge. A seam edge is removed only if ``seams`` is ``Drop``.
+        ends has only two edges. An edge also cannot be removed if its two faces have a common vertex that is not an end
+        of the edge. A seam (an edge whose corner values, such as UVs, differ between its two sides) is removed only if
+        ``seams`` is ``Drop``.
 
         Example: ``mesh.dissolve_edges(edges=sel.Between(0, 1))``
 
         :param edges: The edges to remove. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
         :param on_refusal: What to do when an edge cannot be removed. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
-            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
-        :param seams: What to do at seams. Defaults to ``"Refuse"``.
+            ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
+                element.
+        :param seams: What to do with a seam (an edge whose corner values, such as UVs, differ between its two sides).
+            Defaults to ``"Refuse"``.
             ``"Refuse"``: Refuse the edit.
             ``"Drop"``: Edit anyway.
         :param id, progress: See :class:`Mesh`.
@@ -3520,38 +3682,40 @@ class MeshOperations:
     ) -> Self:
         """Replaces edges with faces of constant width.
 
-        A selected edge and both of its ends are removed, and a new face replaces the edge. The new face extends into
-        both faces beside the old edge, up to the distance ``width`` from this edge. An edge that is not selected, but
-        shares an end with a selected edge, is cut near this end. If the two edges are neighboring sides of a face, the
-        cut is where the distance from the selected edge is ``width``, but at most four times ``width`` from the shared
-        end. Otherwise, the cut is at the distance ``width`` from the shared end. Where two selected edges are
-        neighboring sides of a face, the new vertex lies inside this face. If three or more new vertices surround an old
-        vertex, another new face joins them. All edges are beveled together, so a cube that is beveled at all edges
-        keeps all of its symmetries.
+        A selected edge and both of its ends are removed, and a new face replaces the edge. On both sides, the new face
+        extends up to the distance ``width`` from the old edge. An edge that is not selected, but shares an end with a
+        selected edge, is shortened at this end. If the two edges are not neighboring sides of a face, the new end is at
+        the distance ``width`` from the old end. If they are, the new end is where the distance from the selected edge
+        is ``width``, but at most four times ``width`` from the old end. If two selected edges are neighboring sides of
+        a face, a new vertex inside this face replaces the corner between them. If three or more new vertices replace an
+        old vertex, another new face joins the new vertices. All edges are beveled together, so a cube that is beveled
+        at all edges keeps all of its symmetries.
 
         The ends of the edges are removed, so the ids of the vertices after them change. New vertices get the highest
-        ids. Faces keep their ids. New faces get the highest ids: first the faces of edges, in order of the edges, then
-        the faces of vertices. Edges get new ids.
+        ids. Faces keep their ids. New faces get the highest ids: first the faces that replace edges, in order of these
+        edges, then the faces that replace vertices. Edges get new ids.
 
-        A new vertex has the values of the old face at its position, so textures do not change. A new face has the
-        values (material, tags) of one of the old faces beside it. It is not specified which of these faces is used, but
-        the choice is the same in every run. New edges have zero values (no crease, no tags). Normals are dropped.
+        The values of a new vertex are interpolated in an old face at the position of the vertex, so textures stay in
+        place. A new face has the values (material, tags) of one of the old faces beside it. It is not specified which
+        of these faces is used, but the choice is the same in every run. New edges have zero values (no crease, no
+        tags). Normals are dropped.
 
         An edge cannot be beveled if it is on the boundary (``Boundary``), or if one of its ends has only one other edge
-        and this other edge is not selected (``FewEdges``). An edge also cannot be beveled if the bevels at both ends of
-        an edge would overlap (``OutsideEdge``). If the result would not be manifold, no edge is beveled
-        (``NonManifold``).
+        and this other edge is not selected (``FewEdges``). If the bevels at the two ends of any edge would overlap, the
+        selected edges at these ends cannot be beveled (``OutsideEdge``). If the result would not be manifold, no edge
+        is beveled (``NonManifold``).
 
         Example: ``mesh.bevel_edges(edges=sel.Between(0, 2), width=0.25)``
 
         :param edges: The edges to bevel. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
-        :param width: The distance from the beveled edge to the new edge in each of the two faces beside it, in scene
-            units. Either ``width`` or ``fraction`` must be given.
-        :param fraction: The width as a fraction of the length of the shortest edge that is selected or shares a vertex
-            with a selected edge. From 0 to 1, exclusive.
+        :param width: The distance, in scene units, from the beveled edge to each of the two new edges that replace it,
+            one in each of the faces beside the beveled edge. Either ``width`` or ``fraction`` must be given.
+        :param fraction: The width, divided by the length of the shortest edge among the selected edges and all edges
+            that share a vertex with them. Above 0 and below 1.
         :param on_refusal: What to do when an edge cannot be beveled. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
-            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+            ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
+                element.
         :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
@@ -3570,10 +3734,10 @@ class MeshOperations:
 
         Sets the edge attribute ``crease`` of the selected edges and the vertex attribute ``corner`` of the selected
         vertices to ``sharpness``. Elements that are not selected keep their values, or get 0 if the attribute did not
-        exist before the operation. Loop and Catmull-Clark subdivision keep an edge or a vertex sharp for as many levels
-        as its sharpness, and smooth it in later levels. For example, an edge with sharpness 2.5 is sharp for two levels
-        and half sharp in the third level. With sharpness 10, an edge is sharp at every level. Boundary edges are always
-        sharp.
+        exist before the operation. With sharpness s, Loop and Catmull-Clark subdivision keep an edge or a vertex sharp
+        in the first s levels and smooth it in later levels. For example, an edge with sharpness 2.5 is sharp in the
+        first two levels. In the third level, the positions are halfway between the sharp and the smooth result. An edge
+        with sharpness 10 stays sharp, however many levels follow. Boundary edges are always sharp.
 
         At least one of ``edges`` and ``vertices`` must be given. The geometry does not change. The report counts the
         elements whose value changed.
@@ -3604,10 +3768,10 @@ class MeshOperations:
 
         A face with n corners becomes n triangles. Each poked face adds 1 vertex, n edges and n - 1 faces. The first
         triangle keeps the id of the face. The other triangles and the new vertices and edges get the highest ids, in
-        order of the faces. The new vertex is at the mean of the corners, moved along the normal of the face by
-        ``distance``. Vertex and corner attributes that edits interpolate get, at the new vertex, the mean of their
-        values at the corners. The triangles have the values of their face, and the new edges have zero values (no
-        crease, no tags). If ``distance`` is not 0, normals are dropped.
+        order of the poked faces. The new vertex is at the mean of the positions of the corners, moved along the normal
+        of the face by ``distance``. At the new vertex, interpolated attributes of vertices and corners, such as UVs,
+        get the mean of their values at the corners of the face. The triangles have the values of their face, and the
+        new edges have zero values (no crease, no tags). If ``distance`` is not 0, normals are dropped.
 
         A face cannot be poked if it contains a vertex twice, if the position of the new vertex would not be finite, or
         if the mesh already has the largest supported number of elements.
@@ -3621,7 +3785,8 @@ class MeshOperations:
             is at the center. Defaults to ``0.0``.
         :param on_refusal: What to do when a face cannot be poked. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
-            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+            ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
+                element.
         :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
@@ -3637,12 +3802,12 @@ class MeshOperations:
     ) -> Self:
         """Cuts each face in two with an edge between two of its corners.
 
-        Each pair (v, w) of vertices cuts the face that has both vertices as corners. The new edge joins the two
-        vertices. Each cut adds 1 edge and 1 face. Cuts are made in the order of the list, so a face can be cut several
-        times. A cut from v to w divides the face into two parts. The part to the right of the line from v to w is the
-        new face, and the other part keeps the id of the old face. New edges and faces get the highest ids. Corners keep
-        their values. The new face has the values of the old face, and the new edge has zero values (no crease, no
-        tags).
+        Each pair (v, w) of vertices in ``between`` cuts the face that has both vertices as corners. The new edge joins
+        the two vertices. Each cut adds 1 edge and 1 face. Cuts are made in the order of the list, so a face can be cut
+        several times. A cut from v to w divides the face into two parts. Seen from outside, the part to the right of
+        the line from v to w becomes the new face. The other part keeps the id of the old face. New edges and faces get
+        the highest ids. Corners keep their values. The new face has the values of the old face, and the new edge has
+        zero values (no crease, no tags).
 
         A cut is refused if the two vertices are the same or are already joined by an edge. A cut is also refused if no
         face has both vertices as corners, or if several faces do, because the cut would then be ambiguous.
@@ -3652,7 +3817,8 @@ class MeshOperations:
         :param between: The cuts, as a list of pairs of vertex ids, for example ``[(0, 2), (5, 9)]``.
         :param on_refusal: What to do when a cut is refused. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
-            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+            ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
+                element.
         :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
@@ -3670,14 +3836,15 @@ class MeshOperations:
         """Removes faces and leaves holes.
 
         All faces are removed at once, so their order does not matter. Edges left without a face are removed. Vertices
-        that lose their last edge are also removed, unless ``keep_vertices`` is true. Vertices that were isolated before
+        that lose their last edge are also removed, unless ``keep_vertices`` is true. Vertices that had no edge before
         the operation are kept. The remaining elements keep their order and their values but get new ids. To delete
         edges or vertices together with their faces, select the faces with ``sel.FacesBeside("edges")`` or
         ``sel.FacesAround("vertices")``.
 
         The removal is refused if the remaining faces around a vertex would form several fans that meet only at that
-        vertex. With ``on_refusal="Skip"``, faces are instead removed one by one, in order of their ids, in repeated
-        passes until no more selected faces can be removed. The selected faces that remain are counted as refused.
+        vertex. In this case, the operation with ``on_refusal="Skip"`` tries to remove the faces one by one, in order of
+        their ids. The operation repeats these attempts until no more selected faces can be removed. The report counts
+        the selected faces that remain as refused.
 
         Example: ``mesh.delete_faces(faces="All")``
 
@@ -3685,7 +3852,8 @@ class MeshOperations:
             ``meshwright.sel``.
         :param on_refusal: What to do when not all faces can be removed. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
-            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+            ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
+                element.
         :param keep_vertices: Whether to keep vertices that are left without an edge. Defaults to ``False``.
         :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
@@ -3705,26 +3873,28 @@ class MeshOperations:
     ) -> Self:
         """Moves faces out of the surface and connects them to their old rim with side faces.
 
-        Selected faces that share an edge form a region and move together, with one normal and one center. A region is
-        first scaled, then rotated, and then moved. The fixed point of scaling and rotation is the mean of the vertices
-        of the region. Side faces with four corners are added along the rim of the region. The rim of a region consists
-        of the edges with a face of the region on exactly one side. If all faces of an open sheet are extruded, the
-        result is a box that is open where the sheet was. A closed region has no rim, so its faces only move. If the
-        area vectors of the faces cancel each other out, as in a closed region, the region has no normal, and ``by``
-        must be an ``choice.Offset``.
+        Selected faces that are connected across edges form a region. A region moves as a whole, and has one normal and
+        one center. A region is first scaled, then rotated, and then moved. Scaling and rotation are about the center of
+        the region, which is the mean position of its vertices. Side faces with four corners are added along the rim of
+        the region. The rim of a region consists of the edges with a face of the region on exactly one side. If all
+        faces of an open sheet are extruded, the result is a box that is open where the sheet was. A closed region (for
+        example, all faces of a cube) has no rim, so it moves without new side faces. A region has no normal if the area
+        vectors of its faces cancel each other out, as in a closed region. For a region without a normal, ``by`` must be
+        an ``choice.Offset``.
 
-        The faces keep their ids, so the same selection can be extruded again in later operations, for example to grow
-        an arm out of a body. Vertices and edges inside a region also keep their ids. The vertices and edges of the old
-        rim do not move, and the moved faces get a new rim. New side faces get the highest ids. They are ordered by
-        region (by the lowest face id of each region), then by face, and then counter-clockwise around each face from
-        its first corner. The new vertices are in the same order as the side faces. Each new vertex is a copy of the
-        first vertex of the corresponding side face.
+        The moved faces keep their ids. A later operation can therefore extrude the same faces again, for example to
+        grow an arm out of a body. Vertices and edges inside a region also keep their ids. The vertices and edges of the
+        old rim do not move, and the moved faces get a new rim. New side faces get the highest ids. They are ordered by
+        region (by the lowest face id of each region), then by the id of the adjacent moved face. Around each moved
+        face, the order is counter-clockwise from its first corner. Each side face adds one new vertex, so the new
+        vertices are in the order of the side faces. A new vertex is a copy of the first vertex of its side face. The
+        first vertex is on the old rim.
 
-        A side face has the values of the adjacent moved face (material, tags). The corners of a side face have the
-        values of the corners of the moved face, so textures have no seam between the two faces. However, a side face
-        shows only one line of the texture: the line along the edge of the moved face, stretched over the whole side
-        face. The edges of the new rim have the values of the edges of the old rim (creases, tags). The edges between
-        the old and the new rim have zero values (no crease, no tags). Normals are dropped.
+        A side face has the attribute values (material, tags) of the adjacent moved face. The corners of a side face
+        have the values of the corners of the moved face, so textures have no seam between the two faces. However, a
+        side face shows only one line of the texture: the line along the edge of the moved face, stretched over the
+        whole side face. The edges of the new rim have the values of the edges of the old rim (creases, tags). The edges
+        between the old and the new rim have zero values (no crease, no tags). Normals are dropped.
 
         Example: ``mesh.extrude_faces(faces=sel.Faces([0]), by=choice.Distance(0.5))``
 
@@ -3756,15 +3926,15 @@ class MeshOperations:
     ) -> Self:
         """Shrinks faces and surrounds each face with a ring of faces.
 
-        Each face is inset separately, even if selected faces share edges. The inner face keeps the id of the face, and
-        existing vertices do not move. A face with n corners adds n vertices, 2 n edges and n faces with four corners.
-        New vertices and faces get the highest ids: in order of the selected faces, and counter-clockwise around each
-        face from its first corner.
+        Each face is inset separately, even if selected faces share edges. The shrunk inner face keeps the id of the
+        selected face, and existing vertices do not move. For a face with n corners, the operation adds n vertices, 2 n
+        edges and n faces with four corners. New vertices and faces get the highest ids. They are numbered in order of
+        the selected faces, and counter-clockwise around each face from its first corner.
 
-        Values at a new corner or vertex are interpolated between the value at the outer corner and the mean of the
-        values at all corners of the face. Textures therefore do not change. The faces of the ring have the values of
-        the old face (material, tags). The edges of the inner face have the values of the outer edges. Normals are
-        dropped.
+        Attribute values at a new corner or vertex are interpolated in the same way as its position, so textures do not
+        move on the surface. The interpolation is between the value at the outer corner and the mean of the values at
+        all corners of the face. The faces of the ring have the values of the old face (material, tags). The edges of
+        the inner face have the values of the old edges beside them. Normals are dropped.
 
         A face cannot be inset if it is on both sides of one of its edges.
 
@@ -3773,10 +3943,11 @@ class MeshOperations:
         :param faces: The faces to inset. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
             ``meshwright.sel``.
         :param fraction: The position of each corner of the inner face on the line from the old corner to the center of
-            the face. From 0 (the old corner) to 1 (the center), exclusive.
+            the face. More than 0 (the old corner) and less than 1 (the center).
         :param on_refusal: What to do when a face cannot be inset. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
-            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+            ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
+                element.
         :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
@@ -3795,14 +3966,16 @@ class MeshOperations:
         """Shrinks and raises faces, and surrounds each face with a ring of faces.
 
         Works like ``inset_faces()``, and also moves the inner face along its normal. Each face is beveled separately,
-        even if selected faces share edges. The inner face keeps the id of the face, and existing vertices do not move.
-        A face with n corners adds n vertices, 2 n edges and n faces with four corners. New vertices and faces get the
-        highest ids: in order of the selected faces, and counter-clockwise around each face from its first corner. A
-        zero-area face has no normal, so its inner face is not raised.
+        even if selected faces share edges. The shrunk inner face keeps the id of the selected face, and existing
+        vertices do not move. For a face with n corners, the operation adds n vertices, 2 n edges and n faces with four
+        corners. New vertices and faces get the highest ids. They are numbered in order of the selected faces, and
+        counter-clockwise around each face from its first corner. A zero-area face has no normal, so its inner face is
+        not raised.
 
-        Values at a new corner or vertex are interpolated between the value at the outer corner and the mean of the
-        values at all corners of the face. The faces of the ring have the values of the old face (material, tags). The
-        edges of the inner face have the values of the outer edges. Normals are dropped.
+        Attribute values at a new corner or vertex are interpolated with the parameter ``fraction``: from the value at
+        the outer corner (0) to the mean of the values at all corners of the face (1). The faces of the ring have the
+        values of the old face (material, tags). The edges of the inner face have the values of the old edges beside
+        them. Normals are dropped.
 
         A face cannot be beveled if it is on both sides of one of its edges.
 
@@ -3811,12 +3984,13 @@ class MeshOperations:
         :param faces: The faces to bevel. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
             ``meshwright.sel``.
         :param fraction: The position of each corner of the inner face on the line from the old corner to the center of
-            the face. From 0 (the old corner) to 1 (the center), exclusive.
+            the face. More than 0 (the old corner) and less than 1 (the center).
         :param distance: The distance by which the inner face moves along its normal, in scene units. A negative
-            distance moves the inner face inwards.
+            distance moves the inner face in the direction opposite to its normal.
         :param on_refusal: What to do when a face cannot be beveled. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
-            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+            ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
+                element.
         :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
@@ -3833,17 +4007,18 @@ class MeshOperations:
     ) -> Self:
         """Removes vertices and merges the faces around them.
 
-        Vertices are removed in order of their ids. Each removal is checked against the mesh as edited so far. All faces
-        around the vertex become one face, which has the id and the values of the face with the lowest id. If the vertex
-        is on the boundary, its two boundary edges become one. If the vertex has only two edges, these edges become one
-        edge, and the faces beside the edge lose a corner. When two edges become one, the edge with the lower id is
-        kept, with its values. The remaining elements keep their order and their values but get new ids. Normals are
-        dropped.
+        Vertices are removed in order of their ids. Each removal is checked against the mesh as edited so far. If a
+        vertex has three or more edges, all faces around it become one face. The merged face replaces the face with the
+        lowest id and has its values. If the vertex is on the boundary, its two boundary edges also become one edge. If
+        the vertex has only two edges, these edges become one edge, and each face beside this edge loses a corner. When
+        two edges become one, the edge with the lower id is kept, with its values. The remaining elements keep their
+        order and their values but get new ids. Normals are dropped.
 
-        A vertex cannot be removed if it is isolated or has a single edge, or if a neighbor would be left with a single
-        edge inside a face. A vertex also cannot be removed if a face would contain a vertex twice or have fewer than
-        three corners, or if an edge would join two vertices that are already joined. A vertex at a seam is removed only
-        if ``seams`` is ``Drop``.
+        A vertex cannot be removed if it is isolated or has a single edge. It also cannot be removed if a neighboring
+        vertex would be left with a single edge, which ends inside a face. A removal is also refused if a face would
+        contain a vertex twice or have fewer than three corners. The same applies if a new edge would join two vertices
+        that an edge already joins. At a seam, texture coordinates or other corner values differ between the two sides
+        of an edge. A vertex at a seam is removed only if ``seams`` is ``Drop``.
 
         Example: ``mesh.dissolve_vertices(vertices=sel.Vertices([1]))``
 
@@ -3851,7 +4026,8 @@ class MeshOperations:
             ``meshwright.sel``.
         :param on_refusal: What to do when a vertex cannot be removed. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
-            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+            ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
+                element.
         :param seams: What to do at seams. Defaults to ``"Refuse"``.
             ``"Refuse"``: Refuse the edit.
             ``"Drop"``: Edit anyway.
@@ -3871,31 +4047,33 @@ class MeshOperations:
     ) -> Self:
         """Replaces vertices with faces.
 
-        Each edge at a selected vertex is cut near this vertex, and a new face joins the cuts. The distance of a cut
-        from the vertex is a fraction of the length that the edge had before the operation. The new face has as many
-        corners as the vertex had edges. If both ends of an edge are selected, the fraction must be below 0.5. For
-        example, a fraction of 0.25 turns a cube into a truncated cube.
+        Each edge at a selected vertex is cut near this vertex. A new face with a corner at each cut replaces the
+        vertex. For example, if all vertices of a cube are beveled with ``fraction=0.25``, the result is a truncated
+        cube. The distance of a cut from the vertex is ``fraction`` times the length that the edge had before the
+        operation. If both ends of an edge are selected, ``fraction`` must be below 0.5.
 
         The selected vertices are removed, so the ids of the vertices after them change. New vertices get the highest
-        ids, in order of the selected vertices and clockwise around each vertex. Faces keep their ids; new faces get the
-        highest ids, in order of the vertices.
+        ids, in order of the selected vertices and clockwise around each vertex. Old faces keep their ids. New faces get
+        the highest ids, in order of the selected vertices.
 
-        Values at the cuts are interpolated between the ends of the edge, so textures do not change. A new face has the
-        values (material, tags) of one of the faces at the vertex. Which face is used is not specified, but the choice
-        is the same in every run. New edges have zero values (no crease, no tags). Normals are dropped.
+        Attribute values at a cut are interpolated between the two ends of the cut edge, so textures do not move on the
+        surface. A new face has the values (material, tags) of one of the faces at the vertex. Which face is used is not
+        specified, but the choice is the same in every run. New edges have zero values (no crease, no tags). Normals are
+        dropped.
 
-        A vertex cannot be beveled if it is on the boundary, if it has fewer than three edges, or if one of its edges is
-        too short after earlier cuts.
+        A vertex cannot be beveled if it is on the boundary or has fewer than three edges. It also cannot be beveled if
+        an earlier cut has left one of its edges too short for a second cut.
 
         Example: ``mesh.bevel_vertices(vertices="All", fraction=0.25)``
 
         :param vertices: The vertices to bevel. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of
             ``meshwright.sel``.
-        :param fraction: The distance of the cuts from the vertex, as a fraction of the edge length. From 0 to 1,
-            exclusive.
+        :param fraction: The distance of each cut from the vertex, as a fraction of the length of the cut edge. More
+            than 0 and less than 1.
         :param on_refusal: What to do when a vertex cannot be beveled. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
-            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+            ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
+                element.
         :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
@@ -3911,14 +4089,14 @@ class MeshOperations:
         """Computes a unit normal for every vertex, from the faces around it.
 
         The normals are written to the vertex attribute ``normal``, which is replaced if it exists. Corner normals are
-        removed, because they would contradict the vertex normals. A vertex that has no faces or only zero-area faces,
-        or whose face normals cancel each other out, gets the zero vector. The report counts these vertices.
+        removed, because they would contradict the vertex normals. A vertex gets the zero vector if it has no faces or
+        only zero-area faces, or if the normals of its faces cancel each other out. The report counts these vertices.
 
         Example: ``mesh.vertex_normals()``
 
-        :param weight: The weights of the faces around a vertex. Defaults to ``"Area"``.
+        :param weight: How the normals of the faces around a vertex are weighted. Defaults to ``"Area"``.
             ``"Area"``: The area of the face.
-            ``"Angle"``: The angle of the face at the vertex, at most 180 degrees.
+            ``"Angle"``: The angle of the face at the vertex.
             ``"Uniform"``: The same weight for all faces.
         :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change. Its ``attributes["normal"]`` has the normals.
@@ -3935,16 +4113,17 @@ class MeshOperations:
         """Computes tangents for normal maps with the ``MikkTSpace`` algorithm, which many other tools also use.
 
         The mesh needs texture coordinates and normals, such as the normals that ``vertex_normals()`` computes. The
-        tangents are written to the corner attribute ``tangent``, which is replaced if it exists. A tangent is a unit
-        vector perpendicular to the normal, followed by the sign of the bitangent as the fourth number. ``.glb`` and
-        ``.gltf`` files store the attribute as ``TANGENT``. Polygons are triangulated in the same way as for ``.glb``
-        and ``.gltf`` files. Operations that change the shape or the faces remove the tangents, except a ``transform()``
-        that does not mirror the points. Corners at which the texture coordinates define no direction get an arbitrary
-        tangent. The report counts these corners.
+        tangents are written to the corner attribute ``tangent``, which is replaced if it exists. Each value has four
+        numbers: a unit vector perpendicular to the normal, and then the sign of the bitangent (1 or -1). ``.glb`` and
+        ``.gltf`` files store the attribute as ``TANGENT``. For the computation, polygons are triangulated in the same
+        way as for ``.glb`` and ``.gltf`` files. Later operations that change the shape or the faces remove the
+        tangents, except a ``transform()`` that does not mirror the points. If the texture coordinates define no
+        direction at a corner, the corner gets an arbitrary tangent. An example is a face whose corners all have the
+        same texture coordinates. The report counts these corners.
 
         Example: ``mesh.tangents()``
 
-        :param uv: The name of the texture coordinates of the normal map. Defaults to ``uv``.
+        :param uv: The name of the attribute with the texture coordinates for the normal map. Defaults to ``uv``.
         :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
@@ -3962,31 +4141,35 @@ class MeshOperations:
     ) -> Self:
         """Covers holes with faces.
 
-        A hole is a boundary loop: a loop of edges with a face on one side only. The outer rim of an open sheet is also
-        a boundary loop; use ``around`` or ``max_edges`` to exclude it. No vertices are added, and existing elements
-        keep their ids. A hole with n edges gets 1 face with n corners, or n - 2 triangles and n - 3 edges.
+        A hole is a boundary loop: a closed loop of edges, each of which has a face on one side only. The outer rim of
+        an open sheet is also a boundary loop; use ``around`` or ``max_edges`` to exclude it. No vertices are added, and
+        existing elements keep their ids. With ``with_="Face"``, a hole with n edges gets one face with n corners. With
+        ``with_="Triangles"``, it gets n - 2 triangles and n - 3 new edges.
 
         For holes with up to 500 edges, the triangles have the smallest possible total area. A hole with more than 500
-        edges is filled one triangle at a time. Each triangle is added at the corner whose two neighbors are closest to
-        each other. Triangles at straight and reflex corners are added last. If the hole is far from convex, the
-        triangles can overlap. Two vertices that are already joined by an edge are not joined by a second edge. If no
-        triangulation without duplicate edges is found, the hole cannot be filled (``DuplicateEdge``). A hole with two
-        edges cannot be filled (``WrongPlace``). Use ``stitch()`` to close it.
+        edges is filled one triangle at a time. Each triangle cuts off the corner of the remaining hole whose two
+        neighboring vertices are closest to each other. Straight and reflex corners are cut off last. If such a large
+        hole is far from convex, the triangles can overlap. In holes of any size, a new edge never joins two vertices
+        that an existing edge already joins. If no triangulation without such a duplicate edge is found, filling the
+        hole is refused (reason: ``DuplicateEdge``). A hole with only two edges cannot be filled (reason:
+        ``WrongPlace``). To close a hole with two edges, use ``stitch()``.
 
-        New faces have the values of a face beside the hole. New corners have the values of the corner at the same
-        vertex in the adjacent face. Normals are dropped if a hole was filled.
+        New faces have the values of a face beside the hole. A new corner has the values of an existing corner at the
+        same vertex. Normals are dropped if a hole was filled.
 
         Example: ``mesh.fill_holes()``
 
         :param around: Fill only holes with at least one of these vertices. Defaults to ``"All"``. ``"All"``,
             ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
-        :param max_edges: Fill only holes with at most this number of edges. If omitted, holes of any size.
+        :param max_edges: Fill only holes with at most this number of edges. If omitted, holes with any number of edges
+            are filled.
         :param with_: The faces that cover a hole. Defaults to ``"Triangles"``.
             ``"Triangles"``: Triangles.
             ``"Face"``: One face with all vertices of the hole as corners.
         :param on_refusal: What to do when a hole cannot be filled. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
-            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+            ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
+                element.
         :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
@@ -4002,19 +4185,21 @@ class MeshOperations:
     ) -> Self:
         """Joins two holes with a band of faces.
 
-        Each hole is identified by one of its vertices. The band starts at a new edge that joins the two given vertices,
-        and goes around both holes. Holes with n and m edges, where n is at least m, are joined by m quadrilaterals and
-        n - m evenly spread triangles. The operation adds n edges and no vertices. Both holes can be in one connected
-        part of the mesh, which then gets a tunnel or a handle. They can also be in two separate parts of the same mesh.
-        (``join()`` joins two objects into one.)
+        A hole is a boundary loop. Each hole is given by one of its vertices. The band starts at a new edge that joins
+        the two given vertices, and runs once around both holes. Let n and m be the numbers of edges of the two holes,
+        where n is at least m. The band then consists of m quadrilaterals and n - m evenly spread triangles. The
+        operation adds n edges and no vertices. Both holes can be in one connected part of the mesh, which then gets a
+        tunnel or a handle. They can also be in two separate parts of the mesh, which then become connected. To bridge
+        holes of two objects, first use ``join()`` to make one mesh of the objects.
 
-        Each new face copies the attribute values of the adjacent face at the hole with more edges. New corners have the
-        values of the corners at the same vertices in the adjacent faces. Normals are dropped.
+        Each new face copies the attribute values of the adjacent face at the hole with more edges. If both holes have
+        the same number of edges, the adjacent face at the hole of ``first`` is used. A new corner has the values of an
+        existing corner at the same vertex. Normals are dropped.
 
-        The operation is refused if a vertex is not on the boundary (``NotBoundary``), or if both vertices are on the
-        same hole (``WrongPlace``). The operation is also refused if the band would join two vertices that are already
-        joined by an edge (``DuplicateEdge``). In this case, the operation can succeed with other vertices of the same
-        holes.
+        The operation is refused if one of the given vertices is not on the boundary (reason: ``NotBoundary``), or if
+        both are on the same hole (reason: ``WrongPlace``). The operation is also refused if a new edge would join two
+        vertices that an edge already joins (reason: ``DuplicateEdge``). In this last case, try other vertices of the
+        same holes.
 
         Example: ``mesh.bridge_loops(first=0, second=5)``
 
@@ -4035,28 +4220,32 @@ class MeshOperations:
     ) -> Self:
         """Joins boundary edges that coincide.
 
-        Two boundary edges coincide if both pairs of corresponding ends are at most ``distance`` apart. Two edges that
-        coincide only with each other form a pair. Choose a ``distance`` that is less than the lengths of the edges. If
-        an edge coincides with several edges, none of these edges is joined (``NonManifold``). Unlike ``weld()``, this
-        operation never merges vertices inside the surface or vertices whose edges do not coincide.
+        Two boundary edges coincide if each end of one edge is at most ``distance`` from the corresponding end of the
+        other edge. Two edges that coincide only with each other form a pair and are joined. If an edge coincides with
+        several edges, joining these edges is refused (reason: ``NonManifold``). To avoid this refusal, choose a
+        ``distance`` that is less than the lengths of the edges. ``weld()`` merges all vertices that are close together,
+        but ``stitch()`` merges only the ends of edges that it joins.
 
-        When two vertices or two edges become one, the one with the lower id is kept, with its position and values. The
-        vertex or edge with the higher id is removed, so the ids of the vertices or edges after it change. Faces and
-        corners do not change, so an edge whose sides have different UVs becomes a seam. Remaining holes with two edges
-        are also closed.
+        When two vertices become one, the vertex with the lower id is kept, with its position and values. When two edges
+        become one, the edge with the lower id is kept, with its values. The other vertex or edge is removed, so the ids
+        of all later vertices or edges change. Faces and corners do not change, so an edge whose sides have different
+        UVs becomes a seam. If a hole with only two edges remains beside a joined edge, the two edges of this hole are
+        also joined.
 
-        A pair of edges cannot be joined if both edges belong to the same face (``SameFace``), or if two edges would
-        then join the same vertices (``DuplicateEdge``). A pair also cannot be joined if the ends of an edge would
-        become one vertex, or if a face would contain a vertex twice (``WrongPlace``).
+        A pair of edges cannot be joined if both edges belong to the same face (reason: ``SameFace``), or if two other
+        edges would then join the same two vertices (reason: ``DuplicateEdge``). A pair also cannot be joined if both
+        ends of another edge would become one vertex (reason: ``WrongPlace``), or if a face would contain a vertex twice
+        (reason: ``RepeatedVertex``).
 
         Example: ``mesh.stitch(distance=0)``
 
         :param distance: The largest distance between corresponding ends of two edges, in scene units. With 0, only ends
             at equal positions are joined.
-        :param on_refusal: What to do when a pair cannot be joined, or when more than two edges coincide. Defaults to
-            ``"Error"``.
+        :param on_refusal: What to do when a pair cannot be joined, or when an edge coincides with several edges.
+            Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
-            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+            ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
+                element.
         :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
@@ -4072,22 +4261,25 @@ class MeshOperations:
     ) -> Self:
         """Opens the mesh along edges.
 
-        The edges can form paths, loops and trees. A loop can cut out a piece. Each edge becomes two edges, one for each
-        side of the cut. If the cuts separate the faces around a vertex into several parts, each part gets a separate
-        copy of the vertex. The part that contains the face with the lowest id keeps the id of the vertex, and new
-        vertices get the highest ids. Faces keep their ids, and no vertex moves. Copies of vertices and edges have the
-        values of the originals. Corners keep their values. ``stitch()`` is the inverse.
+        The edges can form paths, loops and trees. A closed loop can separate a region of faces from the rest of the
+        mesh. Each cut edge becomes two boundary edges, one for each side of the cut. If the cuts divide the faces
+        around a vertex into several groups, each group gets a separate copy of the vertex. The group that contains the
+        face with the lowest id keeps the old vertex, and the other copies get the highest ids. Faces keep their ids,
+        and no vertex moves. Copies of vertices and edges have the values of the originals. Corners keep their values.
+        ``stitch()`` is the inverse operation: it joins the two sides of a cut again.
 
-        All edges are cut at once. An edge on the boundary cannot be cut (``Boundary``). An edge also cannot be cut if
-        both of its ends are inside the mesh and no other cut continues at either end, because such a cut would not open
-        the mesh (``DuplicateEdge``).
+        An edge on the boundary cannot be cut (reason: ``Boundary``). An edge also cannot be cut if neither of its ends
+        is on the boundary or on another edge to cut (reason: ``DuplicateEdge``). The two sides of such a cut would
+        still join the same two vertices, so the mesh would not open. All edges are cut at once, so a longer path inside
+        the mesh can be cut.
 
         Example: ``mesh.cut(edges="All")``
 
         :param edges: The edges to cut. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
         :param on_refusal: What to do when an edge cannot be cut. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
-            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+            ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
+                element.
         :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
@@ -4101,19 +4293,20 @@ class MeshOperations:
         id: str | None = None,
         progress: bool | Progress | None = None,
     ) -> Self:
-        """Tags the selected vertices and removes the tag from all other vertices. In later operations,
-        ``sel.Tagged("rim")`` selects the vertices with the tag ``rim``.
+        """Gives a tag (a named mark) to the selected vertices and removes this tag from all other vertices. For
+        example, if the name of the tag is ``rim``, ``sel.Tagged("rim")`` selects the tagged vertices in later
+        operations.
 
         If a later operation copies a tagged vertex, as ``extrude_faces()`` does, the copy is also tagged. If a later
-        operation adds a vertex on an edge, as ``split_edges()`` does, the new vertex is not tagged. An existing tag of
-        the same name is replaced. If an attribute of another type has this name, the operation fails. The geometry does
-        not change. The report counts the vertices that gained or lost the tag.
+        operation adds a vertex on an edge, as ``split_edges()`` does, the new vertex is not tagged. An existing vertex
+        tag of the same name is replaced. If a vertex attribute that is not a tag already has this name, the operation
+        fails. The geometry does not change. The report counts the vertices that gained or lost the tag.
 
         Example: ``mesh.tag_vertices(name="some", vertices="Boundary")``
 
         :param name: The name of the tag. The name must not be empty and must not start or end with whitespace.
-        :param vertices: The vertices to tag. An empty selection gives an empty tag. ``"All"``, ``"Boundary"``,
-            ``"Isolated"``, or a value of ``meshwright.sel``.
+        :param vertices: The vertices to tag. If the selection is empty, the tag exists but no vertex has it. ``"All"``,
+            ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
         :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change. Its ``tag("vertex", name)`` is an array of Booleans.
         """
@@ -4127,18 +4320,18 @@ class MeshOperations:
         id: str | None = None,
         progress: bool | Progress | None = None,
     ) -> Self:
-        """Tags the selected edges and removes the tag from all other edges. In later operations, ``sel.Tagged("rim")``
-        selects the edges with the tag ``rim``.
+        """Gives a tag (a named mark) to the selected edges and removes this tag from all other edges. For example, if
+        the name of the tag is ``rim``, ``sel.Tagged("rim")`` selects the tagged edges in later operations.
 
-        When a tagged edge is split or subdivided, its parts are also tagged. An existing tag of the same name is
-        replaced. If an attribute of another type has this name, the operation fails. The geometry does not change. The
-        report counts the edges that gained or lost the tag.
+        When a later operation splits or subdivides a tagged edge, the parts of this edge are also tagged. An existing
+        edge tag of the same name is replaced. If an edge attribute that is not a tag already has this name, the
+        operation fails. The geometry does not change. The report counts the edges that gained or lost the tag.
 
         Example: ``mesh.tag_edges(name="marked", edges=sel.EdgeLoop(sel.Longest(count=2)))``
 
         :param name: The name of the tag. The name must not be empty and must not start or end with whitespace.
-        :param edges: The edges to tag. An empty selection gives an empty tag. ``"All"``, ``"Boundary"``, or a value of
-            ``meshwright.sel``.
+        :param edges: The edges to tag. If the selection is empty, the tag exists but no edge has it. ``"All"``,
+            ``"Boundary"``, or a value of ``meshwright.sel``.
         :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change. Its ``tag("edge", name)`` is an array of Booleans.
         """
@@ -4152,18 +4345,18 @@ class MeshOperations:
         id: str | None = None,
         progress: bool | Progress | None = None,
     ) -> Self:
-        """Tags the selected faces and removes the tag from all other faces. In later operations, ``sel.Tagged("rim")``
-        selects the faces with the tag ``rim``.
+        """Gives a tag (a named mark) to the selected faces and removes this tag from all other faces. For example, if
+        the name of the tag is ``rim``, ``sel.Tagged("rim")`` selects the tagged faces in later operations.
 
-        When a tagged face is split or subdivided, its parts are also tagged. An existing tag of the same name is
-        replaced. If an attribute of another type has this name, the operation fails. The geometry does not change. The
-        report counts the faces that gained or lost the tag.
+        When a later operation splits or subdivides a tagged face, the parts of this face are also tagged. An existing
+        face tag of the same name is replaced. If a face attribute that is not a tag already has this name, the
+        operation fails. The geometry does not change. The report counts the faces that gained or lost the tag.
 
         Example: ``mesh.tag_faces(name="some", faces=sel.Facing(direction=(0, 0, 1), within=45))``
 
         :param name: The name of the tag. The name must not be empty and must not start or end with whitespace.
-        :param faces: The faces to tag. An empty selection gives an empty tag. ``"All"``, ``"Boundary"``,
-            ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
+        :param faces: The faces to tag. If the selection is empty, the tag exists but no face has it. ``"All"``,
+            ``"Boundary"``, ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
         :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change. Its ``tag("face", name)`` is an array of Booleans.
         """
@@ -4185,48 +4378,53 @@ class MeshOperations:
     ) -> Self:
         """Splits every triangle into four and smooths the surface, for a number of levels.
 
-        A level turns V vertices, E edges and F triangles into V + E vertices, 2 E + 3 F edges and 4 F triangles. V - E
-        + F does not change. Old vertices keep their ids, and the vertex on edge e has the id V + e. Edge e becomes
-        edges 2e and 2e + 1, and face f becomes faces 4f to 4f + 3. All faces must be triangles.
+        A level turns V vertices, E edges and F triangles into V + E vertices, 2 E + 3 F edges and 4 F triangles. The
+        Euler characteristic V - E + F does not change. Old vertices keep their ids, and the new vertex on edge e has
+        the id V + e. Edge e becomes edges 2e and 2e + 1, and face f becomes faces 4f to 4f + 3. All faces must be
+        triangles.
 
         Vertex attributes are smoothed with the same weights as the positions. Texture coordinates and other corner
-        values are smoothed according to ``face_varying``, and seams are kept. Parts of an edge or a triangle copy the
-        values of the old edge or triangle. Normals are dropped, because they would be wrong. An edge or a vertex to
-        which ``crease()`` gave the sharpness s stays sharp for s levels.
+        values are smoothed according to ``face_varying``, and seams are kept. When an edge or a triangle is split, its
+        parts copy its attribute values, such as tags and materials. Normals are dropped, because they would be wrong.
+        An edge or a vertex to which ``crease()`` gave the sharpness s stays sharp for s levels.
 
         Example: ``mesh.loop_subdivide(levels=2)``
 
-        :param levels: The number of levels. Each level multiplies the number of triangles by four. Defaults to 1. With
-            ``until``, ``levels`` is the maximum number of levels and defaults to 16.
+        :param levels: The number of levels. Each level multiplies the number of triangles by four. Without ``until``,
+            ``levels`` defaults to 1. With ``until``, ``levels`` is the maximum number of levels and defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
                 than ``below``.
-        :param weights: The weights at old vertices. Defaults to ``"Warren"``.
-            ``"Warren"``: u is 3/16 for n = 3, otherwise 3/(8n).
-            ``"Loop"``: u is (5/8 - (3/8 + cos(2π/n)/4)²)/n, as in Loop's thesis, 1987.
+        :param weights: The weights for the new position of an old vertex: a weighted mean of its old position and its
+            neighbors. Defaults to ``"Warren"``.
+            ``"Warren"``: The weight u of a neighbor is 3/16 if the vertex has n = 3 neighbors, and otherwise 3/(8n).
+            ``"Loop"``: If the vertex has n neighbors, the weight u of a neighbor is (5/8 - (3/8 + cos(2π/n)/4)²)/n, as
+                in Loop's thesis, 1987.
         :param boundary: How vertices on the boundary move. Defaults to ``"EdgesOnly"``.
             ``"EdgesOnly"``: The boundary becomes a smooth curve that depends on boundary vertices only.
             ``"EdgesAndCorners"``: Like ``EdgesOnly``, but boundary vertices with one face stay in place.
-            ``"Fixed"``: Boundary vertices stay in place, and new vertices on the boundary lie in the middle of their
-                edges.
+            ``"Fixed"``: Boundary vertices stay in place, and each new vertex on the boundary lies in the middle of an
+                old boundary edge.
         :param creasing: How the sharpness of creases decreases from level to level. Defaults to ``"Uniform"``.
             ``"Uniform"``: The sharpness decreases by 1.
             ``"Chaikin"``: The sharpness is averaged with the sharpness of the neighboring edges of the crease, then
                 decreases by 1.
         :param face_varying: How texture coordinates and other corner values are smoothed. Defaults to ``"All"``.
             ``"None"``: Values are smoothed everywhere.
-            ``"CornersOnly"``: Like ``None_``, but the value of a piece with a single face does not change.
-            ``"CornersPlus1"``: Like ``CornersOnly``, but values also do not change where three or more pieces meet.
+            ``"CornersOnly"``: Like ``None_``, but if only one face has a value at a vertex, this value does not change.
+            ``"CornersPlus1"``: Like ``CornersOnly``, but values also do not change at a vertex with three or more
+                different values.
             ``"CornersPlus2"``: Like ``CornersPlus1``, but values also do not change at the ends of seams.
             ``"Boundaries"``: Values are interpolated linearly along seams and boundaries, and smoothed elsewhere.
             ``"All"``: Values are interpolated linearly everywhere: each new value is a mean of values of one old face.
         :param to_limit: Whether to move the vertices of the last level to the limit surface and to store the normals
             and tangents of this surface. Defaults to ``False``.
         :param faces: The faces to refine. If omitted, all faces. Triangles next to the refined faces are cut in two or
-            four, so that no vertex lies inside an edge. The surface outside the refined faces does not move. For the
-            ids of new elements, see ``subdivision::refine_faces``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``,
-            or a value of ``meshwright.sel``.
+            four, so that no vertex lies in the middle of an edge of a neighboring triangle. The surface outside the
+            refined faces does not move. The documentation of the Rust function ``subdivision::refine_faces`` describes
+            the ids of new elements. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
+            ``meshwright.sel``.
         :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
@@ -4247,21 +4445,21 @@ class MeshOperations:
     ) -> Self:
         """Splits every face into quads and smooths the surface, for a number of levels.
 
-        A level creates a quad at each corner of each face. A level turns V vertices, E edges and F faces with C corners
-        in total into V + E + F vertices, 2 E + C edges and C quads. V - E + F does not change. Old vertices keep their
-        ids. The vertex on edge e has the id V + e, and the vertex at the center of face f has the id V + E + f. Edge e
-        becomes edges 2e and 2e + 1. The quads are numbered in the order of the old faces and, in each face, in the
-        order of its corners.
+        Each level creates one quad at each corner of each old face. A level turns V vertices, E edges and F faces with
+        C corners in total into V + E + F vertices, 2 E + C edges and C quads. The Euler characteristic V - E + F does
+        not change. Old vertices keep their ids. The vertex on edge e has the id V + e, and the vertex at the center of
+        face f has the id V + E + f. Edge e becomes edges 2e and 2e + 1. The quads are numbered in the order of the old
+        faces and, in each face, in the order of its corners.
 
         Vertex attributes are smoothed with the same weights as the positions. Texture coordinates and other corner
-        values are smoothed according to ``face_varying``, and seams are kept. Parts of an edge or a face copy the
-        values of the old edge or face. Normals are dropped, because they would be wrong. An edge or a vertex to which
-        ``crease()`` gave the sharpness s stays sharp for s levels.
+        values are smoothed according to ``face_varying``, and seams are kept. When an edge or a face is split, its
+        parts copy its attribute values, such as tags and materials. Normals are dropped, because they would be wrong.
+        An edge or a vertex to which ``crease()`` gave the sharpness s stays sharp for s levels.
 
         Example: ``mesh.catmull_clark(levels=2)``
 
-        :param levels: The number of levels. Each level replaces every corner of a face with a quad. Defaults to 1. With
-            ``until``, ``levels`` is the maximum number of levels and defaults to 16.
+        :param levels: The number of levels. Each level replaces every corner of a face with a quad. Without ``until``,
+            ``levels`` defaults to 1. With ``until``, ``levels`` is the maximum number of levels and defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
@@ -4269,25 +4467,26 @@ class MeshOperations:
         :param boundary: How vertices on the boundary move. Defaults to ``"EdgesOnly"``.
             ``"EdgesOnly"``: The boundary becomes a smooth curve that depends on boundary vertices only.
             ``"EdgesAndCorners"``: Like ``EdgesOnly``, but boundary vertices with one face stay in place.
-            ``"Fixed"``: Boundary vertices stay in place, and new vertices on the boundary lie in the middle of their
-                edges.
+            ``"Fixed"``: Boundary vertices stay in place, and each new vertex on the boundary lies in the middle of an
+                old boundary edge.
         :param creasing: How the sharpness of creases decreases from level to level. Defaults to ``"Uniform"``.
             ``"Uniform"``: The sharpness decreases by 1.
             ``"Chaikin"``: The sharpness is averaged with the sharpness of the neighboring edges of the crease, then
                 decreases by 1.
         :param face_varying: How texture coordinates and other corner values are smoothed. Defaults to ``"All"``.
             ``"None"``: Values are smoothed everywhere.
-            ``"CornersOnly"``: Like ``None_``, but the value of a piece with a single face does not change.
-            ``"CornersPlus1"``: Like ``CornersOnly``, but values also do not change where three or more pieces meet.
+            ``"CornersOnly"``: Like ``None_``, but if only one face has a value at a vertex, this value does not change.
+            ``"CornersPlus1"``: Like ``CornersOnly``, but values also do not change at a vertex with three or more
+                different values.
             ``"CornersPlus2"``: Like ``CornersPlus1``, but values also do not change at the ends of seams.
             ``"Boundaries"``: Values are interpolated linearly along seams and boundaries, and smoothed elsewhere.
             ``"All"``: Values are interpolated linearly everywhere: each new value is a mean of values of one old face.
         :param to_limit: Whether to move the vertices of the last level to the limit surface and to store the normals
             and tangents of this surface. Defaults to ``False``.
         :param faces: The faces to refine. If omitted, all faces. Faces next to the refined faces get the new vertices
-            on common edges as additional corners. The surface outside the refined faces does not move. For the ids of
-            new elements, see ``subdivision::refine_faces``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a
-            value of ``meshwright.sel``.
+            on common edges as additional corners. The surface outside the refined faces does not move. The
+            documentation of the Rust function ``subdivision::refine_faces`` describes the ids of new elements.
+            ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
         :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
@@ -4305,20 +4504,21 @@ class MeshOperations:
     ) -> Self:
         """Splits every face into smaller faces without moving vertices, for a number of levels.
 
-        ``into="Triangles"`` requires a mesh of triangles. A level turns V vertices, E edges and F triangles into V + E
-        vertices, 2 E + 3 F edges and 4 F triangles. ``into="Quads"`` accepts all polygons and creates a quad at each
-        corner. V vertices, E edges and F faces with C corners in total become V + E + F vertices, 2 E + C edges and C
-        quads. Old vertices keep their ids and positions, and the vertex on edge e has the id V + e. Edge e becomes
-        edges 2e and 2e + 1. Triangle f becomes faces 4f to 4f + 3. The quads are numbered in the order of the old
-        faces. The vertex at the center of face f has the id V + E + f.
+        With ``into="Triangles"``, all faces must be triangles. A level then turns V vertices, E edges and F triangles
+        into V + E vertices, 2 E + 3 F edges and 4 F triangles. Triangle f becomes faces 4f to 4f + 3. With
+        ``into="Quads"``, faces can have any number of corners, and each corner becomes a quad. A level then turns V
+        vertices, E edges and F faces with C corners in total into V + E + F vertices, 2 E + C edges and C quads. The
+        quads are numbered in the order of the old faces. The new vertex at the center of face f has the id V + E + f.
+        In both cases, old vertices keep their ids and positions, and the new vertex on edge e has the id V + e. Edge e
+        becomes edges 2e and 2e + 1.
 
-        Vertex attributes are interpolated. Corner values are interpolated within each old face separately. Parts of an
-        edge or a face copy the values of the old edge or face, including sharpness. Normals are dropped.
+        Vertex attributes are interpolated. Corner values are interpolated within each old face separately. When an edge
+        or a face is split, its parts copy its attribute values, including the sharpness of edges. Normals are dropped.
 
         Example: ``mesh.midpoint(levels=2, into="Quads")``
 
-        :param levels: The number of levels. Each level multiplies the number of faces by about four. Defaults to 1.
-            With ``until``, ``levels`` is the maximum number of levels and defaults to 16.
+        :param levels: The number of levels. Each level multiplies the number of faces by about four. Without ``until``,
+            ``levels`` defaults to 1. With ``until``, ``levels`` is the maximum number of levels and defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
@@ -4328,9 +4528,9 @@ class MeshOperations:
             ``"Quads"``: Splits each face with n corners into n quads around its center.
         :param faces: The faces to refine. If omitted, all faces. With ``into="Triangles"``, triangles next to the
             refined faces are cut in two or four. With ``into="Quads"``, faces next to the refined faces get the new
-            vertices on common edges as additional corners. For the ids of new elements, see
-            ``subdivision::refine_faces``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
-            ``meshwright.sel``.
+            vertices on common edges as additional corners. The documentation of the Rust function
+            ``subdivision::refine_faces`` describes the ids of new elements. ``"All"``, ``"Boundary"``,
+            ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
         :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
@@ -4347,18 +4547,20 @@ class MeshOperations:
         """Splits every triangle into four and smooths the surface without moving the old vertices, for a number of
         levels.
 
-        A level turns V vertices, E edges and F triangles into V + E vertices, 2 E + 3 F edges and 4 F triangles. V - E
-        + F does not change. Old vertices keep their ids, and the vertex on edge e has the id V + e. Edge e becomes
-        edges 2e and 2e + 1, and face f becomes faces 4f to 4f + 3. All faces must be triangles.
+        A level turns V vertices, E edges and F triangles into V + E vertices, 2 E + 3 F edges and 4 F triangles. The
+        Euler characteristic V - E + F does not change. Old vertices keep their ids, and the new vertex on edge e has
+        the id V + e. Edge e becomes edges 2e and 2e + 1, and face f becomes faces 4f to 4f + 3. All faces must be
+        triangles.
 
         Vertex attributes are interpolated with the same weights as the positions. Corner values are interpolated
-        linearly, separately in each old triangle. Parts of an edge or a triangle copy the values of the old edge or
-        triangle. Normals are dropped, because they would be wrong. Sharpness has no effect and is copied unchanged.
+        linearly, separately in each old triangle. When an edge or a triangle is split, its parts copy its attribute
+        values, such as tags and materials. Normals are dropped, because they would be wrong. Sharpness has no effect
+        and is copied unchanged.
 
         Example: ``mesh.butterfly(levels=1)``
 
-        :param levels: The number of levels. Each level multiplies the number of triangles by four. Defaults to 1. With
-            ``until``, ``levels`` is the maximum number of levels and defaults to 16.
+        :param levels: The number of levels. Each level multiplies the number of triangles by four. Without ``until``,
+            ``levels`` defaults to 1. With ``until``, ``levels`` is the maximum number of levels and defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
@@ -4378,23 +4580,24 @@ class MeshOperations:
     ) -> Self:
         """Splits every triangle into three, flips the old edges, and smooths the surface, for a number of levels.
 
-        A level turns V vertices, E edges and F triangles into V + F vertices, E + 3 F edges and 3 F triangles. In
-        addition, every second level adds one vertex and one edge for each boundary edge. V - E + F does not change. Old
-        vertices keep their ids. The vertex in face f has the id V + f, and face f becomes faces 3f to 3f + 2. All faces
-        must be triangles. Levels are counted from the start of the operation. One operation of two levels therefore
-        cuts the boundary edges, but two operations of one level leave the boundary unchanged.
+        A level turns V vertices, E edges and F triangles into V + F vertices, E + 3 F edges and 3 F triangles. Every
+        second level also cuts the boundary edges, and thus adds one more vertex and one more edge for each boundary
+        edge. The Euler characteristic V - E + F does not change. Old vertices keep their ids. The new vertex in face f
+        has the id V + f, and face f becomes faces 3f to 3f + 2. All faces must be triangles. Each step counts its own
+        levels from 1. One operation of two levels therefore cuts the boundary edges. Two steps of one level each leave
+        the boundary edges uncut.
 
         Vertex attributes are smoothed with the same weights as the positions. Corner values are interpolated linearly
         within each old triangle separately. A triangle next to a flipped edge covers parts of two old triangles. If the
         flipped edge was a seam, the triangle mixes texture coordinates of both sides of the seam, which distorts
-        textures. New triangles copy the values of their old triangle. Parts of a boundary edge copy the values of the
-        boundary edge. All other edges have zero values (no crease, no tags). Normals are dropped, because they would be
-        wrong.
+        textures. Each new triangle copies the attribute values, such as tags and materials, of the old triangle that
+        was split. Parts of a boundary edge copy the values of the boundary edge. All other edges have zero values (no
+        crease, no tags). Normals are dropped, because they would be wrong.
 
         Example: ``mesh.sqrt3(levels=1)``
 
-        :param levels: The number of levels. Each level multiplies the number of triangles by three. Defaults to 1. With
-            ``until``, ``levels`` is the maximum number of levels and defaults to 16.
+        :param levels: The number of levels. Each level multiplies the number of triangles by three. Without ``until``,
+            ``levels`` defaults to 1. With ``until``, ``levels`` is the maximum number of levels and defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
@@ -4415,21 +4618,23 @@ class MeshOperations:
         """Replaces every edge and every vertex with a face and shrinks the old faces, for a number of levels.
 
         A level turns a closed mesh with V vertices, E edges and F faces into a mesh with 2 E vertices, 4 E edges and V
-        + E + F faces. If the mesh has a boundary, a level creates additional elements along the boundary. V - E + F
-        does not change. The face inside old face f has the id f, and the face of edge e has the id F + e. The faces of
-        vertices have the highest ids. Isolated vertices are kept. The ids of isolated vertices follow the ids of all
-        other vertices. Isolated vertices and inner vertices of valence 2 do not become faces.
+        + E + F faces. If the mesh has a boundary, a level creates additional elements along the boundary. The Euler
+        characteristic V - E + F does not change. The shrunk face inside old face f has the id f, and the new face at
+        old edge e has the id F + e. The new faces at old vertices have the highest ids. Isolated vertices are kept. The
+        ids of isolated vertices follow the ids of all other vertices. Isolated vertices do not become faces, and
+        neither do vertices inside the mesh that have only two edges.
 
         Vertex attributes are smoothed with the same weights as the positions. Corner values are smoothed within each
-        old face separately. The new faces at edges and vertices mix corner values of several old faces. At a seam, this
-        distorts textures. A face inside an old face copies the values of the old face; the face of an edge or a vertex
-        copies the values of an adjacent face. The two new edges along an old edge copy the values of this edge. All
-        other edges have zero values (no crease, no tags). Normals are dropped, because they would be wrong.
+        old face separately. The new faces at edges and vertices mix corner values of several old faces. At a seam, the
+        mixed values distort textures. A face inside an old face copies the attribute values of the old face. The new
+        face at an edge or a vertex copies the values of an adjacent face. The two new edges along an old edge copy the
+        values of this edge. All other edges have zero values (no crease, no tags). Normals are dropped, because they
+        would be wrong.
 
         Example: ``mesh.doo_sabin(levels=1)``
 
-        :param levels: The number of levels. Each level multiplies the number of faces by about four. Defaults to 1.
-            With ``until``, ``levels`` is the maximum number of levels and defaults to 16.
+        :param levels: The number of levels. Each level multiplies the number of faces by about four. Without ``until``,
+            ``levels`` defaults to 1. With ``until``, ``levels`` is the maximum number of levels and defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
@@ -4451,29 +4656,30 @@ class MeshOperations:
     ) -> Self:
         """Cuts meshes along a plane.
 
-        Every edge that crosses the plane gets a vertex on the plane. Every face that crosses the plane is cut along the
-        plane. A concave face can be cut several times. A vertex counts as on the plane if its distance from the plane
-        is at most 1e-9 times the largest extent of the mesh, or at most 1e-14 times the largest absolute coordinate.
-        Such a vertex is not moved. When an edge is cut, the part at the start of its first half-edge keeps the id of
-        the edge. When a face is cut, the part with the first corner keeps the id of the face. New elements get the
-        highest ids. Where an edge crosses the plane, attributes are interpolated. At a seam, the two sides are
-        interpolated separately.
+        Every edge that crosses the plane gets a new vertex at the crossing point. Every face that crosses the plane is
+        cut along the plane. A concave face can be cut in several places. A vertex near the plane is treated as if it
+        were on the plane, and is not moved. Near means a distance from the plane of at most 1e-9 times the longest side
+        of the bounding box, or at most 1e-14 times the largest absolute coordinate. Every edge has two half-edges. When
+        an edge is cut, the part at the start of the half-edge with the lower id keeps the id of the edge. When a face
+        is cut, the part with the first corner keeps the id of the face. New elements get the highest ids. Where an edge
+        crosses the plane, attributes are interpolated. At a seam, the two sides are interpolated separately.
 
-        With ``keep="Front"`` or ``keep="Back"``, the other side of the plane is removed. A face in the plane belongs to
-        the back if its normal points to the front, because the face then closes the solid behind the plane. Vertices
-        left without a face are removed. If the remaining faces around a vertex form several fans, each fan gets a
+        With ``keep="Front"``, the part of the mesh behind the plane is removed. With ``keep="Back"``, the part in front
+        of the plane is removed. A face that lies in the plane belongs to the back if its normal points to the front,
+        because the face then closes the solid behind the plane. Vertices that are left without a face are removed. If
+        the remaining faces around a vertex form several fans (groups of faces connected across edges), each fan gets a
         separate copy of the vertex. No faces are added to close the cut. To close the cut, use ``fill_holes()`` in a
         later operation.
 
         Example: ``mesh.bisect(normal=(0, 0, 1))``
 
-        :param normal: The normal of the plane, which points to the front. The length of the normal does not matter but
-            must not be 0.
+        :param normal: The normal of the plane. It points to the front side. The length of the normal does not matter
+            but must not be 0.
         :param point: A point on the plane.
-        :param keep: The side to keep. Defaults to ``"Both"``.
+        :param keep: The part of the mesh to keep: one side of the plane, or both sides. Defaults to ``"Both"``.
             ``"Both"``: Both sides.
-            ``"Front"``: The side that the normal points to.
-            ``"Back"``: The side that the normal points away from.
+            ``"Front"``: The side of the plane that the normal of the plane points to.
+            ``"Back"``: The side of the plane that the normal of the plane points away from.
         :param tag: The name of a tag for the edges on the plane. Edges that already have the tag keep it. If omitted,
             no edges are tagged.
         :param id, progress: See :class:`Mesh`.
@@ -4493,10 +4699,11 @@ class MeshOperations:
         """Replaces one half of a mesh with the mirror image of the other half.
 
         The mesh is cut along a plane, as with ``bisect()``. The half on the side ``from_`` is kept and mirrored, and
-        the halves are joined at the plane. Vertices near the plane (see ``bisect()``) are moved exactly onto it, so
-        that the result is symmetric. Faces in the plane are removed, because they would become walls inside the result.
-        Where the surface only touches the plane, the halves are not joined. The report counts the faces that are
-        removed completely, not the faces that are cut.
+        the halves are joined at the plane. Vertices that ``bisect()`` would treat as on the plane are moved exactly
+        onto the plane, so that the result is symmetric. Faces that lie in the plane are removed, because they would
+        become walls inside the result. The halves are joined at the vertices on the plane that are on the boundary of
+        the kept half. Where the surface only touches the plane, without a boundary there, the halves are not joined.
+        The report counts the faces that are removed whole. Faces that the plane cuts are not counted.
 
         The elements of the kept half come first, in their old order. The elements of the mirror image follow.
         Attributes are copied, so both halves have the same texture coordinates, tags and joint weights. Normals and
@@ -4504,12 +4711,12 @@ class MeshOperations:
 
         Example: ``mesh.symmetrize(normal=(1, 0, 0))``
 
-        :param normal: The normal of the plane, which points to the front. The length of the normal does not matter but
-            must not be 0.
+        :param normal: The normal of the plane. It points to the front side. The length of the normal does not matter
+            but must not be 0.
         :param point: A point on the plane.
         :param from_: The half that is kept and mirrored. Defaults to ``"Front"``.
-            ``"Front"``: The side that the normal points to.
-            ``"Back"``: The side that the normal points away from.
+            ``"Front"``: The side of the plane that the normal of the plane points to.
+            ``"Back"``: The side of the plane that the normal of the plane points away from.
         :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
@@ -4530,57 +4737,59 @@ class MeshOperations:
     ) -> Self:
         """Removes triangles from meshes, and changes the surface as little as possible.
 
-        Edges are collapsed, starting with the edges whose collapse changes the surface least. The change is measured by
-        the squared distance of the new vertex to the planes of the original triangles that it replaces (Garland,
-        Heckbert, 1997). The operation ends when ``faces`` or ``ratio`` is reached, or when every remaining collapse is
-        refused or could exceed ``error``. At least one of ``faces``, ``ratio`` and ``error`` must be given, but not
-        both ``faces`` and ``ratio``. All faces must be triangles.
+        Edges are collapsed, starting with the edges whose collapse changes the surface least. A collapse merges the two
+        ends of an edge into one vertex. The change is measured by the squared distance of this vertex to the planes of
+        the original triangles around the merged vertices (Garland, Heckbert, 1997). The operation ends when the number
+        of faces given by ``faces`` or ``ratio`` is reached. It also ends when every remaining collapse would change one
+        of the properties below or could exceed ``error``. At least one of ``faces``, ``ratio`` and ``error`` must be
+        given, but not both ``faces`` and ``ratio``. All faces must be triangles.
 
         The following properties are kept:
 
-        - Topology: holes, handles and separate parts stay.
-        - Lines: the boundary, seams of texture coordinates and normals, borders between face tags or materials, edges
-          with a tag or a crease, and ``features``. A line can lose vertices, but its ends, and the vertices where lines
-          meet, keep their exact positions.
+        - Topology: the numbers of holes, handles and separate parts do not change.
+        - Lines: lines consist of boundary edges, seams of texture coordinates or normals, edges between faces with
+          different tags or materials, tagged edges, creases, and the edges of ``features``. A line can lose vertices,
+          but its ends, and the vertices where lines meet, keep their exact positions.
         - Attributes: changes of texture coordinates, normals, colors and other numbers count as changes of the surface
           (Hoppe, 1999), and new vertices get the values that fit best. Values are never mixed across a line, and no
-          triangle is turned over in the texture. Normals are kept, so that a simplified mesh is shaded like the
-          original. The numbers that ``measure()`` stores also count, and the report lists them. If they must not
-          influence the result, use ``measure()`` after this operation.
+          triangle is turned over in the texture. Stored normals are kept, so that a simplified mesh is shaded like the
+          original. The vertex attributes that ``measure()`` stores also influence the result, and the report lists
+          their names. To avoid this influence, use ``measure()`` after this operation.
         - Vertex tags: vertices with different tags, different sharpness, or different values of a whole-number
           attribute are not merged.
 
-        In a texture, the border of a chart is also simplified, and can then cross a chart that is close to it. The
-        report counts the faces that overlap in the texture. To leave more space between charts, use ``pack_uvs()`` with
-        a larger ``padding`` before this operation.
+        Seams divide a texture into charts. The borders of charts are also simplified, and a simplified border can cross
+        a neighboring chart in the texture. The report counts the faces that overlap in the texture. To leave more space
+        between charts, use ``pack_uvs()`` with a larger ``padding`` before this operation.
 
-        No triangle is turned over. Remaining elements get new ids, in the order of their old ids. If the number of
-        faces cannot be reached and ``error`` is not given, the operation is refused as ``Unreached``, and the message
-        states the reasons. With ``on_refusal="Skip"``, the operation keeps the mesh with the fewest faces that it
-        reached.
+        No collapse turns a triangle over. Remaining elements get new ids, in the order of their old ids. If ``error``
+        is not given and the number of faces cannot be reached, the operation is refused (reason: ``Unreached``), and
+        the message states why. With ``on_refusal="Skip"``, the result is instead the simplified mesh with the fewest
+        faces that the operation reached.
 
         Example: ``mesh.simplify(ratio=0.5)``
 
-        :param faces: The number of faces to reach, for each mesh. The result can have one face fewer than this number.
-            A mesh that already has at most this number of faces does not change.
+        :param faces: The number of faces to reach, for each mesh. The result can have one face fewer, because a
+            collapse inside the mesh removes two faces. A mesh that already has at most this number of faces does not
+            change.
         :param ratio: The number of faces to reach, as a fraction of the number of faces of each mesh.
         :param error: The largest allowed Hausdorff distance between the old and the new surface, in scene units. The
-            limit is guaranteed, because the operation adds up upper bounds of the distances by which the collapses move
-            the surface. The true distance is usually between a third of the limit and the limit. If omitted, there is
-            no limit.
+            limit is guaranteed: the operation sums upper bounds of the movements of all collapses. The sum
+            overestimates the true distance. If the limit ends the operation, the true distance is usually between a
+            third of the limit and the limit. If omitted, there is no limit.
         :param features: Edges to keep as lines, in addition to the lines that are always kept. For example,
             ``sel.Sharp(above=30)``. If omitted, no additional edges. ``"All"``, ``"Boundary"``, or a value of
             ``meshwright.sel``.
         :param pin: Vertices that are never removed and keep their exact positions, for example ``Boundary``. If
             omitted, no vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
-        :param intersections: Whether the operation is allowed to create intersections of faces. Such intersections can
+        :param intersections: Whether the operation is allowed to make faces intersect each other. Intersections can
             occur where parts of the surface are close together. Defaults to ``"Allow"``.
-            ``"Allow"``: New intersections are allowed, and not detected.
-            ``"Refuse"``: No changed face intersects another face, so a mesh without self-intersections stays without
-                self-intersections.
+            ``"Allow"``: New intersections are allowed.
+            ``"Refuse"``: The operation refuses every change that would make a changed face intersect another face.
         :param on_refusal: What to do if the number of faces cannot be reached. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
-            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+            ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
+                element.
         :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
@@ -4603,40 +4812,45 @@ class MeshOperations:
 
         Each pass splits long edges, collapses short edges, flips edges so that most vertices have six edges, and moves
         vertices along the surface (Botsch, Kobbelt, 2004). Most edges of the result have 4/5 to 4/3 of the target
-        length. All vertices lie on the original surface, with one exception. A new vertex stays where it is if moving
-        it onto the surface would turn a triangle too far or would move the surface too far. The target length of edges
-        is either ``length``, or it follows ``curvature``. With ``curvature``, edges are short where the surface is
-        curved, and long where it is flat (Dunyach and others, 2013). Exactly one of ``length`` and ``curvature`` must
-        be given. All faces must be triangles.
+        length. Nearly all vertices of the result lie on the original surface. The only exceptions are new vertices that
+        cannot move onto the surface without turning a triangle too far or moving the surface too far. The parameter
+        ``length`` gives the same target length to all edges. With the parameter ``curvature``, edges are short where
+        the surface is curved, and long where it is flat (Dunyach and others, 2013). Exactly one of ``length`` and
+        ``curvature`` must be given. All faces must be triangles.
 
         The following properties are kept:
 
-        - Topology: holes, handles and separate parts stay.
-        - Lines: the boundary, seams of texture coordinates and normals, borders between face tags or materials, edges
-          with a tag or a crease, and ``features``. Vertices on a line slide along it. The ends of lines, the vertices
-          where lines meet, and corners where a line turns by more than 40 degrees keep their exact positions. Other
-          sharp edges are rounded.
+        - Topology: the numbers of holes, handles and separate parts do not change.
+        - Lines: lines consist of boundary edges, seams of texture coordinates or normals, edges between faces with
+          different tags or materials, tagged edges, creases, and the edges of ``features``. Vertices on a line can only
+          slide along this line. The ends of lines, the vertices where lines meet, and corners where a line turns by
+          more than 40 degrees keep their exact positions. Sharp edges that are not on a line are rounded. To keep sharp
+          edges, select them with ``features``.
         - Attributes: each vertex and corner gets the values of the original surface at its position. Values are never
           interpolated across a line.
-        - Vertex tags: a new vertex has a tag if all old vertices around its position had the tag. A tagged vertex can
-          move only inside a tagged region. A tagged vertex is inside such a region if all corners of one of its
-          triangles, or both of its neighbors on a line, also have the tag. All other tagged vertices keep their exact
-          positions. Vertices with sharpness also keep their exact positions.
+        - Vertex tags: a new vertex gets a tag if all old vertices around its position have the tag. Usually, these old
+          vertices are the three corners of the old triangle at this position. A tagged vertex can move only inside a
+          tagged region. A tagged vertex is inside such a region if all corners of one of its triangles, or both of its
+          neighbors on a line, also have the tag. All other tagged vertices keep their exact positions. Vertices to
+          which ``crease()`` gave a sharpness also keep their exact positions.
 
-        The number of faces depends on the area of the mesh, which is not known before the run. Therefore ``check``
-        shows the largest number of faces that fits the memory budget. When the operation starts, it estimates the
-        number of faces from the area. The operation fails if the estimate exceeds the memory budget.
+        The number of faces depends on the area of the mesh, which is not known before the run. When the operation
+        starts, it estimates the number of faces from the area. The operation fails if a mesh with this number of faces
+        would exceed the memory budget.
 
-        Edits that would turn a triangle by more than 60 degrees are refused. All elements get new ids. If the distance
-        between the result and the original could exceed ``error``, the operation is refused as ``Unreached``. With
-        ``on_refusal="Skip"``, a refused operation does not change the mesh.
+        The passes leave out every split, collapse, flip or move that would turn a triangle by more than 60 degrees. All
+        elements get new ids. If the operation cannot prove that the distance between the result and the original is at
+        most ``error``, the operation is refused (reason: ``Unreached``). With ``on_refusal="Skip"``, a refused
+        operation leaves the mesh unchanged, and the run continues.
 
         Example: ``mesh.remesh(length=0.5)``
 
         :param length: The target length of edges, in scene units.
-        :param curvature: Target lengths that follow the curvature. Replaces ``length``.
-            ``"error"``: The intended distance between the surface and the triangles, in scene units. It is not
-                guaranteed. To guarantee a distance, use the parameter ``error`` of the operation.
+        :param curvature: Target lengths that follow the curvature of the surface, instead of one target length for all
+            edges.
+            ``"error"``: The intended largest distance between the original surface and the new triangles, in scene
+                units. This distance is not guaranteed. To guarantee a distance, use the other parameter ``error``,
+                which belongs to the operation itself: ``remesh(error=..)``.
             ``"min"``: The smallest target length of edges, in scene units.
             ``"max"``: The largest target length of edges, in scene units.
         :param features: Edges to keep as lines, in addition to the lines that are always kept. For example,
@@ -4652,7 +4866,8 @@ class MeshOperations:
         :param on_refusal: What to do if the distance between the result and the original could exceed ``error``.
             Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
-            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+            ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
+                element.
         :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
@@ -4681,30 +4896,32 @@ class MeshOperations:
         - ``choice.Implicit``: strong smoothing of meshes with many small faces in one pass; shrinks.
         - ``choice.Denoise``: scans of objects with flat sides and sharp edges; nearly the same.
 
-        If ``boundary`` is ``Fixed``, vertices on the boundary do not move, so that adjacent objects still fit together.
+        If ``boundary`` is ``Fixed``, vertices on the boundary do not move, so that objects that touch along their
+        boundaries still fit together.
 
         Example: ``mesh.smooth(by=choice.Taubin())``
 
         :param by: The method.
             ``choice.Laplacian(..)``: Moves each vertex towards the mean of its neighbors.
-            ``choice.Taubin(..)``: Moves each vertex towards the mean of its neighbors, and then back by a slightly
-                larger factor.
-            ``choice.Implicit(..)``: Moves the surface by mean curvature flow for the given time, in one stable step.
-            ``choice.Denoise(..)``: Filters the normals of the faces, so that similar normals become equal, then moves
-                the vertices to fit the normals.
-        :param passes: The number of passes. If omitted, 1 for ``choice.Implicit`` and 10 for the other methods. For
-            ``choice.Denoise``, the number of passes over the normals. At most 10000.
+            ``choice.Taubin(..)``: Moves each vertex towards the mean of its neighbors, and then away from this mean
+                with a slightly larger factor.
+            ``choice.Implicit(..)``: Moves the surface by mean curvature flow.
+            ``choice.Denoise(..)``: Filters the normals of the faces, so that similar normals of nearby faces become
+                nearly equal.
+        :param passes: The number of passes. At most 10000. If omitted, 1 for ``choice.Implicit`` and 10 for the other
+            methods. With ``choice.Denoise``, ``passes`` counts only the passes that filter the normals, not the passes
+            that then move the vertices.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
         :param pin: Vertices that do not move. If omitted, no vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
         :param boundary: How vertices on the boundary move. Defaults to ``"Fixed"``.
             ``"Fixed"``: The vertices do not move.
-            ``"Free"``: The boundary is smoothed as a set of curves, so the movement of a vertex on the boundary depends
+            ``"Free"``: The boundary is smoothed as a set of curves: the movement of a vertex on the boundary depends
                 only on its neighbors along the boundary.
-        :param keep_volume: Whether to restore the original volume of the mesh. To restore the volume, the operation
-            finally shifts all moved vertices along their normals by the same distance. The mesh must be closed.
-            Defaults to ``False``.
+        :param keep_volume: Whether to restore the original volume of the mesh after smoothing. To restore the volume,
+            the operation shifts all vertices that it is allowed to move by the same distance along their normals. The
+            mesh must be closed. Defaults to ``False``.
         :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
@@ -4722,27 +4939,30 @@ class MeshOperations:
         """Copies attributes from the nearest points of another mesh.
 
         The operation copies vertex, corner and face attributes from the mesh ``from_`` to elements of the same kind in
-        the changed mesh. Numbers and vectors of vertices and corners are interpolated inside the face that contains the
-        nearest point. Whole numbers, tags, and attributes that edits do not interpolate are copied from the nearest
-        corner of the face that contains the nearest point. Values of faces are copied from the face that contains the
-        nearest point. If the attribute already exists with the same type of values, it is overwritten. If the attribute
-        already exists with a different type of values, the operation fails.
+        the changed mesh. For each element, the operation finds the nearest point on the surface of ``from_``, and the
+        face that contains this point. Numbers and vectors of vertices and corners are interpolated inside this face.
+        Whole numbers, tags, and attributes that edits do not interpolate are copied from the corner of this face that
+        is nearest to the point. Values of faces are copied from this face. If the changed mesh already has the
+        attribute with the same type of values, the attribute is overwritten. If the type of values differs, the
+        operation fails. If the operation does not name its objects with ``on``, it changes all meshes except ``from_``.
 
-        All corners of a face take their values from one side of each seam, so no triangle is stretched across a seam of
-        texture coordinates. Usually the corners take their values from the side that is nearest to the center of the
-        face. Seams divide the source into charts. The chart that is nearest to a corner is used instead if it is much
-        nearer to the whole face than the chart that is nearest to the center of the face. This happens where parts of
-        the source intersect.
+        All corners of a face take their values from the same side of a seam of the source object. No triangle is
+        therefore stretched across the seam in the texture. Usually the side that is nearest to the center of the face
+        is used. Seams divide the source object into charts. Where parts of the source object intersect, the chart that
+        is nearest to the center can be far from the corners of the face. If the chart that is nearest to a corner is
+        much nearer to the whole face, this chart is used instead.
 
-        Elements whose distance from the source exceeds ``within`` keep their values, or get zeros if the attribute is
-        new. If the distance of a corner or of the center of a face exceeds ``within``, all corners of the face keep
-        their values or get zeros. The report counts the elements that are too far away.
+        Elements that are farther from the source object than ``within`` keep their values, or get zeros if the
+        attribute is new. All corners of a face are treated alike. If one of the corners or the center of the face is
+        too far away, all corners of the face keep their values or get zeros. The report counts the elements that take
+        no values from the source object.
 
         Example: ``mesh.transfer(from_=scan, attributes=["uv", "color"], within=0.01)``
 
         :param from_: The mesh with the attributes.
         :param attributes: The names of the attributes, for example ``["uv", "color"]``.
-        :param within: The largest distance from the source, in scene units. If omitted, there is no limit.
+        :param within: The largest distance from the mesh ``from_`` at which an element takes values, in scene units. If
+            omitted, there is no limit.
         :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
@@ -4762,12 +4982,14 @@ class MeshOperations:
         Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch
         with the surface.
 
-        With ``falloff="r"``, vertices near the selected vertices also move. At the distance d from the nearest selected
-        vertex, the movement is multiplied by the weight (1 - (d/r)²)². The weight is 1 at selected vertices and falls
-        smoothly to 0 at the distance r. Distances are measured along straight lines, not along the surface.
+        With ``falloff="r"``, vertices that are nearer than r to a selected vertex also move, but less far. At the
+        distance d from the nearest selected vertex, the movement is multiplied by the weight (1 - (d/r)²)². The weight
+        is 1 at selected vertices and falls smoothly to 0 at the distance r. Distances are measured along straight
+        lines, not along the surface.
 
         With ``by=choice.Distance(..)``, each vertex moves along its own normal, which is the mean of the normals of its
-        faces, weighted by their areas. Vertices without a normal do not move. The report counts them.
+        faces, weighted by the areas of the faces. Vertices without a normal, such as isolated vertices, do not move.
+        The report counts these vertices.
 
         Example: ``mesh.move_vertices(vertices=sel.Vertices([0]), by=choice.Offset((0, 0, 0.5)))``
 
@@ -4775,11 +4997,11 @@ class MeshOperations:
             ``meshwright.sel``.
         :param by: How the vertices move.
             ``choice.Offset(..)``: Moves by this offset along x, y and z, in scene units.
-            ``choice.Distance(..)``: Moves by this distance along the normal of each vertex, in scene units.
-            ``choice.To(..)``: Moves by one common offset, so that the mean of the selected vertices arrives at this
-                point.
-            ``choice.Rotate(..)``: Rotates around an axis through the mean of the selected vertices.
-            ``choice.Scale(..)``: Scales along x, y and z about the mean of the selected vertices.
+            ``choice.Distance(..)``: Moves each vertex by this distance along its normal, in scene units.
+            ``choice.To(..)``: Moves all selected vertices by the same offset, so that the mean of their positions
+                becomes this point.
+            ``choice.Rotate(..)``: Rotates around an axis through the mean of the positions of the selected vertices.
+            ``choice.Scale(..)``: Scales along x, y and z about the mean of the positions of the selected vertices.
         :param falloff: The distance from the selected vertices at which the movement has fallen to 0, in scene units.
             If omitted, only the selected vertices move.
         :param id, progress: See :class:`Mesh`.
@@ -4798,16 +5020,17 @@ class MeshOperations:
     ) -> Self:
         """Moves vertices along their normals, by amounts that vary over the surface.
 
-        Each vertex moves along its normal by ``distance`` times the value of ``by``. The normal of a vertex is the mean
-        of the normals of its faces, weighted by their areas. Vertices without a normal do not move. The report counts
-        them. Normals and tangents are dropped. Faces, element ids and other attributes do not change.
+        Each vertex moves along its normal by ``distance`` times the value that ``by`` gives for this vertex. The normal
+        of a vertex is the mean of the normals of its faces, weighted by the areas of the faces. Vertices without a
+        normal, such as isolated vertices, do not move. The report counts these vertices. Normals and tangents are
+        dropped. Faces, element ids and other attributes do not change.
 
-        The values are computed without functions whose results differ between machines, so the result is identical on
-        all machines.
+        The computation uses only functions that give the same results on all machines, so the displaced mesh is
+        identical on all machines.
 
         Example: ``mesh.displace(by=choice.Noise(scale=0.5, seed=7), distance=0.1)``
 
-        :param by: The values by which ``distance`` is multiplied.
+        :param by: The source of the values by which ``distance`` is multiplied, for example noise or an image.
             ``choice.Noise(..)``: Smooth noise from -1 to 1 (Perlin, "Improving Noise", 2002).
             ``choice.Random(..)``: A random number from -1 to 1 for each vertex.
             ``choice.Attribute(..)``: A vertex attribute that holds one number for each vertex.
@@ -4838,10 +5061,11 @@ class MeshOperations:
         """Bends a mesh, so that an axis becomes an arc of a circle.
 
         Vertices at or below ``from_`` do not move. Between ``from_`` and ``to``, the axis becomes an arc of the same
-        length, which turns by ``angle`` in total. Vertices above ``to`` move rigidly. Vertices between the axis and the
-        center of the circle move closer together, and vertices on the other side of the axis move apart. The distance
-        between the center of the circle and the axis is (to - from) / angle, with the angle in radians. Parts of the
-        mesh beyond the center of the circle turn inside out. Source: Barr, "Global and Local Deformations of Solid
+        length. The direction of the arc turns by ``angle`` from one end to the other. The part above ``to`` moves
+        rigidly with the end of the arc. Vertices between the axis and the center of the circle move closer together,
+        and vertices on the other side of the axis move apart. The distance between the center of the circle and the
+        axis is (to - from) / angle, with the angle in radians. Parts of the mesh that lie beyond the center of the
+        circle, as seen from the axis, turn inside out. Source: Barr, "Global and Local Deformations of Solid
         Primitives", 1984.
 
         Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch
@@ -4849,22 +5073,22 @@ class MeshOperations:
 
         Example: ``mesh.bend(axis="Z", angle=90)``
 
-        :param axis: The axis that becomes an arc.
+        :param axis: The direction of the axis that becomes an arc. The axis goes through the point ``about``.
             ``"X"``: The x axis.
             ``"Y"``: The y axis.
             ``"Z"``: The z axis.
         :param angle: The angle by which the axis turns from ``from_`` to ``to``, in degrees. A negative angle bends to
             the other side.
-        :param towards: The axis towards which the upper end bends. If omitted, the axis after ``axis`` in the order x,
-            y, z, x.
+        :param towards: The coordinate axis in whose positive direction the upper end bends. If omitted, the axis after
+            ``axis`` in the order x, y, z, x.
             ``"X"``: The x axis.
             ``"Y"``: The y axis.
             ``"Z"``: The z axis.
         :param about: A point on the axis. The coordinate of the point along the axis does not matter.
         :param from_: The coordinate along the axis at which the deformation starts. If omitted, the lowest coordinate
-            of the mesh.
+            of the mesh along the axis.
         :param to: The coordinate along the axis at which the deformation is complete. If omitted, the highest
-            coordinate of the mesh. Must not be less than ``from_``.
+            coordinate of the mesh along the axis. Must not be less than ``from_``.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
         :param id, progress: See :class:`Mesh`.
@@ -4886,26 +5110,27 @@ class MeshOperations:
     ) -> Self:
         """Rotates vertices around an axis, by an angle that grows along the axis.
 
-        The angle grows linearly from 0 at ``from_`` to ``angle`` at ``to``. Below ``from_`` and above ``to``, vertices
-        rotate by the angle of the nearer end. The volume changes only because edges stay straight, so the volume of a
-        fine mesh hardly changes. A twist by the opposite angle undoes a twist. Source: Barr, "Global and Local
-        Deformations of Solid Primitives", 1984.
+        The angle grows linearly from 0 at ``from_`` to ``angle`` at ``to``. Vertices below ``from_`` do not move, and
+        vertices above ``to`` rotate by ``angle``. A twist of a smooth surface would keep the volume exactly. The volume
+        of a mesh changes slightly, because its edges stay straight, but the change is small if the mesh is fine. A
+        second twist with the opposite angle and the same other parameters undoes the first twist. Source: Barr, "Global
+        and Local Deformations of Solid Primitives", 1984.
 
         Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch
         with the surface. Only vertices move, so refine the mesh first if its faces are large.
 
         Example: ``mesh.twist(axis="Z", angle=90)``
 
-        :param axis: The axis of the rotation.
+        :param axis: The direction of the axis of the rotation. The axis goes through the point ``about``.
             ``"X"``: The x axis.
             ``"Y"``: The y axis.
             ``"Z"``: The z axis.
         :param angle: The angle at ``to``, in degrees, counter-clockwise if the axis points to the viewer.
         :param about: A point on the axis. The coordinate of the point along the axis does not matter.
         :param from_: The coordinate along the axis at which the deformation starts. If omitted, the lowest coordinate
-            of the mesh.
+            of the mesh along the axis.
         :param to: The coordinate along the axis at which the deformation is complete. If omitted, the highest
-            coordinate of the mesh. Must not be less than ``from_``.
+            coordinate of the mesh along the axis. Must not be less than ``from_``.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
         :param id, progress: See :class:`Mesh`.
@@ -4927,25 +5152,26 @@ class MeshOperations:
     ) -> Self:
         """Scales vertices towards or away from an axis, by a factor that changes along the axis.
 
-        The factor changes linearly from 1 at ``from_`` to ``factor`` at ``to``. Below ``from_`` and above ``to``, the
-        factor of the nearer end applies. Coordinates along the axis do not change. Source: Barr, "Global and Local
-        Deformations of Solid Primitives", 1984.
+        The factor changes linearly from 1 at ``from_`` to ``factor`` at ``to``. Vertices below ``from_`` do not move,
+        and vertices above ``to`` are scaled by ``factor``. Coordinates along the axis do not change. Source: Barr,
+        "Global and Local Deformations of Solid Primitives", 1984.
 
         Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch
         with the surface. Only vertices move, so refine the mesh first if its faces are large.
 
         Example: ``mesh.taper(axis="Z", factor=0.5)``
 
-        :param axis: The axis. Points on the axis do not move.
+        :param axis: The direction of the axis. The axis goes through the point ``about``, and points on the axis do not
+            move.
             ``"X"``: The x axis.
             ``"Y"``: The y axis.
             ``"Z"``: The z axis.
         :param factor: The factor at ``to``. More than 0. A factor below 1 makes the upper end narrower.
         :param about: A point on the axis. The coordinate of the point along the axis does not matter.
         :param from_: The coordinate along the axis at which the deformation starts. If omitted, the lowest coordinate
-            of the mesh.
+            of the mesh along the axis.
         :param to: The coordinate along the axis at which the deformation is complete. If omitted, the highest
-            coordinate of the mesh. Must not be less than ``from_``.
+            coordinate of the mesh along the axis. Must not be less than ``from_``.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
         :param id, progress: See :class:`Mesh`.
@@ -4966,11 +5192,13 @@ class MeshOperations:
     ) -> Self:
         """Deforms vertices with a box of control points.
 
-        The box has a grid of ``size`` control points along x, y and z. ``moves`` moves some of the control points, and
-        the space in the box follows smoothly. Each point in the box moves to a sum of the control points with Bernstein
-        polynomials as weights (Sederberg, Parry, "Free-Form Deformation of Solid Geometric Models", 1986). If all
-        control points move by the same offset, the whole box moves by this offset. A control point attracts the
-        surface, but the surface usually does not reach it, except at the corners of the box.
+        The box contains a regular grid of control points. ``size`` gives the number of control points along x, y and z.
+        ``moves`` moves some of the control points, and the space in the box is deformed smoothly. The new position of a
+        point in the box is the weighted sum of the new positions of all control points, with Bernstein polynomials as
+        weights (Sederberg, Parry, "Free-Form Deformation of Solid Geometric Models", 1986). If all control points move
+        by the same offset, the whole box moves by this offset. If only one control point moves, the points in the box
+        move in the same direction, but less far. Only a point at a corner of the box moves as far as the control point
+        at this corner.
 
         Vertices outside the box do not move. Normals and tangents are dropped. Faces, element ids and other attributes
         do not change, so textures stretch with the surface. Only vertices move, so refine the mesh first if its faces
@@ -4978,11 +5206,14 @@ class MeshOperations:
 
         Example: ``mesh.lattice(size=(3, 3, 3), moves=[((2, 2, 2), (0.5, 0.5, 0.5))])``
 
-        :param size: The number of control points along x, y and z, from 2 to 16 each.
-        :param moves: The control points that move: their indices along x, y and z, counted from 0, and the offset in
-            scene units. A control point that is listed several times moves by the sum of its offsets.
-        :param min: The lowest corner of the box. If omitted, the lowest corner of the bounding box of the mesh.
-        :param max: The highest corner of the box. If omitted, the highest corner of the bounding box of the mesh.
+        :param size: The numbers of control points along x, y and z. Each number is from 2 to 16.
+        :param moves: The control points that move. Each entry consists of the indices of a control point along x, y and
+            z, which start at 0, and its offset in scene units. A control point that is listed several times moves by
+            the sum of its offsets.
+        :param min: The corner of the box with the lowest coordinates. If omitted, the same corner of the bounding box
+            of the mesh is used.
+        :param max: The corner of the box with the highest coordinates. If omitted, the same corner of the bounding box
+            of the mesh is used.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
         :param id, progress: See :class:`Mesh`.
@@ -5003,27 +5234,31 @@ class MeshOperations:
     ) -> Self:
         """Moves vertices onto the surface of another mesh (shrinkwrap).
 
-        Only vertices in ``vertices`` that are not in ``pin`` move. All other vertices keep their exact positions.
+        Only vertices in ``vertices`` that are not in ``pin`` move. All other vertices keep their exact positions. If
+        the operation does not name objects with ``on``, it acts on all meshes except the object that ``onto`` names.
         Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch
         with the surface.
 
-        Vertices that would move farther than ``distance`` do not move. With ``Normal`` and ``choice.Direction``, a
-        vertex moves along a line, and vertices whose line misses the surface do not move either. The report counts the
-        vertices that would move too far, and the vertices whose line misses the surface.
+        Vertices that would move farther than ``distance`` do not move. With ``along="Normal"``, a vertex moves along
+        the line of its normal, and with ``along=choice.Direction(..)``, along a ray in this direction. If this line or
+        ray misses the surface, the vertex does not move. The report counts the vertices that would move too far, and
+        the vertices whose line or ray misses the surface.
 
         Example: ``mesh.project(onto=scan, distance=0.1)``
 
-        :param onto: The mesh with the surface.
-        :param along: Where each vertex goes. Defaults to ``"Nearest"``.
+        :param onto: The mesh onto whose surface the vertices move.
+        :param along: How the operation finds the point of the surface to which a vertex moves. Defaults to
+            ``"Nearest"``.
             ``"Nearest"``: Moves to the nearest point of the surface.
-            ``"Normal"``: Moves to the nearest point of the surface on the line through the vertex along its normal, on
-                either side.
+            ``"Normal"``: Moves to the nearest point at which the surface meets the line through the vertex along its
+                normal.
             ``choice.Direction(..)``: Moves to the first point of the surface in this direction.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
         :param pin: Vertices that do not move. If omitted, no vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
-        :param distance: The largest distance that a vertex moves, in scene units. If omitted, any distance.
+        :param distance: The largest distance that a vertex is allowed to move, in scene units. If omitted, there is no
+            limit.
         :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
@@ -5041,12 +5276,14 @@ class MeshOperations:
         """Stores a quantity, such as a curvature or a distance, as an attribute of vertices or faces.
 
         Later operations can select elements by the attribute (``sel.Where``), move vertices by it (``displace()``),
-        show it in a picture (``picture()``), and save it to files (``save()``). The attribute is not updated when the
-        mesh changes. Positions and other attributes do not change. Quantities are computed in the space of the mesh,
-        without the transforms of nodes. The report states the lowest, the mean and the highest value of each object.
+        show it in a picture (``picture()``), and save it to files (``save()``). If a later operation changes the mesh,
+        the quantity is not computed again. Positions and other attributes do not change. Quantities are computed from
+        the coordinates that the mesh stores. The transforms of the nodes that place the mesh in the scene are not
+        applied. The report states the lowest, the mean and the highest value of each object.
 
-        An attribute of the same name is replaced if it belongs to the same elements (vertices or faces) and has one
-        floating-point number for each element. Otherwise the operation fails.
+        If the mesh already has an attribute of this name, the attribute is replaced. The operation fails if the
+        existing attribute belongs to a different kind of element, or does not hold one floating-point number for each
+        element.
 
         Example: ``mesh.measure(of="MeanCurvature")``
 
@@ -5058,7 +5295,7 @@ class MeshOperations:
             ``choice.PrincipalCurvature(..)``: A principal curvature at each vertex, in 1 / scene unit: an eigenvalue of
                 the curvature tensor of Cohen-Steiner and Morvan, 2003.
             ``"Area"``: The area of each face, in scene units².
-            ``"VertexArea"``: The area of each vertex, in scene units².
+            ``"VertexArea"``: The area of the surface that belongs to each vertex, in scene units².
             ``"MinAngle"``: The smallest angle of each face, in degrees.
             ``"AspectRatio"``: The aspect ratio of each face: 1 for regular polygons, and more than 1 for all other
                 polygons (Stimpson, Ernst, Knupp, Pébay, Thompson, "The Verdict Geometric Quality Library", 2007).
@@ -5068,17 +5305,16 @@ class MeshOperations:
                 scene units, by the heat method (Crane, Weischedel, Wardetzky, "Geodesics in Heat", 2013; Sharp, Crane,
                 2020).
             ``"Thickness"``: The thickness of the solid at each vertex, in scene units.
-            ``choice.Occlusion(..)``: The ambient occlusion of each vertex: the fraction of the rays from the vertex
-                that meet the mesh, from 0 (open) to 1 (enclosed).
+            ``choice.Occlusion(..)``: The ambient occlusion of each vertex.
             ``choice.Winding(..)``: The winding number of another mesh of the scene around each vertex: 1 inside, 0
                 outside, and numbers between 0 and 1 near gaps of the other mesh (Jacobson, Kavan, Sorkine-Hornung,
                 2013; Barill, Dickson, Schmidt, Levin, Jacobson, 2018).
-        :param name: The name of the attribute. If omitted, the attribute has the name of the quantity in lower case,
-            such as ``mean_curvature``. For principal curvatures, the default names are ``largest_curvature`` and
-            ``smallest_curvature``.
-        :param missing: The value for elements at which the quantity is not defined, such as the curvature of a vertex
-            without faces. The report counts these elements. If omitted, 0 for quantities that can be negative, and -1
-            for all others.
+        :param name: The name of the attribute. If omitted, the attribute gets the name of the quantity in lower case,
+            for example ``mean_curvature`` for ``MeanCurvature``. For principal curvatures, the default names are
+            ``largest_curvature`` and ``smallest_curvature``.
+        :param missing: The value for elements at which the quantity is not defined. For example, a vertex without faces
+            has no curvature. The report counts these elements. If omitted, the value is 0 for quantities that can be
+            negative, and -1 for all other quantities.
         :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change. Its ``attributes["mean_curvature"]``, or the attribute of the
             given name, is an array of the values.
@@ -5100,37 +5336,43 @@ class MeshOperations:
     ) -> Self:
         """Computes texture coordinates without overlaps.
 
-        The surface is cut into charts, which are flattened and packed into a square page. Charts grow from flat regions
-        as far as ``max_angle`` allows. The charts are flattened by least squares conformal maps (Levy and others, 2002)
-        and the hybrid method of Liu and others (2008). A chart is cut again if it would overlap itself or exceed
-        ``max_stretch``. It is also cut again if the ratio of the largest to the smallest stretch would exceed 1.15 on
-        more than 5 % of its area. All charts of a mesh have the same scale, and no chart is mirrored. A polygon stays
-        in one chart. Each mesh gets its own page, on which the charts are arranged as by ``pack_uvs()``.
+        The surface is cut into charts, which are connected parts of the surface. The charts are flattened and packed
+        into the page, the square of the texture with u and v from 0 to 1. Each chart grows from a flat region, as long
+        as the normals of its faces differ from their mean by at most ``max_angle``. Each chart is flattened by a least
+        squares conformal map (Levy and others, 2002), which the hybrid method of Liu and others (2008) then improves. A
+        chart is cut again if its flattened shape overlaps itself or exceeds ``max_stretch``. A chart is also cut again
+        if its angles are distorted too much. A small circle on the surface becomes an ellipse in the texture. On 95 %
+        of the area of a chart, the ratio of the axes of this ellipse is at most 1.15. All charts of a mesh have the
+        same scale, and no chart is mirrored. No polygon is divided between charts. Each mesh gets its own page, on
+        which the charts are arranged as by ``pack_uvs()``.
 
-        The coordinates are written to the corner attribute ``uv``, which is replaced if it exists. Edges at which
-        charts meet become seams. Positions, faces and other attributes do not change, but tangents are removed.
-        Zero-area faces have no area in the texture. The report counts them. If a polygon is bent so far that it
-        overlaps itself in the texture, the operation is refused as ``WrongPlace``. Before this operation, triangulate
-        polygons that would overlap themselves. With ``on_refusal="Skip"``, the triangles of such a polygon overlap in
-        the texture.
+        The coordinates are written to the corner attribute with the name ``uv``, which is replaced if it exists. Edges
+        at which charts meet become seams of the texture coordinates. Positions, faces and other attributes do not
+        change, but tangents are removed because they depend on the texture coordinates. Zero-area faces also have zero
+        area in the texture. The report counts the faces with zero area in the texture. If a polygon is bent so far that
+        it overlaps itself in the texture, the operation fails and gives the reason ``WrongPlace``. To avoid this
+        failure, triangulate such polygons before this operation. With ``on_refusal="Skip"``, the operation does not
+        fail, and the triangles of such a polygon overlap in the texture.
 
         Example: ``mesh.unwrap(max_angle=60)``
 
         :param seams: Edges that become borders of charts, for example ``sel.Tagged("seam")`` or
-            ``sel.Sharp(above=60)``. The algorithm also chooses borders itself. If omitted, the algorithm chooses all
-            borders. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
+            ``sel.Sharp(above=60)``. The algorithm adds more borders where charts need them. If omitted, the algorithm
+            chooses all borders. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
         :param max_angle: The largest angle between the normal of a face and the mean normal of its chart, in degrees.
             Smaller angles give more charts with less stretch. Defaults to ``70.0``.
-        :param max_stretch: The largest ratio between the area scale of a triangle and the area scale of its whole
-            chart. The area scale is the area in the texture divided by the area on the surface. Defaults to ``4.0``.
-        :param page: The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for any size.
-            The size only determines how large the padding is. Defaults to ``1024``.
-        :param padding: The number of empty texels around each chart. The distance between two charts is at least twice
-            this number. Defaults to 2.
+        :param max_stretch: The largest factor by which the area scale of a triangle is allowed to be larger or smaller
+            than the area scale of its whole chart. The area scale is the area in the texture divided by the area on the
+            surface. Defaults to ``4.0``.
+        :param page: The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for every size.
+            The size matters only for ``padding``, which is a number of texels. Defaults to ``1024``.
+        :param padding: The width of the empty border around each chart, in texels. The distance between two charts is
+            at least twice this width. Defaults to 2.
         :param uv: The name of the texture coordinates. Defaults to ``uv``.
         :param on_refusal: What to do if a polygon overlaps itself in the texture. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
-            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+            ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
+                element.
         :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change. Its ``attributes["uv"]`` has the coordinates of the corners,
             and ``corners`` has their vertices.
@@ -5148,22 +5390,23 @@ class MeshOperations:
     ) -> Self:
         """Moves, rotates and scales charts of texture coordinates so that they do not overlap and have the same scale.
 
-        A chart is a set of faces that are connected without seams of the texture coordinates. After the operation, the
-        area of each chart in the texture is proportional to its area on the surface. The shape of each chart does not
-        change, even if it is stretched, mirrored or overlaps itself. Each zero-area chart becomes a point. The report
-        counts zero-area charts and charts that overlap themselves. Each mesh gets its own page, that is, the whole
-        square of a texture. Tangents are removed, because charts are rotated.
+        A chart is a set of faces that are connected across edges at which the texture coordinates have no seam. After
+        the operation, the area of each chart in the texture is proportional to its area on the surface. The shape of
+        each chart in the texture does not change. The operation does not repair charts that are stretched or mirrored,
+        or that overlap themselves. A chart with zero area on the surface or in the texture becomes a point. The report
+        counts these zero-area charts, and the charts that overlap themselves. Each mesh gets its own page, that is, the
+        whole square of a texture. Tangents are removed, because charts are rotated.
 
-        Up to 256 charts can lie in the hollows and holes of each other. More charts are packed in rows, which is much
-        faster but leaves more of the page empty.
+        If a mesh has at most 256 charts, charts can be placed in the hollows and holes of other charts. If a mesh has
+        more charts, all charts are packed in rows. Rows are computed much faster, but leave more of the page empty.
 
         Example: ``mesh.pack_uvs(page=2048, padding=4)``
 
         :param uv: The name of the texture coordinates. Defaults to ``uv``.
-        :param page: The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for any size.
-            The size only determines how large the padding is. Defaults to ``1024``.
-        :param padding: The number of empty texels around each chart. The distance between two charts is at least twice
-            this number. Defaults to 2.
+        :param page: The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for every size.
+            The size matters only for ``padding``, which is a number of texels. Defaults to ``1024``.
+        :param padding: The width of the empty border around each chart, in texels. The distance between two charts is
+            at least twice this width. Defaults to 2.
         :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
@@ -5189,9 +5432,10 @@ class MeshOperations:
     ) -> Self:
         """Draws the scene into an image file.
 
-        The extension of the file determines the format. A single image has the extension ``.png``. With ``turntable``,
-        ``.gif`` gives an animated GIF, and ``.apng`` or ``.png`` gives an animated PNG. The scene does not change.
-        Drawing needs no GPU and gives the same bytes on every machine.
+        The extension of the file determines the format. Without ``turntable``, the picture is a single image, and the
+        extension must be ``.png``. With ``turntable``, the extension ``.gif`` gives an animated GIF, and ``.apng`` or
+        ``.png`` gives an animated PNG. The scene does not change. Drawing needs no GPU and gives the same bytes on
+        every machine.
 
         Example: ``mesh.picture(path="a.png", size=(64, 48), highlight=sel.Edges(sel.Sharp(above=30)), color_by={"of":
         "Valence"}, style={"wireframe": {}})``
@@ -5199,41 +5443,44 @@ class MeshOperations:
         :param path: The file. A relative path is relative to the working directory.
         :param size: The width and the height of each view in pixels.
         :param camera: The camera.
-            ``choice.Fit(..)``: Looks from a side, at the distance from which the picture shows the whole scene.
+            ``choice.Fit(..)``: Looks at the scene from a given side.
             ``choice.LookAt(..)``: Looks from one point to another point.
-        :param views: Several cameras, which replace ``camera``. The views of the cameras are placed side by side.
-        :param columns: The number of views in a row. If omitted, the number of views, but at most 4.
+        :param views: Several cameras, which replace ``camera``. The picture shows the views of all these cameras, side
+            by side.
+        :param columns: The number of views in each row of the picture. If omitted, up to 4 views share one row, and
+            more views are placed in rows of 4.
         :param style: The style: shading, lines, background.
             ``"shading"``: The lighting of surfaces.
-            ``"sharp"``: The minimum angle between the normals of two faces, in degrees, at which the edge between the
-                faces is shaded as sharp. This angle has no effect if the mesh has normals.
+            ``"sharp"``: The smallest angle between the normals of two faces at which the edge between the faces is
+                shaded as sharp, in degrees. This angle has no effect if the mesh stores normals.
             ``"occlusion"``: The strength of ambient occlusion, which darkens hollows, from 0 (none) to 1.
             ``"background"``: The background.
             ``"color"``: The color of all surfaces. If omitted, surfaces have the colors of the scene.
             ``"back"``: The color of the back of faces. The back is visible where a mesh is open or inside out.
-            ``"wireframe"``: Draws the edges of meshes, and grids on Bezier patches. Lines that are only a few pixels
-                apart are thinner, so that they do not cover the surface.
+            ``"wireframe"``: Draws the edges of meshes, and grid lines on Bezier patches. Lines that are only a few
+                pixels apart are drawn thinner, so that they do not cover the surface.
             ``"boundary"``: Draws the boundary edges of meshes.
             ``"creases"``: Draws crease edges. The width of a crease grows with its sharpness, up to twice ``width``.
-            ``"normals"``: Draws vertex normals as short lines. The value is the length of the lines as a fraction of
-                the size of the scene.
+            ``"normals"``: Draws vertex normals as short lines. The value is the length of the lines, as a fraction of
+                the radius of the bounding sphere of the scene.
             ``"points"``: Draws dots at all vertices of meshes and all points of polylines. The value is the diameter of
                 the dots in pixels.
             ``"control_nets"``: Draws the control nets of Bezier patches and the control polygons of curves.
-            ``"ids"``: Labels vertices or faces with their ids. Only small meshes can be labeled.
+            ``"ids"``: Labels vertices or faces with their ids. Fails if a mesh has more than 2000 of these elements.
             ``"curve_width"``: The width of curves and polylines in pixels.
         :param highlight: Elements to highlight in orange, as in ``sel.Edges(sel.Sharp(above=30))`` or
             ``sel.Faces(sel.Tagged("top"))``. ``"All"``, ``"Boundary"``, ``"Isolated"``, ``"SelfIntersecting"``, or a
             value of ``meshwright.sel``.
         :param highlight_width: The width of highlighted edges and the diameter of highlighted vertices, in pixels. The
-            default width and the default diameter depend on the shorter side of a view: 2.8 and 7.5 for 240 pixels, 3.4
-            and 10 for 480, 4 and 13 for 960, 8 and 26 for 1920. If there are many highlighted vertices, they are drawn
-            smaller. Hidden edges are drawn faintly, and hidden vertices as rings.
+            defaults grow with the shorter side of a view. For a side of 240 pixels, the width is 2.8 and the diameter
+            7.5. For 480 pixels, they are 3.4 and 10; for 960 pixels, 4 and 13; for 1920 pixels, 8 and 26. If there are
+            many highlighted vertices, their default diameter is smaller. Edges behind a surface are drawn faintly, and
+            vertices behind a surface as rings.
         :param marks: More selections of elements to highlight, each with its own color.
             ``"of"``: The elements.
             ``"color"``: The color.
-            ``"width"``: The width of edges and the diameter of vertices, in pixels. If omitted, the defaults of
-                ``highlight_width``.
+            ``"width"``: The width of edges and the diameter of vertices, in pixels. If omitted, the defaults are those
+                of ``highlight_width``.
         :param color_by: What the colors of the surface show: a quantity (``"Valence"``, ``"MinAngle"``, ``"Area"``,
             ``"DihedralAngle"``, ``"MeanCurvature"``, ``"GaussianCurvature"``, or a value of ``meshwright.choice``), the
             name of an attribute, or a mapping with more details.
@@ -5241,12 +5488,13 @@ class MeshOperations:
             ``"map"``: The color map. The default is ``Classes`` for valences, ``Diverging`` for curvatures, and
                 ``Viridis`` for all other quantities.
             ``"range"``: The values that the first and the last color represent, as in ``(0, 60)``. If omitted, the
-                range depends on the values of the quantity. For curvatures, the range is symmetric about 0. It leaves
-                out the lowest and the highest eighth of the values, or fewer values if all remaining values are 0.
-            ``"legend"``: Whether a legend in a corner explains the colors.
+                range is computed from the values of the quantity. For curvatures, the range is symmetric about 0, and
+                the lowest and the highest eighth of the values are ignored. If all remaining values are 0, fewer values
+                are ignored.
+            ``"legend"``: Whether a legend in a corner of the picture explains the colors.
         :param turntable: If given, the picture is an animation in which the camera moves once around the scene.
             ``"frames"``: The number of images.
-            ``"seconds"``: The duration of the turn.
+            ``"seconds"``: The duration of the turn, in seconds.
         :param images: The folder of texture images that are not stored next to their model. If omitted, the working
             directory. Missing images are not drawn, and the report lists them.
         :param id, progress: See :class:`Mesh`.
@@ -5272,25 +5520,29 @@ class MeshOperations:
         """Draws Bezier curves, and de Casteljau's construction of their points, into an image file.
 
         The figure has one panel for each combination of a curve and a value of ``t``. With ``by_level``, the figure has
-        one panel for each combination of a curve, a value of ``t`` and a level. A panel shows the curve, its control
-        polygon, every level of de Casteljau's algorithm in a different color, and the constructed point. Both axes have
-        the same scale. With ``by_level``, each panel shows one level more than the previous panel for the same value of
-        ``t``. Only the last panel for a value of ``t`` shows the constructed point. The extension of the file
-        determines the format: ``.svg`` or ``.png``. The scene does not change.
+        one panel for each combination of a curve, a value of ``t`` and a level of de Casteljau's algorithm. A panel
+        shows the curve, its control polygon, every level of the algorithm in a different color, and the constructed
+        point. Both axes have the same scale. With ``by_level``, the panels for a curve and a value of ``t`` form a
+        sequence. The first panel shows only the first level of the algorithm, and each further panel shows one level
+        more. Only the last of these panels shows the constructed point. The extension of the file determines the
+        format: ``.svg`` or ``.png``. The scene does not change.
 
         Example: ``mesh.curve_figure(path="figure.svg", t=[0.25, 0.5])``
 
         :param path: The file. A relative path is relative to the working directory.
-        :param t: The parameters of the constructed points, from 0 (start) to 1 (end). If empty, only the curves and
-            their control polygons are drawn.
+        :param t: The curve parameters at which points are constructed, from 0 (start of the curve) to 1 (end). If
+            empty, only the curves and their control polygons are drawn.
         :param by_level: Whether each level of the algorithm has its own panel. If false, one panel shows all levels.
             Defaults to ``False``.
-        :param before: The name of a curve that shows an earlier state of the other curves. The earlier curve is drawn
-            faintly behind the other curves, with arrows to the control points that moved.
-        :param width: The width of the figure in SVG pixels. The font size is 12 to 19 pixels. Defaults to ``640``.
-        :param columns: The number of panels in a row. If omitted, the number of values of ``t`` (with ``by_level``, the
-            number of levels), but at most 4.
-        :param scale: The number of PNG pixels per SVG pixel. Has no effect on ``.svg`` files. Defaults to ``2``.
+        :param before: The name of a curve that is the earlier state of the drawn curves. The earlier curve is drawn
+            faintly behind each drawn curve. Arrows lead from the old positions of control points to their new
+            positions.
+        :param width: The width of the figure in SVG pixels. The font size is 12 pixels in narrow panels and up to 19
+            pixels in wide panels. Defaults to ``640``.
+        :param columns: The number of panels in each row. If omitted, each row has as many panels as ``t`` has values
+            (with ``by_level``, as the curve has levels), but at most 4.
+        :param scale: The width and height of one SVG pixel, in pixels of a ``.png`` file. Has no effect on ``.svg``
+            files. Defaults to ``2``.
         :param labels: Whether points are labeled with their names. Defaults to ``True``.
         :param legend: Whether there is a legend below the panels. Defaults to ``True``.
         :param id, progress: See :class:`Mesh`.
@@ -5312,13 +5564,13 @@ class MeshOperations:
 
         Each half-edge is drawn as an arrow beside its edge and inside its face, and is labeled with its name. A thin
         curve leads from the head of the arrow to the next half-edge of the face. The twin of a half-edge is on the
-        other side of the edge. Half-edges on the boundary have no face and are gray. The viewer looks at the faces from
-        the direction of their mean normal. Faces that face away from the viewer or are seen nearly edge-on are left
-        out, and the report counts them. The extension of the file determines the format: ``.svg`` or ``.png``. The
-        scene does not change.
+        other side of the edge. At a boundary edge, the half-edge without a face is also drawn, in gray. The viewer
+        looks at the faces from the direction of their mean normal. Faces that face away from the viewer or are seen
+        nearly edge-on are left out, and the report counts them. The extension of the file determines the format:
+        ``.svg`` or ``.png``. The scene does not change.
 
         The name of an element is a letter followed by the id of the element: ``v`` for vertices, ``h`` for half-edges,
-        ``f`` for faces. Half-edges ``2e`` and ``2e + 1`` belong to edge ``e``.
+        ``f`` for faces. The half-edges with the ids ``2e`` and ``2e + 1`` belong to the edge with the id ``e``.
 
         Example: ``mesh.half_edge_figure(path="figure.svg")``
 
@@ -5326,7 +5578,8 @@ class MeshOperations:
         :param faces: The faces to draw, at most 200. Defaults to ``"All"``. ``"All"``, ``"Boundary"``,
             ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
         :param width: The width of the figure in SVG pixels. Defaults to ``640``.
-        :param scale: The number of PNG pixels per SVG pixel. Has no effect on ``.svg`` files. Defaults to ``2``.
+        :param scale: The width and height of one SVG pixel, in pixels of a ``.png`` file. Has no effect on ``.svg``
+            files. Defaults to ``2``.
         :param id, progress: See :class:`Mesh`.
         :returns: The same mesh.
         """
@@ -5347,9 +5600,9 @@ class MeshOperations:
         """Draws the charts of the texture coordinates of a mesh into an image file.
 
         A gray frame shows the page of the texture, where u and v are from 0 to 1; v points upwards. Thick lines are the
-        borders of charts, and thin lines are the other edges. Coordinates outside the page are also drawn. To make room
-        for coordinates outside the page, the figure becomes higher or its scale becomes smaller. The extension of the
-        file determines the format: ``.svg`` or ``.png``. The scene does not change.
+        borders of charts, and thin lines are the other edges. Charts outside the page are also drawn. To make room for
+        these charts, the figure becomes higher or its scale becomes smaller. The extension of the file determines the
+        format: ``.svg`` or ``.png``. The scene does not change.
 
         Example: ``mesh.uv_picture(path="uv.svg")``
 
@@ -5357,11 +5610,12 @@ class MeshOperations:
         :param uv: The name of the texture coordinates. Defaults to ``uv``.
         :param fill: What the colors inside charts show. Defaults to ``"Charts"``.
             ``"None"``: No colors.
-            ``"Charts"``: The charts, in eight colors that repeat.
-            ``"Stretch"``: The stretch of angles.
+            ``"Charts"``: The charts: each chart has one of eight colors.
+            ``"Stretch"``: The distortion of angles.
         :param edges: Whether edges inside charts are drawn. Defaults to ``True``.
         :param width: The width of the figure in SVG pixels. Defaults to ``640``.
-        :param scale: The number of PNG pixels per SVG pixel. Has no effect on ``.svg`` files. Defaults to ``2``.
+        :param scale: The width and height of one SVG pixel, in pixels of a ``.png`` file. Has no effect on ``.svg``
+            files. Defaults to ``2``.
         :param id, progress: See :class:`Mesh`.
         :returns: The same mesh.
         """

@@ -29,7 +29,7 @@ def __dir__() -> list[str]:
 
 
 def Angles(*, azimuth: float | Arg | Ron, elevation: float | Arg | Ron) -> Choice:
-    """From any direction.
+    """From the direction that the two angles give.
 
     For ``choice.Fit(from_=..)``.
 
@@ -45,20 +45,21 @@ def Attribute(*, name: str | Arg | Ron, component: int | Arg | Ron | None = None
 
     - In ``displace(by=..)``, as ``choice.Attribute(name=..)``: A vertex attribute that holds one number for each
       vertex.
-    - In ``picture(color_by=..)``, as ``choice.Attribute(name=.., component=..)``: An attribute. If several domains have
-      an attribute of this name, the attribute of the first of them is used, in the order vertices, faces, corners,
-      edges.
+    - In ``picture(color_by=..)``, as ``choice.Attribute(name=.., component=..)``: An attribute. If several kinds of
+      elements have an attribute of this name, the first kind in this order is used: vertices, faces, corners, edges.
 
     :param name: The name of the attribute.
-    :param component: The index of the component of a vector, from 0. If omitted, the length of the vector is used.
+    :param component: The index of the component of a vector, which starts at 0. If omitted, the length of the vector is
+        used.
     """
     return Choice('Attribute', name=name, component=component)
 
 
 
 def Denoise(*, angle: float | Arg | Ron | None = None) -> Choice:
-    """Filters the normals of the faces, so that similar normals become equal, then moves the vertices to fit the
-    normals.
+    """Filters the normals of the faces, so that similar normals of nearby faces become nearly equal.
+
+    Then moves the vertices so that the faces fit the filtered normals.
 
     For ``smooth(by=..)``.
 
@@ -88,12 +89,13 @@ def Distance(
     """The meaning depends on the parameter.
 
     - In ``extrude_faces(by=..)``, as ``choice.Distance(value)``: The distance along the normal of each region, in scene
-      units. A negative distance moves the faces inwards. The normal is the mean of the face normals, weighted by area.
-    - In ``move_vertices(by=..)``, as ``choice.Distance(value)``: Moves by this distance along the normal of each
-      vertex, in scene units. A negative distance moves vertices inwards.
+      units. A region consists of selected faces that are connected by edges. Its normal is the mean of the normals of
+      these faces, weighted by area. A negative distance moves the faces inwards.
+    - In ``move_vertices(by=..)``, as ``choice.Distance(value)``: Moves each vertex by this distance along its normal,
+      in scene units. A negative distance moves vertices inwards.
     - In ``measure(of=..)``, as ``choice.Distance(to=.., signed=..)``: The distance from each vertex to the nearest
-      point of another mesh, in scene units. Without ``on``, a method of a scene measures all meshes except the mesh to
-      which distances are measured.
+      point of another mesh, in scene units. If the operation does not name objects with ``on``, it measures from all
+      meshes except the other mesh itself.
 
     :param to: The mesh to which distances are measured. For a scene or a recipe, the name of its object.
     :param signed: Whether distances are negative inside the other mesh, that is, where its winding number is more than
@@ -104,9 +106,9 @@ def Distance(
 
 
 def DistanceTo(value: str | Arg | Ron, /) -> Choice:
-    """The distance of each vertex from the nearest point of the meshes of a file, in scene units.
+    """The distance of each vertex from the nearest point of the meshes in another file, in scene units.
 
-    A relative path is relative to the working directory; in a recipe, to the folder of the recipe.
+    The path of the file is relative to the folder of the recipe.
 
     For ``picture(color_by=..)``.
     """
@@ -134,21 +136,23 @@ def Fit(
     margin: float | Arg | Ron | None = None,
     steady: bool | Arg | Ron | None = None,
 ) -> Choice:
-    """Looks from a side, at the distance from which the picture shows the whole scene.
+    """Looks at the scene from a given side.
+
+    The distance of the camera is chosen so that the whole scene fits into the picture.
 
     For ``picture(camera=..)`` and ``picture(views=[..])``.
 
     :param from_: The side from which the camera looks. Defaults to ``"ThreeQuarter"``.
-        ``"Front"``: From the front: the side where z is large if y points upwards, and where y is small if z points
-            upwards.
+        ``"Front"``: From the front.
         ``"Back"``: From the back, which is opposite to the front.
         ``"Left"``: From the side where x is small.
         ``"Right"``: From the side where x is large.
         ``"Top"``: From above.
         ``"Bottom"``: From below.
         ``"Isometric"``: From the front, right and above, so that the three axes are equally long in the picture.
-        ``"ThreeQuarter"``: From the front, 30 degrees towards the side where x is large, and 22 degrees above.
-        ``choice.Angles(..)``: From any direction.
+        ``"ThreeQuarter"``: From the front, but turned by 30 degrees towards the side where x is large, and raised by 22
+            degrees.
+        ``choice.Angles(..)``: From the direction that the two angles give.
     :param up: The axis that points upwards. Defaults to ``"Y"``.
         ``"Y"``: The y axis, as in glTF.
         ``"Z"``: The z axis, as in most CAD programs.
@@ -156,8 +160,10 @@ def Fit(
     :param projection: The projection.
         ``"Orthographic"``: Parallel projection: the size of an object does not depend on its distance.
         ``choice.Perspective(..)``: Perspective projection, as in a photograph.
-    :param margin: The empty margin at each border, as a fraction of the picture. Defaults to ``0.05``.
-    :param steady: Whether the scale is the same from every direction, as needed for a turntable. Defaults to ``False``.
+    :param margin: The empty margin at each border of the picture, as a fraction of the width (left and right) or height
+        (top and bottom). Defaults to ``0.05``.
+    :param steady: Whether the scale is the same from every direction. An animation in which the camera turns around the
+        scene needs this. Defaults to ``False``.
     """
     return Choice('Fit', from_=from_, up=up, projection=projection, margin=margin, steady=steady)
 
@@ -167,8 +173,8 @@ def Geodesic(*, from_: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | R
     """The distance along the surface from each vertex to the nearest selected vertex, in scene units, by the heat
     method (Crane, Weischedel, Wardetzky, "Geodesics in Heat", 2013; Sharp, Crane, 2020).
 
-    On fine meshes of smooth surfaces, the mean error is below 1 %. A vertex has no distance if no path of edges joins
-    it to a selected vertex.
+    On fine meshes of smooth surfaces, the mean error is below 1 % of the largest distance. If no path of edges joins a
+    vertex to a selected vertex, the distance of this vertex is not defined.
 
     For ``measure(of=..)``.
 
@@ -182,10 +188,10 @@ def Geodesic(*, from_: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | R
 def Image(*, path: str | Arg | Ron, uv: str | Arg | Ron | None = None) -> Choice:
     """The brightness of an image (a height map), from 0 (black) to 1 (white), at the texture coordinates of the vertex.
 
-    Brightness is the mean of red, green and blue as they are stored in the file. The operation interpolates between the
-    pixels. Where the texture coordinates are less than 0 or more than 1, the image is repeated. A vertex on a seam
-    moves by the mean of the values at its corners. Gray PNG files with 16 bits per pixel give smoother surfaces than
-    files with 8 bits.
+    Brightness is the mean of red, green and blue as they are stored in the file. Between the centers of pixels, the
+    brightness is interpolated. Where the texture coordinates are less than 0 or more than 1, the image is repeated. A
+    vertex on a seam has several texture coordinates; its value is the mean of the values at its corners. Gray PNG files
+    with 16 bits per pixel give smoother surfaces than files with 8 bits.
 
     For ``displace(by=..)``.
 
@@ -198,9 +204,10 @@ def Image(*, path: str | Arg | Ron, uv: str | Arg | Ron | None = None) -> Choice
 
 
 def Implicit(*, time: float | Arg | Ron) -> Choice:
-    """Moves the surface by mean curvature flow for the given time, in one stable step.
+    """Moves the surface by mean curvature flow.
 
-    Details smaller than the square root of the time disappear, regardless of the density of the mesh.
+    Each pass is one stable time step of the given length. Details smaller than the square root of the time disappear,
+    regardless of how dense the vertices are.
 
     For ``smooth(by=..)``.
 
@@ -260,8 +267,8 @@ def LookAt(
         ``"Y"``: The y axis, as in glTF.
         ``"Z"``: The z axis, as in most CAD programs.
         ``"Auto"``: The z axis if the scene stands on the plane z = 0 but not on the plane y = 0; else the y axis.
-    :param projection: The projection. With ``Orthographic``, the picture shows the same height, in scene units, as a
-        perspective picture with a field of view of 30 degrees shows at the distance of ``to``.
+    :param projection: The projection. With ``Orthographic``, the picture has the scale that a perspective picture with
+        a field of view of 30 degrees has at the point ``to``.
         ``"Orthographic"``: Parallel projection: the size of an object does not depend on its distance.
         ``choice.Perspective(..)``: Perspective projection, as in a photograph.
     """
@@ -272,7 +279,8 @@ def LookAt(
 def Noise(*, scale: float | Arg | Ron, seed: int | Arg | Ron | None = None) -> Choice:
     """Smooth noise from -1 to 1 (Perlin, "Improving Noise", 2002).
 
-    The value depends only on the position, so vertices at the same position move by the same amount.
+    At a vertex, the value depends only on the position of the vertex, so vertices at the same position have the same
+    value.
 
     For ``displace(by=..)``.
 
@@ -285,9 +293,9 @@ def Noise(*, scale: float | Arg | Ron, seed: int | Arg | Ron | None = None) -> C
 
 
 def Occlusion(*, rays: int | Arg | Ron | None = None, seed: int | Arg | Ron | None = None) -> Choice:
-    """The ambient occlusion of each vertex: the fraction of the rays from the vertex that meet the mesh, from 0 (open)
-    to 1 (enclosed).
+    """The ambient occlusion of each vertex.
 
+    Rays start at the vertex, and the value is the fraction of rays that hit the mesh, from 0 (open) to 1 (enclosed).
     The density of the rays is proportional to the cosine of their angle to the normal.
 
     For ``measure(of=..)``.
@@ -354,7 +362,7 @@ def PrincipalCurvature(value: Literal['Largest', 'Smallest'] | Arg | Ron, /) -> 
 def Random(*, seed: int | Arg | Ron | None = None) -> Choice:
     """A random number from -1 to 1 for each vertex.
 
-    The number depends on the id of the vertex.
+    The number depends only on the seed and on the id of the vertex.
 
     For ``displace(by=..)``.
 
@@ -366,7 +374,7 @@ def Random(*, seed: int | Arg | Ron | None = None) -> Choice:
 
 
 def Rotate(*, axis: Literal['X', 'Y', 'Z'] | Arg | Ron, angle: float | Arg | Ron) -> Choice:
-    """Rotates around an axis through the mean of the selected vertices.
+    """Rotates around an axis through the mean of the positions of the selected vertices.
 
     For ``move_vertices(by=..)``.
 
@@ -381,7 +389,7 @@ def Rotate(*, axis: Literal['X', 'Y', 'Z'] | Arg | Ron, angle: float | Arg | Ron
 
 
 def Scale(value: Sequence[float] | NDArray[Any] | Arg | Ron, /) -> Choice:
-    """Scales along x, y and z about the mean of the selected vertices.
+    """Scales along x, y and z about the mean of the positions of the selected vertices.
 
     A factor of 0 along an axis gives all selected vertices the same coordinate along this axis.
 
@@ -392,7 +400,7 @@ def Scale(value: Sequence[float] | NDArray[Any] | Arg | Ron, /) -> Choice:
 
 
 def Tag(value: str | Arg | Ron, /) -> Choice:
-    """The first part has the faces with the tag of this name, and the second part all other faces.
+    """Two parts: the first part has the faces with the tag of this name, and the second part has all other faces.
 
     A part without faces is left out.
 
@@ -408,10 +416,10 @@ def Taubin(
     factor: float | Arg | Ron | None = None,
     pass_band: float | Arg | Ron | None = None,
 ) -> Choice:
-    """Moves each vertex towards the mean of its neighbors, and then back by a slightly larger factor.
+    """Moves each vertex towards the mean of its neighbors, and then away from this mean with a slightly larger factor.
 
-    Removes noise, and keeps larger shapes and the volume nearly unchanged. One pass consists of the movement towards
-    the mean and the movement back.
+    This method removes noise, but keeps larger shapes and the volume nearly unchanged. One pass consists of both
+    movements.
 
     For ``smooth(by=..)``.
 
@@ -421,15 +429,15 @@ def Taubin(
     :param factor: The distance of the movement towards the mean, as a fraction of the distance from the vertex to the
         mean. From 0 to 1, exclusive. Factors that would amplify noise are refused. With the default ``pass_band``,
         factors of more than about 0.7 are refused. Defaults to 0.33.
-    :param pass_band: The frequency below which shapes are kept. A lower value smooths more. From 0 to 1, exclusive.
-        Defaults to 0.05.
+    :param pass_band: The frequency below which shapes are kept. The frequencies of a mesh are from 0 (large shapes) to
+        2 (noise between neighboring vertices). A lower value smooths more. From 0 to 1, exclusive. Defaults to 0.05.
     """
     return Choice('Taubin', weights=weights, factor=factor, pass_band=pass_band)
 
 
 
 def To(value: Sequence[float] | NDArray[Any] | Arg | Ron, /) -> Choice:
-    """Moves by one common offset, so that the mean of the selected vertices arrives at this point.
+    """Moves all selected vertices by the same offset, so that the mean of their positions becomes this point.
 
     For ``move_vertices(by=..)``.
     """
@@ -441,8 +449,8 @@ def Winding(*, of: Mesh | str | Arg | Ron) -> Choice:
     """The winding number of another mesh around each vertex: 1 inside, 0 outside, and numbers between 0 and 1 near gaps
     of the other mesh (Jacobson, Kavan, Sorkine-Hornung, 2013; Barill, Dickson, Schmidt, Levin, Jacobson, 2018).
 
-    The error is usually below 0.001. Without ``on``, a method of a scene measures all meshes except the mesh whose
-    winding number is computed.
+    The error is usually below 0.001. If the operation does not name objects with ``on``, it measures at the vertices of
+    all meshes except the other mesh itself.
 
     For ``measure(of=..)``.
 

@@ -394,7 +394,8 @@ def Output(*, path: str | Arg | Ron, as_: str | Arg | Ron, tolerance: int | Arg 
     """A file that an operation writes equals a reference file, which ``meshwright test --update`` creates and updates.
 
     Pictures (.png, .apng) are compared pixel by pixel. Mesh files are compared by the objects that are read from them,
-    and all other files byte by byte. Differences in the recorded provenance are ignored.
+    and all other files byte by byte. Differences in the recorded provenance, which says how the file was made, are
+    ignored.
 
     :param path: The path of the written file, relative to the output folder, as in the operation that writes the file.
     :param as_: The path of the reference file, relative to the recipe's folder. The file must be inside this folder.

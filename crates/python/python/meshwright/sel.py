@@ -48,7 +48,7 @@ def And(
 def Between(a: int | Arg, b: int | Arg, /) -> Choice:
     """The edge between two vertices, given by their ids.
 
-    Refused if no edge joins them.
+    Refused if no edge joins these two vertices.
     """
     return Choice('Between', a, b)
 
@@ -56,7 +56,7 @@ def Between(a: int | Arg, b: int | Arg, /) -> Choice:
 Boundary = Choice('Boundary')
 """The meaning depends on what is selected.
 
-- As a selection of vertices: Vertices with a boundary edge.
+- As a selection of vertices: Vertices with a boundary edge, which is an edge with a face on one side only.
 - As a selection of edges: Boundary edges: edges with a face on one side only.
 - As a selection of faces: Faces with at least one boundary edge.
 """
@@ -97,8 +97,8 @@ def Degree(value: int | Arg | Ron, /) -> Choice:
 def EdgeLoop(value: Literal['All', 'Boundary'] | Choice | Arg | Ron, /) -> Choice:
     """The given edges and all edge loops through them.
 
-    An edge loop continues straight across each interior vertex that has four edges. An edge loop that starts at a
-    boundary edge follows the boundary.
+    At an interior vertex with four edges, an edge loop continues with the opposite edge. At every other vertex, it
+    ends. An edge loop that starts at a boundary edge follows the boundary instead.
     """
     return Choice('EdgeLoop', value)
 
@@ -107,7 +107,8 @@ def EdgeLoop(value: Literal['All', 'Boundary'] | Choice | Arg | Ron, /) -> Choic
 def EdgeRing(value: Literal['All', 'Boundary'] | Choice | Arg | Ron, /) -> Choice:
     """The given edges and all edge rings through them.
 
-    An edge ring passes through each face with four corners, from an edge to the opposite edge.
+    In a face with four corners, an edge ring passes from an edge to the opposite edge. The ring ends at the boundary
+    and at faces with a different number of corners.
     """
     return Choice('EdgeRing', value)
 
@@ -151,8 +152,9 @@ def Expand(
     to_angle: float | Arg | Ron,
     of: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron,
 ) -> Choice:
-    """The given faces, and all faces that can be reached from them across edges at which the normals of the two faces
-    differ by at most the angle ``to_angle``.
+    """The given faces, and all faces that are connected to them across nearly flat edges.
+
+    At a nearly flat edge, the normals of the two faces differ by at most the angle ``to_angle``.
 
     :param to_angle: The largest angle between the normals of two neighboring faces, in degrees, from 0 (flat) to 180.
     :param of: The faces to start from. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
@@ -167,9 +169,9 @@ def Expect(
     count: int | Arg | Ron,
     of: Literal['All', 'Boundary', 'Isolated', 'SelfIntersecting'] | Choice | Arg | Ron,
 ) -> Choice:
-    """All elements of the selection ``of``.
+    """The elements of the selection ``of``, which must have exactly ``count`` elements.
 
-    Refused unless the selection has exactly ``count`` elements.
+    Otherwise the operation fails with the reason ``Expectation``.
 
     :param count: The expected number of elements.
     :param of: The selection to count. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
@@ -266,8 +268,8 @@ def InsideOf(value: Mesh | str | Arg | Ron, /) -> Choice:
     - As a selection of edges: The edges whose vertices are all inside another mesh.
     - As a selection of faces: The faces whose vertices are all inside another mesh.
 
-    A point is inside if the winding number of the mesh around the point is above 1/2 or below -1/2. The mesh can have
-    small gaps.
+    A point is inside if the winding number of the mesh around the point is above 1/2 or below -1/2. Small gaps in the
+    mesh are allowed.
 
     :param value: The mesh. For a scene or a recipe, the name of its object.
     """
@@ -292,7 +294,7 @@ def Longest(
     count: int | Arg | Ron | None = None,
     of: Literal['All', 'Boundary'] | Choice | Arg | Ron | None = None,
 ) -> Choice:
-    """The longest edges.
+    """The ``count`` longest edges of the selection ``of``.
 
     If several edges have the same length, the edges with the lowest ids are chosen.
 
@@ -373,9 +375,10 @@ def Random(
     seed: int | Arg | Ron,
     of: Literal['All', 'Boundary', 'Isolated', 'SelfIntersecting'] | Choice | Arg | Ron | None = None,
 ) -> Choice:
-    """A random choice.
+    """A random choice of ``count`` elements from the selection ``of``.
 
-    The same seed in the same operation gives the same choice.
+    The same step with the same seed makes the same choice in each run. Two steps with the same seed choose
+    independently of each other.
 
     :param count: The number of elements. If fewer are available, all are selected.
     :param seed: The seed. A different seed gives a different choice.
@@ -388,8 +391,8 @@ def Random(
 SelfIntersecting = Choice('SelfIntersecting')
 """Faces that intersect another face of the object.
 
-Adjacent faces intersect only if they share points other than their common vertices and edges. Vertices at the same
-position count as the same vertex.
+Two adjacent faces count as intersecting only if they share points other than their common vertices and edges. Vertices
+at the same position count as the same vertex.
 """
 
 

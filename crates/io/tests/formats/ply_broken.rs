@@ -256,12 +256,18 @@ fn lines_must_have_the_values_that_the_header_declares() {
 
 #[test]
 fn positions_must_be_finite() {
-    for word in ["nan", "inf", "-INF", "-nan(ind)", "1e999"] {
+    for (word, message) in [
+        ("nan", "expected the coordinate `y` to be a finite number"),
+        ("inf", "expected the coordinate `y` to be a finite number"),
+        ("-INF", "expected the coordinate `y` to be a finite number"),
+        (
+            "-nan(ind)",
+            "expected the coordinate `y` to be a finite number",
+        ),
+        ("1e999", "expected a finite number, found `1e999`"),
+    ] {
         let vertices = format!("0 0 0\n1 {word} 0\n0 1 0\n");
-        assert_error(
-            text(&vertices, "3 0 1 2\n"),
-            "11:3: expected the coordinate `y` to be a finite number",
-        );
+        assert_error(text(&vertices, "3 0 1 2\n"), &format!("11:3: {message}"));
     }
     let mut bytes = binary(&ints(&[3, 0, 1, 2]));
     let at = bytes.len() - 16 - 8;

@@ -110,7 +110,7 @@ impl Document {
     }
 }
 
-/// Returns the part at `index`. `pointer` is the location that refers to this part, for errors.
+/// Returns the part at `index`. Errors name `pointer`, the location of the reference to this part.
 ///
 /// # Errors
 ///

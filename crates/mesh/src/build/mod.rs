@@ -104,8 +104,9 @@ pub enum NonManifold {
     /// and vertices until the mesh is a manifold. The [`BuildReport`] lists all of these repairs.
     #[default]
     Split,
-    /// Like [`Split`](Self::Split), but every polygon keeps its orientation: if two neighbors run along
-    /// their common edge in the same direction, the edge is split.
+    /// Like [`Split`](Self::Split), but every polygon keeps its orientation: if two neighbors run along their common
+    /// edge in the same direction, each of them gets a copy of the edge of its own, so they are no longer connected
+    /// there.
     SplitAsGiven,
     /// Reverse polygons where that makes the orientation consistent, and return an error if the result
     /// is not a manifold.

@@ -17,7 +17,7 @@ impl Mesh {
     /// `v` dies. The n edges of `v` keep their ids and end at the cuts. The new elements are n vertices, the n edges
     /// from each new vertex to the next, and the face, whose first corner is the first new vertex. The new vertices and
     /// edges are in clockwise order, starting at the first edge of [`vertex_half_edges`](Self::vertex_half_edges). The
-    /// numbers of vertices, edges and faces grow by n - 1, n and 1. A face with k corners at v gains k corners.
+    /// numbers of vertices, edges and faces grow by n - 1, n and 1. A face gains as many corners as it has at v.
     ///
     /// At a cut, vertex attributes are interpolated between v and the other end of the edge. Corner attributes are
     /// interpolated within their face, separately on each side of a seam. Attributes that are
@@ -81,8 +81,8 @@ impl Mesh {
     /// n vertices, the n edges from each new vertex to the next, and the face, whose first corner is the first new
     /// vertex. The new vertices and edges are in clockwise order around e. The cuts at a (the origin of the first half
     /// of e) come first, starting with the edge after e. The cuts at b follow. The numbers of vertices, edges and faces
-    /// grow by n - 2, n - 1 and 1. The faces beside e keep their number of corners. Any other face with k corners at a
-    /// or b gains k corners.
+    /// grow by n - 2, n - 1 and 1. The faces beside e keep their number of corners. Any other face gains as many
+    /// corners as it has at a and b.
     ///
     /// Attributes are set as in [`bevel_vertex`](Self::bevel_vertex). The new face has the values of the face
     /// to the left of the first half of e.

@@ -39,9 +39,9 @@ use op::prelude::*;
 /// face that cannot be triangulated in this way becomes a triangle fan around its vertex with the lowest id. The report
 /// counts these faces.
 ///
-/// In the order of the faces, the triangles of a face replace the face, so the ids of later faces change. The triangles
-/// have the values of the face. Vertices and edges keep their ids. A corner of a triangle has the values of the old
-/// face's corner at the same vertex.
+/// In the list of faces, the triangles of a face take the place of this face, so the ids of later faces change. The
+/// triangles have the values of the face. Vertices and edges keep their ids. A corner of a triangle has the values of
+/// the old face's corner at the same vertex.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Triangulate {

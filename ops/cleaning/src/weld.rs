@@ -1,4 +1,4 @@
-//! Weld: merges vertices that are close together, and joins the faces at them.
+//! Weld: merges vertices that are close together, so that the faces at these vertices become connected.
 //!
 //! ```text
 //!    +-----+ +-----+            +-----+-----+
@@ -16,7 +16,7 @@
 use mesh::{VERTEX_NORMAL, counted};
 use op::prelude::*;
 
-/// Merges vertices that are close together, and joins the faces at them.
+/// Merges vertices that are close together, so that the faces at these vertices become connected.
 ///
 /// Two vertices are linked if they are at most `distance` apart. Vertices that are connected by a chain of links merge
 /// into one, even if the ends of the chain are farther apart than `distance`. Of the vertices that merge, the vertex

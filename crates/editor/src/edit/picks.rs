@@ -40,8 +40,8 @@ pub enum PickError {
 }
 
 impl Editor {
-    /// Returns the picked elements. All picked elements exist in the scene that the view shows. Returns `None` if a
-    /// preview is shown whose scene does not have all picked elements.
+    /// Returns the picked elements, or `None` if nothing is picked. Also returns `None` if a preview is shown whose
+    /// scene does not have all picked elements.
     pub fn picked(&self) -> Option<&Picked> {
         self.picked.as_ref().filter(|_| self.has_picked)
     }

@@ -11,8 +11,8 @@ use super::appearance::Pair;
 use super::collapse::{Collapser, Values};
 use super::quadric::Quadric;
 
-/// The weight of the squared distance to the centers of the original triangles that a vertex represents. This weight is
-/// a part of the cost of a collapse, in which the squared distance to the planes of these triangles has the weight 1.
+/// A vertex represents some of the original triangles. This is the weight, in the cost of a collapse, of the squared
+/// distance from the vertex to the centers of these triangles. The squared distance to their planes has the weight 1.
 /// If this weight were 0, triangles would become thin where the surface is flat or curved in one direction only. As an
 /// example, a torus of 1,000,000 triangles was reduced to a tenth. With the weight 1e-6, one percent of the triangles
 /// have an angle below 9°. With the weight 2e-5, one percent of the triangles have an angle below 15°. The distance

@@ -69,7 +69,7 @@ impl Split {
         self.seams = Some(Seams { corners, vertex_of });
     }
 
-    /// The glTF vertex at the corner of a half-edge with a face.
+    /// The glTF vertex at the corner of a half-edge. The half-edge must have a face.
     pub(super) fn vertex_of(&self, mesh: &Mesh, h: HalfEdgeId) -> u32 {
         match &self.seams {
             Some(seams) => seams.vertex_of[h.index()],

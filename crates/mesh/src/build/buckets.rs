@@ -8,7 +8,7 @@ use super::polygons::{pieces, to_id};
 /// than filling the buckets.
 const MAX_TASKS: usize = 8;
 
-/// The corners at each vertex, in order.
+/// The corners at each vertex, in ascending order.
 pub(super) struct Buckets {
     /// The start of the bucket of each vertex, followed by the end of the last bucket.
     first: Vec<u32>,

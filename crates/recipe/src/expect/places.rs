@@ -190,8 +190,8 @@ impl CheckedMesh<'_> {
         places
     }
 
-    /// Returns two locations at which two surfaces are farthest apart. The first location is the element of this mesh.
-    /// The second is the line from the point on one surface to the nearest point on the other surface.
+    /// Shows where two surfaces are farthest apart: returns the element of this mesh at this place, and the line from
+    /// the point on one surface to the nearest point on the other surface.
     fn farthest(&self, found: &Distance) -> Vec<ErrorLocation> {
         let worst = found.worst();
         let on = if found.is_worst_forth() {

@@ -803,7 +803,7 @@ class SceneOperations:
         id: str | None = None,
         progress: bool | Progress | None = None,
     ) -> Self:
-        """Merges vertices that are close together, and joins the faces at them.
+        """Merges vertices that are close together, so that the faces at these vertices become connected.
 
         Two vertices are linked if they are at most ``distance`` apart. Vertices that are connected by a chain of links
         merge into one, even if the ends of the chain are farther apart than ``distance``. Of the vertices that merge,
@@ -880,7 +880,7 @@ class SceneOperations:
         corners. A face that cannot be triangulated in this way becomes a triangle fan around its vertex with the lowest
         id. The report counts these faces.
 
-        In the order of the faces, the triangles of a face replace the face, so the ids of later faces change. The
+        In the list of faces, the triangles of a face take the place of this face, so the ids of later faces change. The
         triangles have the values of the face. Vertices and edges keep their ids. A corner of a triangle has the values
         of the old face's corner at the same vertex.
 
@@ -3400,7 +3400,7 @@ class MeshOperations:
         id: str | None = None,
         progress: bool | Progress | None = None,
     ) -> Self:
-        """Merges vertices that are close together, and joins the faces at them.
+        """Merges vertices that are close together, so that the faces at these vertices become connected.
 
         Two vertices are linked if they are at most ``distance`` apart. Vertices that are connected by a chain of links
         merge into one, even if the ends of the chain are farther apart than ``distance``. Of the vertices that merge,
@@ -3475,7 +3475,7 @@ class MeshOperations:
         corners. A face that cannot be triangulated in this way becomes a triangle fan around its vertex with the lowest
         id. The report counts these faces.
 
-        In the order of the faces, the triangles of a face replace the face, so the ids of later faces change. The
+        In the list of faces, the triangles of a face take the place of this face, so the ids of later faces change. The
         triangles have the values of the face. Vertices and edges keep their ids. A corner of a triangle has the values
         of the old face's corner at the same vertex.
 

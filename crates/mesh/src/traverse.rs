@@ -96,10 +96,29 @@ impl Mesh {
         e.half_edges().map(|h| self.face(h))
     }
 
-    /// Returns the half-edge whose `next` is `h`. If `h` has a face, walks around the face; otherwise, walks around the
-    /// origin of `h`.
+    /// Returns the half-edge whose `next` is `h`. Walks around the face of `h` and around the origin of `h` at the same
+    /// time, so the time is proportional to the smaller of the number of corners and the valence.
     #[inline]
     pub fn prev(&self, h: HalfEdgeId) -> HalfEdgeId {
+        // The start of the walk around the face makes it shortest for a triangle.
+        let (mut in_face, mut around) = (self.next(self.next(h)), h);
+        loop {
+            let next = self.next(in_face);
+            if next == h {
+                return in_face;
+            }
+            in_face = next;
+            let before = around.twin();
+            around = self.next(before);
+            if around == h {
+                return before;
+            }
+        }
+    }
+
+    /// Returns the same half-edge as [`prev`](Self::prev), but does not walk around the origin of `h` if `h` has a face.
+    /// So an edit can call this function while the links around the origin are incomplete.
+    pub(crate) fn prev_in_face(&self, h: HalfEdgeId) -> HalfEdgeId {
         let prev = if self.face(h).is_some() {
             self.orbit(Some(h), false).last()
         } else {
@@ -212,8 +231,18 @@ mod tests {
 
     #[test]
     fn prev_is_the_inverse_of_next() {
-        for mesh in [fan(), shapes::cube(), shapes::grid(3, 2)] {
+        for mesh in [
+            fan(),
+            shapes::cube(),
+            shapes::grid(3, 2),
+            shapes::cylinder(100, true),
+            shapes::uv_sphere(100, 2),
+        ] {
             assert!(mesh.half_edges().all(|h| mesh.prev(mesh.next(h)) == h));
+            assert!(
+                mesh.half_edges()
+                    .all(|h| mesh.prev_in_face(mesh.next(h)) == h)
+            );
         }
     }
 

@@ -38,7 +38,7 @@ use progress::{Cancelled, Meter};
 use crate::large_faces::LargeFaces;
 use crate::links::{self, Link, Links};
 use crate::subset::Subset;
-use crate::topology::{Place, Topology, place_near_origin, prev};
+use crate::topology::{Place, Topology, place_near_origin};
 
 /// A mesh without deleted elements, with the subsets of elements that need special treatment.
 pub(crate) struct DooSabin<'a> {
@@ -150,7 +150,7 @@ impl<'a> DooSabin<'a> {
     /// Returns the twin of across(k), where k is the half-edge after `h` counter-clockwise around the origin of `h`.
     #[inline]
     fn after(&self, h: HalfEdgeId) -> HalfEdgeId {
-        self.across(prev(self.mesh, h).twin()).twin()
+        self.across(self.mesh.prev(h).twin()).twin()
     }
 
     #[inline]

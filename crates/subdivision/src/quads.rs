@@ -33,7 +33,7 @@ use progress::{Cancelled, Meter};
 use crate::halves::{AddedArrays, PartLinks, first, on_edge, place, second, split_edges};
 use crate::links::{self, Entries};
 use crate::parallel::{any, fill_uncounted};
-use crate::topology::{Place, Topology, prev};
+use crate::topology::{Place, Topology};
 
 /// A mesh without deleted elements, whose faces are split into quads.
 pub(crate) struct Quads<'a> {
@@ -79,7 +79,7 @@ impl<'a> Quads<'a> {
         if let Some(table) = &self.table {
             let corner = |h: HalfEdgeId| table.corner[h.index()] as usize;
             return [
-                corner(prev(self.mesh, h)),
+                corner(self.mesh.prev(h)),
                 corner(h),
                 corner(self.mesh.next(h)),
             ];

@@ -73,25 +73,6 @@ pub(crate) fn place_near_origin(mesh: &Mesh, h: HalfEdgeId, n: u32) -> Place {
     }
 }
 
-/// Returns the same half-edge as [`Mesh::prev`]. Walks around the face of `h` and around the origin of `h` at the same
-/// time, so the time is proportional to the smaller of the number of corners and the valence.
-#[inline]
-pub(crate) fn prev(mesh: &Mesh, h: HalfEdgeId) -> HalfEdgeId {
-    let (mut in_face, mut around) = (mesh.next(mesh.next(h)), h);
-    loop {
-        let next = mesh.next(in_face);
-        if next == h {
-            return in_face;
-        }
-        in_face = next;
-        let before = around.twin();
-        around = mesh.next(before);
-        if around == h {
-            return before;
-        }
-    }
-}
-
 /// Calls `add` with each old corner on which the value of the new corner at `place` depends, and with its weight. All
 /// these old corners belong to one face. The value is their weighted mean.
 pub(crate) fn add_linear(mesh: &Mesh, place: Place, add: &mut dyn FnMut(usize, f64)) {
@@ -152,18 +133,6 @@ fn doo_sabin_weight(n: usize, j: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use geometry::shapes;
-
-    #[test]
-    fn prev_is_the_inverse_of_next() {
-        for mesh in [
-            shapes::cylinder(100, true),
-            shapes::uv_sphere(100, 2),
-            shapes::grid(3, 2),
-        ] {
-            assert!(mesh.half_edges().all(|h| prev(&mesh, mesh.next(h)) == h));
-        }
-    }
 
     #[test]
     fn the_weights_of_a_face_sum_to_one_and_halve_a_regular_polygon() {

@@ -299,7 +299,7 @@ impl Mesh {
     /// takes the place of the twin of `x`.
     fn remove_two_gon(&mut self, x: HalfEdgeId, y: HalfEdgeId) {
         let outer = x.twin();
-        let (before, after) = (self.prev(outer), self.next(outer));
+        let (before, after) = (self.prev_in_face(outer), self.next(outer));
         let (two_gon, outer_face) = (self.face(x), self.face(outer));
         self.copy_values(outer, y);
         self.merge_values(x.edge(), y.edge());

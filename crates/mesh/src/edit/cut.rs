@@ -147,7 +147,7 @@ impl Mesh {
     /// a face.
     fn duplicate_edge(&mut self, e: EdgeId) -> EdgeId {
         let [_, old] = e.half_edges();
-        let (before, after, face) = (self.prev(old), self.next(old), self.face(old));
+        let (before, after, face) = (self.prev_in_face(old), self.next(old), self.face(old));
         let new = self.push_edge(self.target(old), self.origin(old));
         let [_, kept] = new.half_edges();
         self.copy_values(e, new);

@@ -143,7 +143,7 @@ impl Mesh {
         let (kept, removed) = (h.min(g), h.max(g));
         // `old` is the half of the removed edge that has a face. The half-edge `kept` replaces `old` around this face.
         let old = removed.twin();
-        let (before, after, face) = (self.prev(old), self.next(old), self.face(old));
+        let (before, after, face) = (self.prev_in_face(old), self.next(old), self.face(old));
         self.set_next(before, kept);
         self.set_next(kept, after);
         self.set_face(kept, face);

@@ -17,7 +17,7 @@ pub(crate) enum PathState {
     Content(Hash),
     /// A regular file whose content does not matter.
     Exists,
-    /// There is no regular file at the path.
+    /// The path does not lead to a regular file: it does not exist, or it is a folder, a pipe or a device.
     Missing,
 }
 

@@ -13,8 +13,8 @@ use mesh::DVec3;
 
 use super::SurfaceIndex;
 
-/// Nodes with more triangles than this number have no oriented box, because so many triangles seldom have similar
-/// directions.
+/// The largest number of triangles of a node that gets an oriented box. In a larger node, the triangles usually have
+/// different directions, so that an oriented box would not be smaller than the normal box.
 const MOST: usize = 512;
 
 /// A triangle is thin if its longest side is at least this number of times as long as its height.

@@ -12,7 +12,8 @@ use mesh::DVec3;
 
 use super::SurfaceIndex;
 
-/// Nodes with more triangles than this number have no slab, because so many triangles seldom lie near one plane.
+/// The largest number of triangles of a node that gets a slab. The triangles of a larger node usually do not lie near one
+/// plane, so that a slab would not be thinner than the box of the node.
 const MOST: usize = 512;
 
 /// The maximum number of values of λ for which a bound is computed; see [`SurfaceIndex::slab_distance_squared`].

@@ -138,10 +138,19 @@ impl AttributeSources<'_> {
         let n_old = column.values.len();
         let mut values = column.values.clone();
         values.append(&sums);
-        Ok(values.blend(n, |i, add| match self.corner(i) {
-            Place::In(f) if let Some(sum) = large.center(self.mesh, f) => add(n_old + sum, 1.0),
-            Place::DooSabin(h) if large.add_doo_sabin(h, [h.index(), n_old], add) => {}
-            place => add_linear(self.mesh, place, add),
+        Ok(values.blend(n, |i, add| {
+            let place = self.corner(i);
+            let is_large = match place {
+                Place::In(f) => {
+                    let center = large.center(self.mesh, f);
+                    center.map(|sum| add(n_old + sum, 1.0)).is_some()
+                }
+                Place::DooSabin(h) => large.add_doo_sabin(h, [h.index(), n_old], add),
+                _ => false,
+            };
+            if !is_large {
+                add_linear(self.mesh, place, add);
+            }
         }))
     }
 

@@ -77,7 +77,7 @@ const fn max_stretch() -> f64 {
 
 impl MeshOperation for Unwrap {
     const NAME: &'static str = "Unwrap";
-    const VERSION: u32 = 4;
+    const VERSION: u32 = 5;
     const SUMMARY: &'static str = "Compute texture coordinates without overlaps";
     const EXAMPLE: &'static str = "Unwrap(max_angle: 60)";
     const WORDS: &'static [&'static str] = &["uv", "texture", "atlas", "lightmap", "parameterize"];

@@ -8,8 +8,9 @@ use progress::{Cancelled, Meter, Progress};
 use super::dissolve::dissolve;
 use super::flatten::{flatten, project};
 use super::grow::{Totals, grow, meetings, smooth_normals};
-use super::measure::{Flat, aspect, first_overlap, jacobian_at, percentile};
+use super::measure::{aspect, jacobian_at, percentile};
 use super::number;
+use super::overlap::{Flat, first_overlap};
 use super::surface::{Part, Surface, is_solid};
 use crate::sparse::SolveError;
 

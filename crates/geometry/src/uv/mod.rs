@@ -16,6 +16,7 @@ mod dissolve;
 mod flatten;
 mod grow;
 mod measure;
+mod overlap;
 mod pack;
 mod surface;
 mod unwrap;
@@ -25,7 +26,8 @@ use progress::Cancelled;
 
 use crate::merge::union_find::UnionFind;
 
-pub use measure::{Stretch, aspects, overlapping_faces, stretch};
+pub use measure::{Stretch, aspects, stretch};
+pub use overlap::overlapping_faces;
 pub use pack::{Packed, pack};
 pub use unwrap::{UnwrapOptions, Unwrapped, unwrap};
 

@@ -6,6 +6,7 @@ use mesh::{DVec2, HalfEdgeId, Mesh};
 use progress::Progress;
 use uvunwrap::{Atlas, Density, MeshInput, Options, OutputMesh, Packing, generate_with_progress};
 
+use super::overlap::upright;
 use super::surface::unit_positions;
 use super::{Page, UvError, charts};
 use crate::tangent::triangles;
@@ -35,10 +36,15 @@ const MAX_NESTED: usize = 256;
 /// A triangle whose area is at most this fraction of the area of its chart is ignored when the chart is packed.
 const MIN_AREA: f64 = 1e-11;
 
-/// The shortest edge of a convex hull, as a fraction of the size of the hull. The crate `uvunwrap` leaves out triangles
-/// whose height is below 1e-6 times the diagonal. If triangles of a hull were left out, the hull could fall apart into
-/// several pieces.
-const MIN_EDGE: f64 = 4e-6;
+/// The smallest height of a triangle of a convex hull, as a fraction of the size of the hull. Thinner triangles are left
+/// out: the crate `uvunwrap` ignores triangles whose height is below 1e-6 times the diagonal.
+const MIN_HEIGHT: f64 = 4e-6;
+
+/// A shape with more than this number of triangles is replaced by its convex hull, if both have nearly the same area.
+const MAX_CONVEX: usize = 256;
+
+/// The largest difference of the areas of a shape and of the convex hull that replaces it, as a fraction of the area.
+const HULL_MARGIN: f64 = 1e-4;
 
 /// A chart before the packing.
 struct Chart {
@@ -49,6 +55,9 @@ struct Chart {
     scale: Option<f64>,
     /// The middle of the bounding box of the chart in the old texture.
     middle: DVec2,
+    /// The rotation before the packing, as a complex number. The crate `uvunwrap` compares triangles whose bounding
+    /// boxes overlap. Without the rotation, these would be almost all pairs of a chart with thin, oblique triangles.
+    turn: DVec2,
     /// The area of the chart on the surface.
     area: f64,
 }
@@ -78,8 +87,10 @@ pub fn pack(
     progress: &dyn Progress,
 ) -> Result<Packed, UvError> {
     let charts = chart_list(mesh, uvs);
-    let places =
-        |chart: &Chart, h: HalfEdgeId| (uvs[h.index()] - chart.middle) * chart.scale.unwrap_or(0.0);
+    let places = |chart: &Chart, h: HalfEdgeId| {
+        let place = chart.turn.rotate(uvs[h.index()] - chart.middle);
+        place * chart.scale.unwrap_or(0.0)
+    };
     let solid: Vec<&Chart> = charts
         .iter()
         .filter(|chart| chart.scale.is_some())
@@ -93,7 +104,9 @@ pub fn pack(
     let unit = 1.0 / largest.fold(f64::MIN_POSITIVE, f64::max);
     let mut shapes: Vec<Shape> = solid
         .iter()
-        .map(|chart| Shape::of_triangles(&chart.triangles, |h| places(chart, h) * unit))
+        .map(|chart| {
+            Shape::of_triangles(&chart.triangles, |h| places(chart, h) * unit).simplified()
+        })
         .collect();
     let mut packed = Packed {
         uvs: vec![DVec2::ZERO; uvs.len()],
@@ -136,6 +149,7 @@ fn chart_list(mesh: &Mesh, uvs: &[DVec2]) -> Vec<Chart> {
             triangles: Vec::new(),
             scale: None,
             middle: DVec2::ZERO,
+            turn: DVec2::X,
             area: 0.0,
         })
         .collect();
@@ -150,6 +164,7 @@ fn chart_list(mesh: &Mesh, uvs: &[DVec2]) -> Vec<Chart> {
         let first = corners.next().unwrap_or_default();
         let (low, high) = corners.fold((first, first), |(low, high), p| (low.min(p), high.max(p)));
         chart.middle = (low + high) / 2.0;
+        chart.turn = upright(chart.triangles.iter().map(|t| t.map(|h| uvs[h.index()])));
         let mut in_texture = 0.0;
         for triangle in &chart.triangles {
             let [a, b, c] = triangle.map(|h| positions[mesh.origin(h).index()]);
@@ -253,8 +268,34 @@ impl Shape {
         (self.points.len() - 1) as u32
     }
 
-    /// Returns the convex hull of the shape (Andrew's monotone chain, 1979), as triangles around the center of the
-    /// hull. Very short edges of the hull are left out, so that no triangle is too thin.
+    /// Replaces a convex shape of many triangles by its convex hull. The crate `uvunwrap` compares triangles whose
+    /// bounding boxes overlap. In the triangulation of a face with many corners, these can be almost all pairs.
+    fn simplified(self) -> Self {
+        if self.indices.len() / 3 <= MAX_CONVEX {
+            return self;
+        }
+        let hull = self.hull();
+        let area = hull.area();
+        if (self.area() - area).abs() <= HULL_MARGIN * area {
+            hull
+        } else {
+            self
+        }
+    }
+
+    fn area(&self) -> f64 {
+        let triangles = self.indices.chunks_exact(3);
+        triangles
+            .map(|t| {
+                let [a, b, c] = [t[0], t[1], t[2]].map(|i| self.points[i as usize]);
+                (b - a).perp_dot(c - a) / 2.0
+            })
+            .sum()
+    }
+
+    /// Returns the convex hull of the shape (Andrew's monotone chain, 1979). Corners that change the hull by less than
+    /// [`MIN_HEIGHT`] are left out, and the others are triangulated (Douglas, Peucker, "Algorithms for the Reduction of
+    /// the Number of Points Required to Represent a Digitized Line or its Caricature", 1973).
     fn hull(&self) -> Self {
         let mut points = self.points.clone();
         points.sort_unstable_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
@@ -268,24 +309,40 @@ impl Shape {
                 }
                 chain.push(p);
             }
-            chain.pop();
             chain
         };
-        let mut chain = half(&mut points.iter().copied());
-        chain.extend(half(&mut points.iter().rev().copied()));
-        let size = match (points.first(), points.last()) {
-            (Some(first), Some(last)) => first.distance(*last),
-            _ => 0.0,
-        };
-        chain.dedup_by(|b, a| a.distance(*b) < MIN_EDGE * size);
+        // Both halves run from one extreme point to the other. The extreme points are the ends of the halves.
+        let halves = [
+            half(&mut points.iter().copied()),
+            half(&mut points.iter().rev().copied()),
+        ];
         let mut hull = Self::default();
-        hull.push(chain.iter().sum::<DVec2>() / chain.len().max(1) as f64);
-        for &p in &chain {
-            hull.push(p);
-        }
-        let n = u32::try_from(chain.len()).unwrap_or(0);
-        for i in 1..=n {
-            hull.indices.extend([0, i, i % n + 1]);
+        let (Some(&first), Some(&last)) = (points.first(), points.last()) else {
+            return hull;
+        };
+        let min_height = MIN_HEIGHT * first.distance(last);
+        let ends = [first, last].map(|p| hull.push(p));
+        for (chain, [from, to]) in halves.iter().zip([ends, [ends[1], ends[0]]]) {
+            let mut open = vec![(chain.as_slice(), from, to)];
+            while let Some((chain, from, to)) = open.pop() {
+                let [a, inner @ .., b] = chain else {
+                    continue;
+                };
+                let height = |p: &DVec2| (*p - *a).perp_dot(*b - *a);
+                let highest =
+                    |&i: &usize, &j: &usize| height(&inner[i]).total_cmp(&height(&inner[j]));
+                let Some(i) = (0..inner.len()).max_by(highest) else {
+                    continue;
+                };
+                let p = inner[i];
+                let longest = a.distance(*b).max(a.distance(p)).max(b.distance(p));
+                if height(&p) > min_height * longest {
+                    let middle = hull.push(p);
+                    hull.indices.extend([from, middle, to]);
+                    open.push((&chain[..=i + 1], from, middle));
+                    open.push((&chain[i + 1..], middle, to));
+                }
+            }
         }
         hull
     }

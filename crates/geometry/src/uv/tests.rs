@@ -387,6 +387,24 @@ fn a_hull_with_two_points_that_nearly_coincide_stays_in_one_part() {
     assert_eq!(overlapping, [0, 1].map(FaceId::new));
 }
 
+/// The two caps are charts of one face with many corners. The packing replaces them by their hulls, and leaves out most
+/// of the corners.
+#[test]
+fn charts_of_faces_with_many_corners_cover_as_much_of_the_page_as_those_of_faces_with_few() {
+    let unwrapped = |around| {
+        let mesh = shapes::cylinder(around, true);
+        let result = unwrap(&mesh, &OPTIONS, &NoProgress).unwrap();
+        let overlapping = overlapping_faces(&mesh, &result.uvs, &NoProgress).unwrap();
+        assert_eq!(overlapping, []);
+        let stretch = stretch(&mesh, &result.uvs).unwrap();
+        assert!(stretch.max_aspect < 1.0 + 1e-6, "{stretch:?}");
+        (result.charts.n, result.coverage)
+    };
+    let (few, many) = (unwrapped(200), unwrapped(3000));
+    assert_eq!(few.0, many.0);
+    assert!((few.1 - many.1).abs() < 0.01, "{few:?} {many:?}");
+}
+
 #[test]
 fn aspects_and_scales_are_those_of_the_map() {
     let mesh = shapes::grid(1, 1);

@@ -391,16 +391,16 @@ fn a_hull_with_two_points_that_nearly_coincide_stays_in_one_part() {
 /// of the corners.
 #[test]
 fn charts_of_faces_with_many_corners_cover_as_much_of_the_page_as_those_of_faces_with_few() {
-    let unwrapped = |around| {
+    let charts = |around| {
         let mesh = shapes::cylinder(around, true);
-        let result = unwrap(&mesh, &OPTIONS, &NoProgress).unwrap();
+        let result = unwrapped(&mesh);
         let overlapping = overlapping_faces(&mesh, &result.uvs, &NoProgress).unwrap();
         assert_eq!(overlapping, []);
         let stretch = stretch(&mesh, &result.uvs).unwrap();
         assert!(stretch.max_aspect < 1.0 + 1e-6, "{stretch:?}");
         (result.charts.n, result.coverage)
     };
-    let (few, many) = (unwrapped(200), unwrapped(3000));
+    let (few, many) = (charts(200), charts(3000));
     assert_eq!(few.0, many.0);
     assert!((few.1 - many.1).abs() < 0.01, "{few:?} {many:?}");
 }

@@ -86,7 +86,7 @@ impl Mesh {
             .map(|&v| self.fan_from_gap(v, is_cut))
             .collect();
 
-        let new: Vec<EdgeId> = edges.iter().map(|&e| self.duplicate_edge(e)).collect();
+        let new = self.duplicate_edges(edges);
         let mut copies: Vec<(EdgeId, EdgeId)> =
             edges.iter().copied().zip(new.iter().copied()).collect();
         copies.sort_unstable();
@@ -143,11 +143,27 @@ impl Mesh {
         fan
     }
 
-    /// Adds an edge that gets the face of the second half of `e`. The caller must set the `next` of the halves without
-    /// a face.
-    fn duplicate_edge(&mut self, e: EdgeId) -> EdgeId {
+    /// Adds a copy of each edge, which gets the face of the second half of the edge. The caller must set the `next` of
+    /// the halves without a face.
+    fn duplicate_edges(&mut self, edges: &[EdgeId]) -> Vec<EdgeId> {
+        // The half-edges before the second halves are found while the mesh is complete. `prev` is then fast, even in a
+        // face with many corners.
+        let second_halves = edges.iter().map(|e| e.half_edges()[1]);
+        let before: Vec<HalfEdgeId> = second_halves.map(|h| self.prev(h)).collect();
+        let pairs = edges.iter().zip(before);
+        pairs.map(|(&e, h)| self.duplicate_edge(e, h)).collect()
+    }
+
+    /// Adds a copy of `e` that gets the face of the second half of `e`. `before` was the half-edge before that half.
+    fn duplicate_edge(&mut self, e: EdgeId, before: HalfEdgeId) -> EdgeId {
         let [_, old] = e.half_edges();
-        let (before, after, face) = (self.prev_in_face(old), self.next(old), self.face(old));
+        let (after, face) = (self.next(old), self.face(old));
+        // If a copy has already replaced `before` in the face, `next` leads to the copy.
+        let before = if self.face(before).is_none() {
+            self.next(before)
+        } else {
+            before
+        };
         let new = self.push_edge(self.target(old), self.origin(old));
         let [_, kept] = new.half_edges();
         self.copy_values(e, new);
@@ -157,6 +173,7 @@ impl Mesh {
         self.set_face(kept, face);
         self.replace_first_of_face(old, kept);
         self.set_face(old, None);
+        self.set_next(old, kept);
         new
     }
 }

@@ -6,6 +6,12 @@ use crate::{EdgeId, EditError, HalfEdgeId, Mesh, VertexId};
 /// target of the other.
 type Pair = [HalfEdgeId; 2];
 
+/// Returns the half-edge with a face that is replaced when the edges of a pair are merged. It belongs to the edge with
+/// the higher id.
+fn replaced([h, g]: Pair) -> HalfEdgeId {
+    h.max(g).twin()
+}
+
 impl Mesh {
     /// Stitches two boundary edges: they become one edge.
     ///
@@ -70,6 +76,12 @@ impl Mesh {
             pairs.push([before_h, after_g]);
         }
         self.check_stitch(&pairs, [at_origin, at_target])?;
+        // The half-edges before the replaced ones are found while the mesh is complete. `prev` is then fast, even in a
+        // face with many corners.
+        let before: Vec<HalfEdgeId> = pairs
+            .iter()
+            .map(|&pair| self.prev(replaced(pair)))
+            .collect();
 
         self.drop_columns_by_rule();
         for [v, w] in [at_origin, at_target] {
@@ -85,8 +97,8 @@ impl Mesh {
             self.set_next(before_h, after_g);
             self.set_next(g, h);
         }
-        let pairs = pairs.into_iter();
-        let edges: Vec<EdgeId> = pairs.map(|pair| self.merge_edges(pair)).collect();
+        let merged = pairs.into_iter().zip(before);
+        let edges: Vec<EdgeId> = merged.map(|(pair, h)| self.merge_edges(pair, h)).collect();
         for x in edges.iter().flat_map(|e| e.half_edges()) {
             self.reset_vertex_half_edge(x);
         }
@@ -138,18 +150,24 @@ impl Mesh {
         self.kill(from);
     }
 
-    /// Merges the edges of two half-edges without faces. The edge with the lower id remains.
-    fn merge_edges(&mut self, [h, g]: Pair) -> EdgeId {
-        let (kept, removed) = (h.min(g), h.max(g));
-        // `old` is the half of the removed edge that has a face. The half-edge `kept` replaces `old` around this face.
-        let old = removed.twin();
-        let (before, after, face) = (self.prev_in_face(old), self.next(old), self.face(old));
+    /// Merges the edges of two half-edges without faces. The edge with the lower id remains. `before` was the half-edge
+    /// before the half that is replaced.
+    fn merge_edges(&mut self, pair: Pair, before: HalfEdgeId) -> EdgeId {
+        let (kept, old) = (pair[0].min(pair[1]), replaced(pair));
+        // If another half-edge has already replaced `before` in the face, `next` leads to that half-edge.
+        let before = if self.has_edge(before.edge()) {
+            before
+        } else {
+            self.next(before)
+        };
+        let (after, face) = (self.next(old), self.face(old));
         self.set_next(before, kept);
         self.set_next(kept, after);
         self.set_face(kept, face);
         self.copy_values(old, kept);
         self.replace_first_of_face(old, kept);
-        self.kill(removed.edge());
+        self.set_next(old, kept);
+        self.kill(old.edge());
         kept.edge()
     }
 

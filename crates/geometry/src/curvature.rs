@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use mesh::parallel;
-use mesh::{DVec3, Domain, EdgeId, Mesh, VertexId, angle_between};
+use mesh::{DVec3, Domain, EdgeId, FaceId, Mesh, VertexId, angle_between};
 
 use crate::Scaled;
 
@@ -11,13 +11,14 @@ use crate::Scaled;
 /// unit². The curvature is 1 / r² on a sphere of radius r, and 0 on a cylinder. The value is NaN for dead (removed)
 /// vertices, for isolated vertices, and for vertices whose faces all have zero area.
 ///
-/// The curvature is the angle defect divided by the [vertex area](vertex_area). The angle defect of a vertex is 2π
+/// The curvature is the angle defect divided by the [vertex area](vertex_areas). The angle defect of a vertex is 2π
 /// minus the sum of the angles of the faces at the vertex; for a boundary vertex, it is π minus this sum. Source:
 /// Meyer, Desbrun, Schröder, Barr, "Discrete Differential-Geometry Operators for Triangulated 2-Manifolds", 2003. On a
 /// closed mesh of flat faces, the angle defects of all vertices add up to 2π times the Euler characteristic.
 pub fn gaussian_curvatures(mesh: &Mesh) -> Vec<f64> {
     let scaled = Scaled::new(mesh);
     let mesh = scaled.mesh();
+    let areas = vertex_areas(mesh);
     at_vertices(&scaled, -2, |v| {
         let angles: f64 = mesh
             .vertex_half_edges(v)
@@ -25,7 +26,7 @@ pub fn gaussian_curvatures(mesh: &Mesh) -> Vec<f64> {
             .map(|h| mesh.corner_angle(h))
             .sum();
         let full = if mesh.is_boundary_vertex(v) { PI } else { TAU };
-        (full - angles) / vertex_area(mesh, v)
+        (full - angles) / areas[v.index()]
     })
 }
 
@@ -37,17 +38,18 @@ pub fn gaussian_curvatures(mesh: &Mesh) -> Vec<f64> {
 /// The signed dihedral angle of an edge is the angle between the normals of its two faces, positive if the edge is
 /// convex. The contribution of an edge is half the product of its signed dihedral angle and its length. Each of the two
 /// ends of the edge gets half of this contribution. The sum of the contributions at a vertex is divided by the [vertex
-/// area](vertex_area). Source: Cohen-Steiner, Morvan, "Restricted Delaunay Triangulations and Normal Cycle", 2003.
+/// area](vertex_areas). Source: Cohen-Steiner, Morvan, "Restricted Delaunay Triangulations and Normal Cycle", 2003.
 /// Boundary edges contribute 0.
 pub fn mean_curvatures(mesh: &Mesh) -> Vec<f64> {
     let scaled = Scaled::new(mesh);
     let mesh = scaled.mesh();
+    let (areas, normals) = (vertex_areas(mesh), mesh.face_normals());
     at_vertices(&scaled, -1, |v| {
         let sum: f64 = mesh
             .vertex_half_edges(v)
-            .map(|h| signed_dihedral(mesh, h.edge()) * mesh.length(h))
+            .map(|h| signed_dihedral(mesh, &normals, h.edge()) * mesh.length(h))
             .sum();
-        0.25 * sum / vertex_area(mesh, v)
+        0.25 * sum / areas[v.index()]
     })
 }
 
@@ -59,16 +61,18 @@ pub fn mean_curvatures(mesh: &Mesh) -> Vec<f64> {
 /// The principal curvatures are the eigenvalues of a 2 x 2 curvature tensor in the tangent plane of the vertex. This
 /// plane is perpendicular to the sum of the area vectors of the faces around the vertex. Each edge at the vertex adds ½
 /// θ l u uᵀ to the tensor, where θ is the signed dihedral angle of the edge, l is its length, and u is the unit vector
-/// along it. The sum over all edges at the vertex is divided by the [vertex area](vertex_area). Source: Cohen-Steiner,
+/// along it. The sum over all edges at the vertex is divided by the [vertex area](vertex_areas). Source: Cohen-Steiner,
 /// Morvan, "Restricted Delaunay Triangulations and Normal Cycle", 2003. Where the surface is nearly flat around the
 /// vertex, the mean of the principal curvatures is close to the mean curvature.
 pub fn principal_curvatures(mesh: &Mesh) -> Vec<[f64; 2]> {
     let none = [f64::NAN; 2];
     let scaled = Scaled::new(mesh);
     let mesh = scaled.mesh();
+    let (areas, normals) = (vertex_areas(mesh), mesh.face_normals());
+    let area_vectors = at_faces(mesh, DVec3::ZERO, |f| mesh.area_vector(f));
     fill_vertices(mesh, none, |v| {
         let faces = mesh.vertex_half_edges(v).filter_map(|h| mesh.face(h));
-        let normal: DVec3 = faces.map(|f| mesh.area_vector(f)).sum();
+        let normal: DVec3 = faces.map(|f| area_vectors[f.index()]).sum();
         let normal = normal.normalize_or(DVec3::Z);
         let (a, b) = normal.any_orthonormal_pair();
         // The entries of the tensor in the basis a, b. The rows of the tensor are (aa, ab) and (ab, bb).
@@ -76,13 +80,13 @@ pub fn principal_curvatures(mesh: &Mesh) -> Vec<[f64; 2]> {
         for h in mesh.vertex_half_edges(v) {
             let along = mesh.position(mesh.target(h)) - mesh.position(v);
             let u = along.normalize_or_zero();
-            let weight = 0.5 * signed_dihedral(mesh, h.edge()) * mesh.length(h);
+            let weight = 0.5 * signed_dihedral(mesh, &normals, h.edge()) * mesh.length(h);
             let (x, y) = (u.dot(a), u.dot(b));
             aa += weight * x * x;
             ab += weight * x * y;
             bb += weight * y * y;
         }
-        let area = vertex_area(mesh, v);
+        let area = areas[v.index()];
         let (middle, half) = (0.5 * (aa + bb), 0.5 * (aa - bb));
         let radius = (half * half + ab * ab).sqrt();
         let pair = [(middle - radius) / area, (middle + radius) / area];
@@ -94,22 +98,28 @@ pub fn principal_curvatures(mesh: &Mesh) -> Vec<[f64; 2]> {
     })
 }
 
-/// Returns the area of the surface that belongs to a vertex, in scene unit². Each face around the vertex
-/// contributes its area divided by its number of corners.
-pub fn vertex_area(mesh: &Mesh, v: VertexId) -> f64 {
-    let faces = mesh.vertex_half_edges(v).filter_map(|h| mesh.face(h));
-    #[expect(clippy::cast_precision_loss, reason = "a face has few corners")]
-    let share = |f| mesh.face_area(f) / mesh.degree(f) as f64;
-    faces.map(share).sum()
+/// Returns the area of the surface that belongs to each vertex, in scene unit². Entry i belongs to the vertex with the
+/// index i, and is 0 if the mesh does not contain this vertex. Each face around a vertex contributes its area divided
+/// by its number of corners.
+pub fn vertex_areas(mesh: &Mesh) -> Vec<f64> {
+    #[expect(
+        clippy::cast_precision_loss,
+        reason = "a face has fewer than 2^32 corners"
+    )]
+    let shares = at_faces(mesh, 0.0, |f| mesh.face_area(f) / mesh.degree(f) as f64);
+    fill_vertices(mesh, 0.0, |v| {
+        let faces = mesh.vertex_half_edges(v).filter_map(|h| mesh.face(h));
+        faces.map(|f| shares[f.index()]).sum()
+    })
 }
 
 /// Returns the signed angle between the normals of the two faces at an edge, positive if the edge is convex. Returns
 /// 0 on the boundary.
-fn signed_dihedral(mesh: &Mesh, e: EdgeId) -> f64 {
+fn signed_dihedral(mesh: &Mesh, normals: &[DVec3], e: EdgeId) -> f64 {
     let [Some(f), Some(g)] = mesh.edge_faces(e) else {
         return 0.0;
     };
-    let (n, m) = (mesh.face_normal(f), mesh.face_normal(g));
+    let (n, m) = (normals[f.index()], normals[g.index()]);
     let [v, w] = mesh.edge_vertices(e).map(|v| mesh.position(v));
     // The first half-edge of the edge runs from v to w, and the face f is to the left of this half-edge.
     if n.cross(m).dot(w - v) >= 0.0 {
@@ -149,6 +159,19 @@ fn fill_vertices<T: Copy + Send + Sync>(
     })
 }
 
+/// Computes a value for each face. Entry i of the result belongs to the face with the index i. Dead (removed) faces get
+/// the value `none`.
+fn at_faces<T: Copy + Send + Sync>(
+    mesh: &Mesh,
+    none: T,
+    value: impl Fn(FaceId) -> T + Sync,
+) -> Vec<T> {
+    parallel::collect(mesh.domain_len(Domain::Face), |f| {
+        let f = FaceId::new(f);
+        if mesh.has_face(f) { value(f) } else { none }
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -165,10 +188,10 @@ mod tests {
             shapes::icosahedron(),
             shapes::torus(12, 8, 2.0, 0.5),
         ] {
-            let curvatures = gaussian_curvatures(&mesh);
+            let (curvatures, areas) = (gaussian_curvatures(&mesh), vertex_areas(&mesh));
             let total: f64 = mesh
                 .vertices()
-                .map(|v| curvatures[v.index()] * vertex_area(&mesh, v))
+                .map(|v| curvatures[v.index()] * areas[v.index()])
                 .sum();
             #[expect(clippy::cast_precision_loss, reason = "a small number")]
             let expected = TAU * mesh.euler_characteristic() as f64;

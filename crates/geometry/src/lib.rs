@@ -52,7 +52,7 @@ pub mod uv;
 mod visibility;
 
 pub use bisect::{Bisection, SymmetrizeError, Symmetrized, bisect, symmetrize};
-pub use curvature::{gaussian_curvatures, mean_curvatures, principal_curvatures, vertex_area};
+pub use curvature::{gaussian_curvatures, mean_curvatures, principal_curvatures, vertex_areas};
 pub use face_quality::{aspect_ratio, min_angle};
 pub use fill_hole::fill_hole_triangles;
 pub use geodesic::geodesic_distances;

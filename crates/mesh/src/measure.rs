@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-use crate::{Element, FaceId, HalfEdgeId, Mesh};
+use crate::parallel;
+use crate::{Domain, EdgeId, Element, FaceId, HalfEdgeId, Mesh};
 
 /// Returns the angle between two directions, in radians from 0 to π; 0 if one of the vectors is zero.
 ///
@@ -74,6 +75,19 @@ impl Mesh {
         ordinary(self.area_vector(f)).0.normalize_or_zero()
     }
 
+    /// Returns the unit normals of all faces, as [`face_normal`](Self::face_normal) computes them. Entry i belongs to the
+    /// face with the index i, and is zero if the mesh does not contain this face.
+    pub fn face_normals(&self) -> Vec<DVec3> {
+        parallel::collect(self.domain_len(Domain::Face), |i| {
+            let f = FaceId::new(i);
+            if self.has_face(f) {
+                self.face_normal(f)
+            } else {
+                DVec3::ZERO
+            }
+        })
+    }
+
     /// Returns the mean of the corner positions of a face.
     pub fn face_center(&self, f: FaceId) -> DVec3 {
         let (n, sum) = self
@@ -100,9 +114,21 @@ impl Mesh {
 
     /// Returns the angle between the normals of the two faces at an edge, in radians from 0 (flat) to π. Returns `None`
     /// on the boundary, or if the area of a face is zero.
-    pub fn dihedral_angle(&self, e: crate::EdgeId) -> Option<f64> {
+    pub fn dihedral_angle(&self, e: EdgeId) -> Option<f64> {
+        self.angle_of_faces(e, |f| self.face_normal(f))
+    }
+
+    /// Returns a function that computes the same angle as [`dihedral_angle`](Self::dihedral_angle). The normal of each
+    /// face is computed only once, which matters for many edges: the time to compute a normal is proportional to the
+    /// number of corners.
+    pub fn dihedral_angles(&self) -> impl Fn(EdgeId) -> Option<f64> {
+        let normals = self.face_normals();
+        move |e| self.angle_of_faces(e, |f| normals[f.index()])
+    }
+
+    fn angle_of_faces(&self, e: EdgeId, normal: impl Fn(FaceId) -> DVec3) -> Option<f64> {
         let [f, g] = self.edge_faces(e);
-        let (n, m) = (self.face_normal(f?), self.face_normal(g?));
+        let (n, m) = (normal(f?), normal(g?));
         (n != DVec3::ZERO && m != DVec3::ZERO).then(|| angle_between(n, m))
     }
 

@@ -223,11 +223,13 @@ impl Quantity {
             }),
             Self::MinAngle => faces(&|f| geometry::min_angle(mesh, f).to_degrees()),
             Self::Area => faces(&|f| mesh.face_area(f)),
-            Self::DihedralAngle => each(Domain::Edge, &|i| {
-                let e = EdgeId::new(i);
-                let angle = mesh.has_edge(e).then(|| mesh.dihedral_angle(e)).flatten();
-                angle.map(f64::to_degrees)
-            }),
+            Self::DihedralAngle => {
+                let angle = mesh.dihedral_angles();
+                each(Domain::Edge, &|i| {
+                    let e = Some(EdgeId::new(i)).filter(|&e| mesh.has_edge(e));
+                    e.and_then(&angle).map(f64::to_degrees)
+                })
+            }
             Self::MeanCurvature => (Domain::Vertex, geometry::mean_curvatures(mesh)),
             Self::GaussianCurvature => (Domain::Vertex, geometry::gaussian_curvatures(mesh)),
             Self::Attribute { name, component } => attribute(mesh, name, *component)?,

@@ -4,7 +4,7 @@ use geometry::Scaled;
 use geometry::distance::vertex_distances_with;
 use geometry::sparse::SolveError;
 use geometry::surface_index::{SurfaceIndex, Winding};
-use mesh::{Domain, FaceId, VertexId, parallel};
+use mesh::{Domain, FaceId, parallel};
 use op::prelude::*;
 use op::{Refusal, named_object};
 
@@ -175,10 +175,7 @@ impl MeasureOf {
             Self::PrincipalCurvature(Principal::Smallest) => restored(principal(0), -1)?,
             Self::PrincipalCurvature(Principal::Largest) => restored(principal(1), -1)?,
             Self::Area => restored(faces(&|f| small.face_area(f)), 2)?,
-            Self::VertexArea => {
-                let area = |v| geometry::vertex_area(small, VertexId::new(v));
-                restored(parallel::collect(mesh.n_vertices(), area), 2)?
-            }
+            Self::VertexArea => restored(geometry::vertex_areas(small), 2)?,
             Self::MinAngle => faces(&|f| geometry::min_angle(small, f).to_degrees()),
             Self::AspectRatio => faces(&|f| geometry::aspect_ratio(small, f)),
             Self::Distance { to, signed } => {

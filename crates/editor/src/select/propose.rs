@@ -161,7 +161,8 @@ fn of_edges(mesh: &Mesh, list: &[EdgeId], open: &mut Vec<String>) {
     for e in list {
         picked[e.index()] = true;
     }
-    let angle = |e: EdgeId| mesh.dihedral_angle(e).map(f64::to_degrees);
+    let dihedral = mesh.dihedral_angles();
+    let angle = |e: EdgeId| dihedral(e).map(f64::to_degrees);
     if let Some(limit) = threshold(
         mesh.edges()
             .filter_map(|e| Some((angle(e)?, picked[e.index()]))),
@@ -365,12 +366,13 @@ fn short_between(low: f64, high: f64) -> String {
 /// greater than all angles between neighboring picked faces, and less than all angles at the border of the picked
 /// faces.
 fn spread_angle(mesh: &Mesh, picked: &[bool]) -> Option<String> {
+    let angle = mesh.dihedral_angles();
     let (mut inside, mut border) = (0.0_f64, f64::INFINITY);
     for e in mesh.edges() {
         let [Some(f), Some(g)] = mesh.edge_faces(e) else {
             continue;
         };
-        let Some(angle) = mesh.dihedral_angle(e).map(f64::to_degrees) else {
+        let Some(angle) = angle(e).map(f64::to_degrees) else {
             continue;
         };
         match (picked[f.index()], picked[g.index()]) {

@@ -100,7 +100,6 @@ impl Select for EdgeSelection {
     const WORD: &'static str = "edges";
 
     fn mask(&self, mesh: &Mesh, cx: &Context) -> Result<Vec<bool>, OpError> {
-        let angle = |e| mesh.dihedral_angle(e).map(f64::to_degrees);
         let length = |e: EdgeId| mesh.length(e.half_edge());
         Ok(match self {
             Self::Boundary => marks::<Self>(mesh, |e| mesh.is_boundary_edge(e)),
@@ -113,10 +112,16 @@ impl Select for EdgeSelection {
                 marks::<Self>(mesh, |e| e == h.edge())
             }
             Self::Sharp { above } => {
-                marks::<Self>(mesh, |e| angle(e).is_some_and(|a| a > above.get()))
+                let angle = mesh.dihedral_angles();
+                marks::<Self>(mesh, |e| {
+                    angle(e).is_some_and(|a| a.to_degrees() > above.get())
+                })
             }
             Self::Flat { below } => {
-                marks::<Self>(mesh, |e| angle(e).is_some_and(|a| a < below.get()))
+                let angle = mesh.dihedral_angles();
+                marks::<Self>(mesh, |e| {
+                    angle(e).is_some_and(|a| a.to_degrees() < below.get())
+                })
             }
             Self::Longer { than } => marks::<Self>(mesh, |e| length(e) > than.get()),
             Self::Shorter { than } => marks::<Self>(mesh, |e| length(e) < than.get()),

@@ -131,14 +131,14 @@ pub(super) fn connected(mesh: &Mesh, mut mask: Vec<bool>) -> Vec<bool> {
 /// Returns the marked faces, and all faces that can be reached from them across edges with a dihedral angle of at most
 /// `angle` degrees.
 pub(super) fn spread(mesh: &Mesh, mut mask: Vec<bool>, angle: f64) -> Vec<bool> {
+    let turn = mesh.dihedral_angles();
     let mut open: Vec<FaceId> = mesh.faces().filter(|f| mask[f.index()]).collect();
     while let Some(f) = open.pop() {
         for h in mesh.face_half_edges(f) {
             let Some(other) = mesh.face(h.twin()).filter(|g| !mask[g.index()]) else {
                 continue;
             };
-            let turn = mesh.dihedral_angle(h.edge()).map(f64::to_degrees);
-            if turn.is_some_and(|turn| turn <= angle) {
+            if turn(h.edge()).is_some_and(|turn| turn.to_degrees() <= angle) {
                 mask[other.index()] = true;
                 open.push(other);
             }

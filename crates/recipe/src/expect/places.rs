@@ -72,8 +72,8 @@ impl CheckedMesh<'_> {
                 self.out_of_bounds(of, valence, eq.or(*min), eq.or(*max))
             }
             Expectation::DihedralAngle { of, min, max, .. } => {
-                let angle = |e| mesh.dihedral_angle(e).map(f64::to_degrees);
-                self.out_of_bounds(of, angle, *min, *max)
+                let angle = mesh.dihedral_angles();
+                self.out_of_bounds(of, |e| angle(e).map(f64::to_degrees), *min, *max)
             }
             Expectation::EdgeLength { of, min, max } => {
                 self.out_of_bounds(of, |e| Some(mesh.length(e.half_edge())), *min, *max)

@@ -251,12 +251,23 @@ impl<'a> Subject<'a> {
         of: &S,
         mut check: impl FnMut(&Mesh, S::Id) -> Result<(), Violation>,
     ) -> Result<(), Violation> {
+        self.selected_in_each_mesh(of, |mesh, ids| {
+            ids.iter().try_for_each(|&id| check(mesh, id))
+        })
+    }
+
+    /// Calls `check` for each mesh with the elements of a selection in it, and fails if the selections of all meshes are
+    /// empty.
+    fn selected_in_each_mesh<S: Select>(
+        &self,
+        of: &S,
+        mut check: impl FnMut(&Mesh, &[S::Id]) -> Result<(), Violation>,
+    ) -> Result<(), Violation> {
         let mut is_empty = true;
         for (object, mesh) in self.meshes()? {
-            for id in selected(of, object, mesh, *self)? {
-                is_empty = false;
-                check(mesh, id)?;
-            }
+            let ids = selected(of, object, mesh, *self)?;
+            is_empty &= ids.is_empty();
+            check(mesh, &ids)?;
         }
         if is_empty {
             let message = format!("the selection contains no {}", S::WORD);
@@ -271,13 +282,16 @@ impl<'a> Subject<'a> {
         [min, max, reaches]: [Option<f64>; 3],
     ) -> Result<(), Violation> {
         let mut largest: Option<f64> = None;
-        self.each_selected(of, |mesh, e| {
-            let Some(angle) = mesh.dihedral_angle(e).map(f64::to_degrees) else {
-                return Ok(());
-            };
-            largest = Some(largest.map_or(angle, |l| l.max(angle)));
-            let what = format_args!("{} to have a dihedral angle", EdgeByVertices(mesh, e));
-            check_number(what, angle, [None, min, max], 0.0)
+        self.selected_in_each_mesh(of, |mesh, edges| {
+            let angles = mesh.dihedral_angles();
+            edges.iter().try_for_each(|&e| {
+                let Some(angle) = angles(e).map(f64::to_degrees) else {
+                    return Ok(());
+                };
+                largest = Some(largest.map_or(angle, |l| l.max(angle)));
+                let what = format_args!("{} to have a dihedral angle", EdgeByVertices(mesh, e));
+                check_number(what, angle, [None, min, max], 0.0)
+            })
         })?;
         let largest = largest.ok_or("the selection contains no edges between two faces")?;
         check_number(

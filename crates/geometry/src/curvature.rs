@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use mesh::parallel;
-use mesh::{DVec3, Domain, EdgeId, FaceId, Mesh, VertexId, angle_between};
+use mesh::{DVec3, Domain, EdgeId, Mesh, VertexId, angle_between};
 
 use crate::Scaled;
 
@@ -69,7 +69,7 @@ pub fn principal_curvatures(mesh: &Mesh) -> Vec<[f64; 2]> {
     let scaled = Scaled::new(mesh);
     let mesh = scaled.mesh();
     let (areas, normals) = (vertex_areas(mesh), mesh.face_normals());
-    let area_vectors = at_faces(mesh, DVec3::ZERO, |f| mesh.area_vector(f));
+    let area_vectors = mesh.area_vectors();
     fill_vertices(mesh, none, |v| {
         let faces = mesh.vertex_half_edges(v).filter_map(|h| mesh.face(h));
         let normal: DVec3 = faces.map(|f| area_vectors[f.index()]).sum();
@@ -106,7 +106,7 @@ pub fn vertex_areas(mesh: &Mesh) -> Vec<f64> {
         clippy::cast_precision_loss,
         reason = "a face has fewer than 2^32 corners"
     )]
-    let shares = at_faces(mesh, 0.0, |f| mesh.face_area(f) / mesh.degree(f) as f64);
+    let shares = mesh.at_faces(|f| mesh.face_area(f) / mesh.degree(f) as f64);
     fill_vertices(mesh, 0.0, |v| {
         let faces = mesh.vertex_half_edges(v).filter_map(|h| mesh.face(h));
         faces.map(|f| shares[f.index()]).sum()
@@ -156,19 +156,6 @@ fn fill_vertices<T: Copy + Send + Sync>(
     parallel::collect(mesh.domain_len(Domain::Vertex), |v| {
         let v = VertexId::new(v);
         if mesh.has_vertex(v) { value(v) } else { none }
-    })
-}
-
-/// Computes a value for each face. Entry i of the result belongs to the face with the index i. Dead (removed) faces get
-/// the value `none`.
-fn at_faces<T: Copy + Send + Sync>(
-    mesh: &Mesh,
-    none: T,
-    value: impl Fn(FaceId) -> T + Sync,
-) -> Vec<T> {
-    parallel::collect(mesh.domain_len(Domain::Face), |f| {
-        let f = FaceId::new(f);
-        if mesh.has_face(f) { value(f) } else { none }
     })
 }
 

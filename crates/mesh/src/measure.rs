@@ -78,12 +78,24 @@ impl Mesh {
     /// Returns the unit normals of all faces, as [`face_normal`](Self::face_normal) computes them. Entry i belongs to the
     /// face with the index i, and is zero if the mesh does not contain this face.
     pub fn face_normals(&self) -> Vec<DVec3> {
+        self.at_faces(|f| self.face_normal(f))
+    }
+
+    /// Returns the area vectors of all faces, as [`area_vector`](Self::area_vector) computes them. Entry i belongs to
+    /// the face with the index i, and is zero if the mesh does not contain this face.
+    pub fn area_vectors(&self) -> Vec<DVec3> {
+        self.at_faces(|f| self.area_vector(f))
+    }
+
+    /// Computes a value for each face. Entry i of the result belongs to the face with the index i, and is the default
+    /// value if the mesh does not contain this face. `value` is called from several threads.
+    pub fn at_faces<T: Default + Send>(&self, value: impl Fn(FaceId) -> T + Sync) -> Vec<T> {
         parallel::collect(self.domain_len(Domain::Face), |i| {
             let f = FaceId::new(i);
             if self.has_face(f) {
-                self.face_normal(f)
+                value(f)
             } else {
-                DVec3::ZERO
+                T::default()
             }
         })
     }

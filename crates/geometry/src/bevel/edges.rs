@@ -138,6 +138,7 @@ struct Bevel<'m> {
     mesh: &'m Mesh,
     chosen: &'m [bool],
     width: f64,
+    area_vectors: Vec<DVec3>,
     /// For each old vertex, its index in the new mesh; `None` if the vertex is removed.
     kept: Vec<Option<u32>>,
     n_kept: usize,
@@ -153,6 +154,7 @@ impl<'m> Bevel<'m> {
             mesh,
             chosen,
             width,
+            area_vectors: mesh.area_vectors(),
             kept: vec![None; mesh.n_vertices()],
             n_kept: 0,
             points: vec![None; mesh.n_half_edges()],
@@ -230,7 +232,7 @@ impl<'m> Bevel<'m> {
         let [a, b] = [h, g].map(|h| self.direction(h));
         let lengths = [a.length(), b.length()];
         let [a, b] = [a / lengths[0], b / lengths[1]];
-        let normal = self.mesh.area_vector(self.mesh.face(h)?);
+        let normal = self.area_vectors[self.mesh.face(h)?.index()];
         let cross = a.cross(b);
         let is_reflex = cross.dot(normal) < 0.0;
         // The sine and the cosine of half the angle from a to b, measured through the face.

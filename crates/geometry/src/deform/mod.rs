@@ -24,22 +24,22 @@ pub use lattice::Lattice;
 /// up to zero.
 pub fn vertex_directions(mesh: &Mesh) -> Vec<DVec3> {
     let exponent = crate::laplacian::exponent(mesh.positions());
-    let area_vector = |f| {
+    let area_vectors: Vec<DVec3> = mesh.at_faces(|f| {
         let corners = mesh
             .face_vertices(f)
             .map(|v| crate::laplacian::scaled(mesh.position(v), -exponent));
         let first = corners.clone().next().unwrap_or_default();
         let next = corners.clone().cycle().skip(1);
         let terms = corners.zip(next).map(|(p, q)| (p - first).cross(q - first));
-        terms.sum::<DVec3>()
-    };
+        terms.sum()
+    });
     let direction = |v| {
         let v = VertexId::new(v);
         if !mesh.has_vertex(v) {
             return DVec3::ZERO;
         }
         let (mut sum, mut size) = (DVec3::ZERO, 0.0);
-        for vector in mesh.vertex_faces(v).map(area_vector) {
+        for vector in mesh.vertex_faces(v).map(|f| area_vectors[f.index()]) {
             sum += vector;
             size += vector.length();
         }

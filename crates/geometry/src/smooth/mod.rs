@@ -314,8 +314,9 @@ impl<'a> Smoother<'a> {
         exponent: i32,
     ) -> Result<(), SmoothError> {
         const STEPS: usize = 50;
+        let area_vectors = mesh.area_vectors();
         let area_vector = |v: VertexId| {
-            let faces = mesh.vertex_faces(v).map(|f| mesh.area_vector(f));
+            let faces = mesh.vertex_faces(v).map(|f| area_vectors[f.index()]);
             faces.sum::<DVec3>() / 3.0
         };
         let vectors: Vec<DVec3> = parallel::collect(self.roles.len(), |v| match self.roles[v] {

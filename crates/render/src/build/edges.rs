@@ -135,9 +135,10 @@ impl Builder<'_, '_> {
         }
         if let Some(length) = self.style.normals {
             let attribute = mesh.get(VERTEX_NORMAL);
+            let area_vectors = mesh.area_vectors();
             let normal = |v: VertexId| match attribute {
                 Some(normals) => normals[v.index()],
-                None => mesh.vertex_faces(v).map(|f| mesh.area_vector(f)).sum(),
+                None => mesh.vertex_faces(v).map(|f| area_vectors[f.index()]).sum(),
             };
             let color = crate::Color::rgb(0, 114, 178).linear();
             for v in mesh.vertices() {

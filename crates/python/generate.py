@@ -276,7 +276,7 @@ def method(name: str, entry: Any, of_mesh: bool) -> list[str]:
     if of_mesh:
         text = for_mesh(text)
         fields = [(n, {**s, "description": for_mesh(described(s)).replace(OBJECT, "The mesh ")}) for n, s in fields]
-    more = [":param on: The names of the objects on which the operation acts. If omitted, all that it supports."] if takes_on else []
+    more = [":param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports."] if takes_on else []
     more.append(":param id, progress: See :class:`Mesh`." if of_mesh else ":param id, progress: See :meth:`Scene.apply`.")
     if name == "Save":
         more.append(":warns meshwright.LossWarning: If the format cannot store some of the data. The text lists what is lost.")

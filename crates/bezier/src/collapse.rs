@@ -22,7 +22,8 @@ use crate::patch::cubic;
 use crate::weights::Weights;
 use crate::{Counts, Faces, Patch};
 
-/// Points coincide if each of their coordinates differs by at most this fraction of the extent of the patch.
+/// Points coincide if each of their coordinates differs by at most this fraction of the extent of the patch. (The
+/// extent is the longest side of the bounding box of the control points.)
 const TOLERANCE: f64 = 1e-12;
 
 /// The collapsed sides of a patch.
@@ -47,7 +48,8 @@ impl Sides {
 
         let column = |c: usize| [p[0][c], p[1][c], p[2][c], p[3][c]];
         let is_collapsed = |side: [DVec3; 4]| {
-            // Subtract first, so that a patch far from the origin does not lose precision.
+            // Subtract the first point of the side before the samples are computed, so that a patch far from the origin
+            // does not lose precision.
             let side = side.map(|q| q - side[0]);
             let m = segments.min(3);
             (1..=m).all(|i| size(cubic(side, Weights::ratio(i, m))) <= tolerance)

@@ -18,20 +18,21 @@ use crate::{BezierError, Point};
 
 /// The largest number of control points of a [`Curve`].
 ///
-/// De Casteljau's algorithm computes n (n + 1) / 2 points for n control points. The maximum limits the cost of one
-/// evaluation to about 8 million steps, and the memory of [`Curve::levels`] to about 200 MB.
+/// De Casteljau's algorithm computes n (n + 1) / 2 points for n control points. With at most `MAX_POINTS` control
+/// points, one evaluation takes at most about 8 million steps, and [`Curve::levels`] takes at most about 200 MB of
+/// memory.
 pub const MAX_POINTS: usize = 4096;
 
 /// A Bezier curve of degree n, given by n + 1 control points.
 ///
 /// The curve starts at the first control point (t = 0) and ends at the last (t = 1). At its ends, the curve is tangent
 /// to the first and the last leg of the control polygon; a leg joins two consecutive control points. For t from 0 to 1,
-/// the curve is inside the convex hull of the control points. Outside the range of parameters from 0 to 1, every
-/// function evaluates the same polynomial. If the parameter is NaN, all results that depend on it have NaN coordinates;
-/// no function panics.
+/// the curve is inside the convex hull of the control points. Every function also accepts parameters outside the range
+/// from 0 to 1, and continues the polynomial of the curve there. If the parameter is NaN, all results that depend on it
+/// have NaN coordinates; no function panics.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve<P> {
-    /// At least one point and at most [`MAX_POINTS`].
+    /// The control points: at least one, at most [`MAX_POINTS`].
     points: Vec<P>,
 }
 

@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use crate::Counts;
 
-/// Why a curve, a patch or a tessellation was refused.
+/// Why a curve or a patch could not be created, or a tessellation could not be computed.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum BezierError {
     /// The curve has no control points.

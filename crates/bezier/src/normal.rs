@@ -9,8 +9,9 @@
 //!    *---+---*  v = 0
 //! ```
 //!
-//! Let N = du x dv, a polynomial in u and v. Consider a straight line from the point into the patch, (u + e a, v + e b)
-//! for small e > 0, where (a, b) is the direction of the line. Along this line, N is a polynomial in e:
+//! Let du and dv be the derivatives of the patch with respect to u and v. Then N = du x dv is a polynomial in u and v.
+//! Consider a straight line from the point (u, v) into the patch: (u + e a, v + e b) for small e > 0, where (a, b) is
+//! the direction of the line. Along this line, N is a polynomial in e:
 //!
 //! ```text
 //! N(e) = N0 + e N1 + e² N2 + ...      N(e) / |N(e)|  ->  Nk / |Nk|  as e goes to 0,
@@ -23,10 +24,10 @@
 //! degree 5 in u and in v, so N10 is the last coefficient.
 //!
 //! From a point on an edge, the line runs straight across the patch; from a corner, it runs along the diagonal. If the
-//! limit of the normals exists, it is the same along every line. If the limit of the normals does not exist, the result
-//! is the limit along the chosen line. At a cusp, and at the tip of a cone that is a corner of a patch, the limit does
-//! not exist. If N is zero along the whole line, two more lines from the same point are tried, one on each side of the
-//! first line. If N is zero along all three lines, the point has no normal.
+//! normals have the same limit along every line, the result is this limit. Otherwise, for example at a cusp or at a
+//! corner of the patch that is the tip of a cone, the result is the limit along the chosen line. If N is zero along the
+//! whole line, two more lines from the same point are tried, one on each side of the first line. If N is zero along all
+//! three lines, the point has no normal.
 //!
 //! Before the coefficients are compared with zero, the derivatives are scaled. The derivatives along u are divided by
 //! the largest difference of control points that are neighbors along u. The derivatives along v are divided by the
@@ -38,10 +39,10 @@ use glam::{DVec2, DVec3};
 
 /// A coefficient of the scaled normal is treated as zero if the magnitude of each coordinate is at most this value.
 ///
-/// The value is well above the rounding errors of the coefficients (1e-14). The value is also above the coefficients at
+/// This threshold is well above the rounding errors of the coefficients (1e-14). It is also above the coefficients at
 /// an edge that is not exactly collapsed, but is collapsed within the tolerance of [`tessellate`](crate::tessellate()).
-/// Within a distance of 1e-10 times the size of the patch from a pole, a coefficient below this value is inaccurate. So
-/// near a pole, the next coefficient gives a more accurate normal.
+/// A point can be so close to a pole (within 1e-10 times the size of the patch) that its first nonzero coefficient is
+/// below this value and inaccurate. In this case, the next coefficient gives a more accurate normal.
 pub const VANISHING: f64 = 1e-10;
 
 /// Returns the limit of the normals along a line into the patch from `uv`; `None` if the normals are zero along all

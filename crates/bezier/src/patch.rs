@@ -22,15 +22,15 @@ use crate::weights::Weights;
 
 /// The largest magnitude of a coordinate of a [`Patch`].
 ///
-/// The limit is far larger than the coordinates of any model (the largest `f32` is 3.4e38). The limit is small enough
-/// that products of two derivatives do not overflow.
+/// This limit is far larger than the coordinates of any model (the largest `f32` is 3.4e38), but small enough that
+/// products of two derivatives do not overflow.
 pub const MAX_COORDINATE: f64 = 1e100;
 
 /// A bicubic Bezier patch: a surface in two parameters, u along the rows of its control points
 /// and v across them.
 ///
-/// Outside the range of parameters from 0 to 1, every function evaluates the same polynomials. If a parameter is NaN,
-/// the resulting point has NaN coordinates and the normal is zero; no function panics.
+/// Every function also accepts parameters outside the range from 0 to 1, and continues the polynomials of the patch
+/// there. If a parameter is NaN, the resulting point has NaN coordinates and the normal is zero; no function panics.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Patch {
     points: [[DVec3; 4]; 4],
@@ -89,20 +89,20 @@ impl Patch {
 
     /// Returns the unit normal at (`u`, `v`), in the direction of du x dv.
     ///
-    /// If du x dv is zero, as at the pole of a surface of revolution, returns the limit of the normals inside the
-    /// patch. The module [`normal`](mod@crate::normal) explains how the limit is computed. Returns zero only if the
-    /// patch has no normal anywhere near the point, for example if the patch is a curve or a point.
+    /// If du x dv is zero, as at the pole of a surface of revolution, returns the limit of the normals at nearby points
+    /// inside the patch. The module [`normal`](mod@crate::normal) explains how the limit is computed. Returns zero only
+    /// if the patch has no normal anywhere near the point, for example if the patch is a curve or a point.
     pub fn normal(&self, u: f64, v: f64) -> DVec3 {
         self.normal_at(Weights::at(u), Weights::at(v), self.max_steps())
     }
 
-    /// Returns the point at the parameters u and v, which are given as weights.
+    /// Returns the point at the parameters u and v. Each parameter t is given by its weights 1 - t and t.
     pub(crate) fn point_at(&self, u: Weights, v: Weights) -> DVec3 {
         cubic(self.points.map(|row| cubic(row, u)), v)
     }
 
-    /// Returns the normal at the parameters u and v, which are given as weights. `max_steps` is the result of
-    /// [`Patch::max_steps`].
+    /// Returns the normal at the parameters u and v. Each parameter t is given by its weights 1 - t and t. `max_steps`
+    /// is the result of [`Patch::max_steps`].
     pub(crate) fn normal_at(&self, u: Weights, v: Weights, max_steps: DVec2) -> DVec3 {
         if max_steps.x == 0.0 || max_steps.y == 0.0 {
             return DVec3::ZERO;
@@ -126,7 +126,7 @@ impl Patch {
         DVec2::new(along(self), along(&self.transposed()))
     }
 
-    /// Returns the derivatives at the parameters u and v, which are given as weights.
+    /// Returns the derivatives at the parameters u and v. Each parameter t is given by its weights 1 - t and t.
     fn derivatives_at(&self, u: Weights, v: Weights) -> (DVec3, DVec3) {
         let du = cubic(self.points.map(|row| slope(row, u)), v);
         let dv = slope(self.points.map(|row| cubic(row, u)), v);
@@ -141,7 +141,7 @@ impl Patch {
     }
 }
 
-/// Returns the point of a cubic.
+/// Returns the point of the cubic curve with control points `p`, at the parameter with weights `w`.
 pub(crate) fn cubic(p: [DVec3; 4], w: Weights) -> DVec3 {
     match w.end() {
         Some(0) => p[0],
@@ -150,12 +150,12 @@ pub(crate) fn cubic(p: [DVec3; 4], w: Weights) -> DVec3 {
     }
 }
 
-/// Returns the point of a quadratic.
+/// Returns the point of the quadratic curve with control points `p`.
 fn quadratic(p: [DVec3; 3], w: Weights) -> DVec3 {
     w.blend(w.blend(p[0], p[1]), w.blend(p[1], p[2]))
 }
 
-/// Returns the derivative of a cubic.
+/// Returns the derivative of the cubic curve with control points `p`.
 fn slope(p: [DVec3; 4], w: Weights) -> DVec3 {
     quadratic([p[1] - p[0], p[2] - p[1], p[3] - p[2]], w) * 3.0
 }

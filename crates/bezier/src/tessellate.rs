@@ -13,7 +13,7 @@
 //!
 //! Vertex ids increase along u first, then along v, then from patch to patch. Patches share no vertices; to join the
 //! patches, weld the vertices of the result. If two patches have the same control points on a common boundary, in the
-//! same or in reverse order, their positions on this boundary are equal bit for bit.
+//! same or in reverse order, their vertices on this boundary have positions that are equal bit for bit.
 //!
 //! A side of a patch is collapsed if its points coincide, as at the pole of a teapot's lid. A collapsed side becomes
 //! one vertex. Adjacent collapsed sides together become one vertex. A cell with one collapsed side becomes a triangle.
@@ -21,8 +21,9 @@
 //! sampled at i/m for i from 0 to m. The number m is n or 3, whichever is smaller, where n is the number of segments. A
 //! side is collapsed if the coordinates of every sample differ from the coordinates of the first sample by at most the
 //! tolerance. The tolerance is 1e-12 times the longest side of the bounding box of the control points of the patch. The
-//! sides have the order v = 0, u = 1, v = 1, u = 0. The vertex of adjacent collapsed sides is at the start of the first
-//! of these sides in this order. The UV and the normal of the vertex are those at the middle of that side.
+//! sides have the order v = 0, u = 1, v = 1, u = 0. If adjacent sides are collapsed, their common vertex is at the
+//! start of the first of these sides in this order. The UV and the normal of this vertex are the values at the middle
+//! of that side.
 //!
 //! A patch is a curve or a point if all rows of its control points are the same, or all columns, within the tolerance
 //! for collapsed sides. A patch gives no vertices and no faces if it is a curve or a point, or if none of its cells

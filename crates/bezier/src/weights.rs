@@ -32,7 +32,7 @@ impl Weights {
         }
     }
 
-    /// Returns s a + t b.
+    /// Returns s a + t b, where s = 1 - t.
     pub(crate) fn blend<P: Point>(self, a: P, b: P) -> P {
         a * self.s + b * self.t
     }

@@ -10,7 +10,8 @@ use crate::folder::{Folder, Kind, Unusable, write_all};
 
 /// The maximum age of temporary files. Older temporary files were left by killed processes and are removed.
 const MAX_TEMPORARY_AGE: Duration = Duration::from_secs(3600);
-/// The maximum length of the file `sizes`, in bytes. If the file is longer, its numbers are replaced by their sum.
+/// The maximum length of the file `sizes`, in bytes. The file lists how many bytes each run has stored. If the file is
+/// longer, the total size of the cache is measured again and replaces the list.
 const MAX_SIZES_LEN: u64 = 1 << 16;
 
 struct Entry {
@@ -102,7 +103,8 @@ fn remove(path: &Path) -> io::Result<()> {
 }
 
 /// Returns the path of the file `sizes`. Each run appends the number of bytes that it stored, as an integer of 8 bytes.
-/// If a run lists all files, it replaces the content of `sizes` by the total size of these files instead.
+/// If a run lists all files of the cache, the run replaces the content of `sizes` by the total size of these files
+/// instead.
 fn sizes(folder: &Folder) -> PathBuf {
     folder.root().join("sizes")
 }
@@ -119,7 +121,7 @@ pub(crate) fn after_run(folder: &Folder, limit: u64) {
 fn add_to_total(folder: &Folder, added: u64, limit: u64) -> io::Result<()> {
     remove_old_temporaries(&folder.temporary())?;
     let path = sizes(folder);
-    // If the file is too long or not a regular file, it is replaced.
+    // If the file `sizes` is too long or not a regular file, it is replaced.
     let before = Folder::read(&path, MAX_SIZES_LEN);
     if let Err(Unusable::Damaged(_)) = before {
         Folder::discard(&path);
@@ -130,7 +132,7 @@ fn add_to_total(folder: &Folder, added: u64, limit: u64) -> io::Result<()> {
         runs.fold(added, u64::saturating_add)
     });
     if total.is_some_and(|total| total <= limit) {
-        // An append of 8 bytes is atomic, so concurrent runs do not damage the numbers of each other.
+        // An append of 8 bytes is atomic, so concurrent runs do not damage each other's numbers.
         let mut file = OpenOptions::new().append(true).create(true).open(&path)?;
         file.write_all(&added.to_le_bytes())?;
     } else {

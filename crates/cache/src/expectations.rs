@@ -33,7 +33,8 @@ impl MetExpectation {
     }
 }
 
-/// Whether `met` contains the expectation, with input files that have not changed since.
+/// Whether `met` contains the expectation, and the input files of the expectation have not changed since it was
+/// recorded.
 pub(crate) fn is_known_to_hold(
     met: &[MetExpectation],
     placed: &RecipeExpectation,

@@ -170,8 +170,8 @@ impl Folder {
         Ok(bytes)
     }
 
-    /// Removes a file. Errors are ignored: if a damaged file cannot be removed, its digest shows the damage again the
-    /// next time.
+    /// Removes a file. Errors are ignored: if a damaged file cannot be removed, the damage is detected again when the
+    /// file is read the next time.
     pub(crate) fn discard(path: &Path) {
         let _ = fs::remove_file(path);
     }

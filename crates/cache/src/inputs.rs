@@ -15,7 +15,7 @@ use recipe::FileChange;
 pub(crate) enum PathState {
     /// A regular file whose content has this digest.
     Content(Hash),
-    /// A regular file whose content does not matter.
+    /// A regular file whose content does not matter, because the step only checked whether the file exists.
     Exists,
     /// The path does not lead to a regular file: it does not exist, or it is a folder, a pipe or a device.
     Missing,

@@ -24,7 +24,7 @@ pub(crate) struct Ingredients {
     pub(crate) stream: String,
     pub(crate) refused: Option<Refusal>,
     pub(crate) budget: u64,
-    /// The state before the step.
+    /// The state of the scene before the step.
     pub(crate) before: State,
 }
 
@@ -75,7 +75,7 @@ impl State {
         Self(digest("start", &()))
     }
 
-    /// Returns the state of a scene that is identified by its content, because the inputs of a step are unknown.
+    /// Returns the state of a scene, computed from the content of the scene. Used if the inputs of a step are unknown.
     pub(crate) fn of_scene(digest_of_scene: scene::Digest) -> Self {
         Self(digest("scene", &digest_of_scene.to_bytes()))
     }
@@ -139,7 +139,7 @@ mod tests {
             })
             .collect();
         assert_eq!(keys.len(), changes.len());
-        // If the same characters are divided differently between two fields, the key is different.
+        // Here, the same characters are divided differently between two fields. The keys must differ.
         let (mut a, mut b) = (ingredients(), ingredients());
         (a.program, a.operation) = ("pO".into(), "p".into());
         (b.program, b.operation) = ("p".into(), "Op".into());

@@ -11,11 +11,11 @@
 //!
 //! **Keys.** The key of a step is the digest of the data that determine its result and that are known before the step
 //! runs. The key depends on the program, the operation with its version and parameters, and the objects in `on`. The
-//! key also depends on the label that seeds random choices, the memory budget, and the state before the step. If the
-//! recipe expects that the step is refused, the key depends on the expected reason, too. The state after a step is the
-//! digest of its key and of the files that it read or looked for. The files that a step reads are known only after the
-//! step has run. Before a cached result is used, the digests of the current contents of these files are compared with
-//! the recorded digests. Modification times are not compared.
+//! key also depends on the label that seeds random choices, the memory budget, and the state of the scene before the
+//! step. If the recipe expects that the step is refused, the key depends on the expected reason, too. The state of the
+//! scene after a step is a digest. It is computed from the key of the step and the files that the step read or looked
+//! for. The files that a step reads are known only after the step has run. Before a cached result is used, the digests
+//! of the current contents of these files are compared with the recorded digests. Modification times are not compared.
 //!
 //! **Integrity.** Only regular files are read, not links, and only up to a maximum length. Every blob must match the
 //! digest in its name. Every record must match its digest, which depends on the secret key of the cache. Only the user
@@ -26,14 +26,14 @@
 //! anything.
 //!
 //! **What is stored.** The record of each completed step is stored, unless the state of an input file is unknown.
-//! Scenes in which a mesh has removed elements are not stored, because they cannot be restored exactly. All other
-//! scenes, and all output files, are stored if they have fewer than [`ALWAYS_STORED`] bytes. A larger scene is stored
-//! if storing it takes at most as long as the computation since the last stored scene. The time for storing is
-//! estimated from [`BYTES_PER_SECOND`]. Therefore, even a run that stores all of its results takes at most about twice
-//! as long as a run without the cache. If a scene is not stored, computing it again in a later run takes at most as
-//! long as storing it would have taken. Larger output files are stored if storing them takes at most as long as running
-//! the step and loading its scene. Equal long arrays are stored only once. Therefore, if a step changes one attribute
-//! of a large mesh, only this attribute is added to the cache.
+//! Removed elements leave gaps in the arrays of a mesh. Storing would close these gaps and renumber the elements, so
+//! scenes with gaps are not stored. All other scenes, and all output files, are stored if they have fewer than
+//! [`ALWAYS_STORED`] bytes. A larger scene is stored if storing it takes at most as long as the computation since the
+//! last stored scene. The time for storing is estimated from [`BYTES_PER_SECOND`]. Therefore, even a run that stores
+//! all of its results takes at most about twice as long as a run without the cache. If a scene is not stored, computing
+//! it again in a later run takes at most as long as storing it would have taken. Larger output files are stored if
+//! storing them takes at most as long as running the step and loading its scene. Equal long arrays are stored only
+//! once. Therefore, if a step changes one attribute of a large mesh, only this attribute is added to the cache.
 //!
 //! **Size.** If a run has stored something, the cache adds up at its end how many bytes all runs have stored. If this
 //! sum exceeds the size limit of the cache, or is not known, all files of the cache are listed. If the listed files
@@ -89,7 +89,7 @@ pub struct Caching<'a> {
 /// The size of a cache.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CacheSize {
-    /// The total size of the stored steps, blobs and recipes, in bytes.
+    /// The total size in bytes of the files that store steps, recipes and blobs (long arrays and output files).
     pub bytes: u64,
     /// The number of stored steps.
     pub steps: u64,

@@ -105,7 +105,8 @@ pub(crate) fn load_data<T: DeserializeOwned>(
         let (digest, data) = rest
             .and_then(|rest| rest.split_at_checked(size_of::<Hash>()))
             .ok_or_else(|| damaged("it is not a cache file"))?;
-        // The digest includes the id, so that a file that was renamed to another id is rejected too.
+        // The digest also depends on `id`, from which the path of the file is derived. Therefore, a file that was
+        // renamed is rejected, too.
         if digest != keyed_digest(&folder.key()?, id, data) {
             return Err(damaged("the content of the file does not match its digest"));
         }

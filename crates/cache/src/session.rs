@@ -37,7 +37,7 @@ pub(crate) struct Session<'a> {
     caching: Caching<'a>,
     checker: FileChecker,
     history: History,
-    /// One position for the start of the run, and one for each step that is done.
+    /// One entry for the start of the run, and one entry for each step that is done.
     positions: Vec<Position>,
     /// The ingredients (the data from which the key is computed) of the step that was looked up last, if that step must
     /// run.
@@ -138,8 +138,8 @@ impl CachedRun for Session<'_> {
                     "the result of step {number} {label} is not stored in the cache, because the input files of the step cannot be determined ({}: {why})",
                     path.display()
                 ));
-                // Later steps can still be cached, because the identity of the scene after this step is computed from
-                // the scene itself, and not from the inputs of the step.
+                // The identity of the scene after this step is computed from the scene itself, and not from the inputs
+                // of the step. Therefore, later steps can still be cached.
                 if is_dense(done.scene) {
                     let digest = position.digest.unwrap_or_else(|| done.scene.digest());
                     position.digest = Some(digest);
@@ -323,7 +323,7 @@ impl<'a> Session<'a> {
             return Ok(());
         };
         // Without a stage (a folder that collects the output files), the run does not need the output files. A
-        // different provenance in the cached files then does not matter.
+        // different provenance (the text about the origin of the files) in the cached files then does not matter.
         if stage.is_some() && outputs.provenance != files.provenance {
             return Err(RerunReason::Provenance);
         }
@@ -451,8 +451,8 @@ fn is_worth_storing(bytes: u64, time: Duration) -> bool {
     bytes < ALWAYS_STORED || bytes as f64 / BYTES_PER_SECOND <= time.as_secs_f64()
 }
 
-/// Whether all meshes are dense: they have no removed elements. If a mesh is not dense, it changes when it is stored
-/// and loaded.
+/// Whether all meshes are dense. A mesh is dense if its arrays have no gaps, which removed elements leave. A mesh with
+/// gaps would change when it is stored and loaded, because its elements are renumbered.
 fn is_dense(scene: &Scene) -> bool {
     let mut meshes = scene.objects().iter().filter_map(|o| o.as_mesh());
     meshes.all(|mesh| mesh.is_dense())

@@ -1,5 +1,5 @@
-//! Measures how well a batch of 200 small files uses the processors, and which part of the time is spent in the runs of
-//! the recipe.
+//! Measures how well a batch of 200 small files uses the processors, and which share of the time the runs of the recipe
+//! take.
 //!
 //! The input files are wavy grids of 1,600 quadrilaterals (about 100 kB of OBJ). The recipe triangulates each grid,
 //! subdivides it once, computes normals and writes it as GLB. The batch runs five times with one thread, and five times
@@ -75,7 +75,8 @@ fn measured(folder: &Path, threads: usize) -> [f64; 3] {
         .expect("a shell");
     let wall = begin.elapsed().as_secs_f64();
     assert!(output.status.success(), "{output:?}");
-    // The second line of the output of `times` has the user and system time of child processes: `0m1.250s 0m0.120s`.
+    // The shell command `times` prints the user and system time of child processes in its second line:
+    // `0m1.250s 0m0.120s`.
     let text = String::from_utf8(output.stdout).expect("text");
     let seconds = |word: &str| {
         let (minutes, rest) = word.split_once('m')?;

@@ -8,7 +8,7 @@ mod common;
 
 use common::{measure, run};
 
-/// Returns a recipe that alternately splits, flips and tags selected edges.
+/// Returns a recipe whose steps split, flip and tag edges in turn.
 fn many_steps() -> String {
     let mut steps = vec!["Cube(name: \"a\", triangles: true)".to_owned()];
     for i in 0..333 {

@@ -69,7 +69,7 @@ struct State {
 }
 
 impl<'a> Events<'a> {
-    /// Writes the start event, and an event for each problem of the recipe. `progress` is asked during the run whether
+    /// Writes the start event, and an event for each problem of the recipe. During the run, `progress` decides whether
     /// the run continues.
     pub(crate) fn start(loaded: &'a Loaded, progress: &'a dyn Progress) -> Self {
         let now = Instant::now();

@@ -5,15 +5,14 @@ use std::path::Path;
 
 /// A recipe or an input file, with its result.
 pub(crate) struct Case<'a> {
-    /// The path. In the report, the name of the test case is the path. The class of the test case is the folder of the
-    /// path.
+    /// The path of the recipe or of the input file. In the report, this path is the name of the test case. The folder
+    /// of the path is the class of the test case.
     pub(crate) path: &'a Path,
     /// The time of the run, in seconds.
     pub(crate) time: f64,
     pub(crate) end: CaseEnd,
 }
 
-/// The result of a case.
 pub(crate) enum CaseEnd {
     Passed,
     /// The test case was not run. The text is the reason.

@@ -54,9 +54,8 @@ pub fn run(registry: Registry) -> ExitCode {
 }
 
 /// Returns the recipes that `meshwright test` runs if it is given these paths of recipes and folders. The result
-/// includes recipes that cannot be read. Recipes without expectations are left out. Some recipes are found in a given
-/// folder, and their own paths are not given. Such a recipe is also left out if another recipe that was given or found
-/// calls it.
+/// includes recipes that cannot be read. Recipes without expectations are left out. A recipe that was only found in a
+/// given folder is also left out if another given or found recipe calls it.
 ///
 /// # Errors
 ///

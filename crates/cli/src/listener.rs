@@ -8,8 +8,8 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use op::Progress;
 use recipe::{Listener, StepDone};
 
-/// The flag that Ctrl-C sets. Every loop that can run for a long time checks this flag. If a run shows no progress, as
-/// when several runs are made at the same time, this flag itself is the listener of the run.
+/// The flag that Ctrl-C sets. Every loop that can run for a long time checks this flag. A run that shows no progress,
+/// such as one of several simultaneous runs, has this flag as its listener.
 pub(crate) static INTERRUPT: Cancel = Cancel::new();
 
 /// Installs the handler of Ctrl-C: the first Ctrl-C cancels the run cleanly, and the second Ctrl-C ends the program
@@ -86,7 +86,7 @@ impl Progress for Terminal<'_> {
                 "" => what.to_owned(),
                 step => format!("{step}: {what}"),
             };
-            // Each phase has its own estimate of the remaining time.
+            // A new message means that a new task has begun. The remaining time is then estimated anew.
             if self.bar.message() != message {
                 self.bar.set_message(message);
                 self.bar.reset();

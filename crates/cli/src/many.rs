@@ -4,8 +4,8 @@ use recipe::{Diagnostic, InOrder, JobEnd, JobLimits, Jobs, Severity};
 
 use crate::listener::is_interrupted;
 
-/// The number of runs that are checked together before the first of them starts. After a run is checked, its loaded
-/// recipe stays in memory.
+/// The number of runs that are checked together before the first of them starts. The number is limited because the
+/// loaded recipes of all checked runs stay in memory.
 pub(crate) const CHECKED_AHEAD: usize = 1000;
 
 /// The result of a job. If the job failed or panicked, the error contains the message. If the job was canceled or not

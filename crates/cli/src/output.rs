@@ -105,7 +105,8 @@ fn summary(step: &RecipeStep, done: &StepDone) -> String {
     parts.join(", ")
 }
 
-/// Returns the refused edits, the losses and the notes that the steps report, each on its own line.
+/// Returns what the steps report, one item on each line: refused edits, losses (data that a step did not keep), changes
+/// of data that a file had, and notes.
 pub(crate) fn step_notes(steps: &[StepDone]) -> String {
     let mut text = String::new();
     for step in steps {
@@ -151,10 +152,10 @@ fn terminal_width() -> Option<usize> {
         .filter(|&columns| columns > 0)
 }
 
-/// Aligns rows in columns. If the table is wider than `limit`, its titles are shortened first. If this is not enough
-/// and the last column contains text, the last column is shortened. If the table is still too wide, the first column is
-/// shortened. Numbers are never shortened. If the numbers still do not fit, each row of the table continues on further
-/// lines, which are indented.
+/// Aligns rows in columns. If the table is wider than `limit`, the column titles are shortened first. If this is not
+/// enough and the last column contains text, the last column is shortened. If the table is still too wide, the first
+/// column is shortened. Numbers are never shortened. If the numbers still do not fit, each row of the table continues
+/// on further lines, which are indented.
 fn table_within(rows: &[Vec<String>], limit: Option<usize>, last_is_text: bool) -> String {
     /// A name is not shortened to fewer characters than this.
     const MIN: usize = 8;
@@ -239,8 +240,8 @@ pub(crate) fn group_digits(n: u64) -> String {
     text
 }
 
-/// Returns a table with the origin of each parameter value, for the recipe and the recipes that it calls. The notes of
-/// the steps follow the table.
+/// Returns a table with the origin of each parameter value, for the recipe and the recipes that it calls. After the
+/// table, the text lists the steps that have a field `note`.
 pub(crate) fn explain(recipe: &Recipe) -> String {
     let mut rows = vec![header_row(["parameter", "value", "from"])];
     for scope in &recipe.scopes {
@@ -269,7 +270,8 @@ fn explain_notes(recipe: &Recipe) -> String {
     if text.is_empty() { text } else { text + "\n" }
 }
 
-/// Lists each step, and says either why it ran or that its result was cached. The notes of the cache follow the list.
+/// Lists each step, and says either why it ran or that its result was cached. The results that could not be stored in
+/// the cache or loaded from it follow the list.
 pub(crate) fn explain_steps(outcome: &Outcome) -> String {
     let mut text = String::new();
     for (i, step) in outcome.steps.iter().enumerate() {

@@ -9,7 +9,7 @@ pub enum Walk {
     Next,
     /// To the other half of the same edge.
     Twin,
-    /// To the previous half-edge, whose next half-edge is this half-edge.
+    /// To the previous half-edge of the same face.
     Previous,
     /// To the next half-edge that leaves the same vertex, clockwise.
     AroundVertex,
@@ -38,7 +38,7 @@ pub struct HalfEdgeInfo {
     pub next: HalfEdgeId,
     /// The other half of the edge.
     pub twin: HalfEdgeId,
-    /// The previous half-edge, whose next half-edge is this half-edge.
+    /// The previous half-edge of the same face.
     pub previous: HalfEdgeId,
     /// The edge.
     pub edge: EdgeId,
@@ -52,7 +52,7 @@ pub struct HalfEdgeInfo {
     pub valence: usize,
     /// The number of corners of the half-edge's face. `None` if the half-edge is on the boundary.
     pub degree: Option<usize>,
-    /// The length, in scene units.
+    /// The length of the half-edge, in scene units.
     pub length: f64,
     /// The angle between the normals of the two faces at the edge, in degrees. `None` if the edge is on the boundary,
     /// or if the area of a face is zero.

@@ -37,8 +37,8 @@ pub struct PlayedEdit {
     pub edge: Option<EdgeId>,
     /// The reason for which the edit was refused, or `None` if it was not refused.
     pub refused: Option<EditError>,
-    /// The changes of pointers: one entry for each half-edge around the edge whose pointers change, in the order of the
-    /// half-edges' indices.
+    /// The changes of pointers: one entry for each half-edge whose pointers change, in the order of the half-edges'
+    /// indices.
     pub pointers: Vec<PointerChange>,
 }
 
@@ -69,9 +69,9 @@ impl Play {
     /// scene before the step. None of the edits is done yet. If there are more than 10 000 edits, only the first 10 000
     /// edits are returned.
     ///
-    /// `label` is the label of the step, which seeds random choices. Returns `None` if the operation is a different
-    /// one, if it is `FlipEdges` with `until`, if the step has errors or a value `arg(..)`, or if the object is not a
-    /// mesh.
+    /// `label` is the label of the step, which seeds random choices. Returns `None` if the step has another operation,
+    /// or is `FlipEdges` with `until`. Also returns `None` if the step has errors or a value `arg(..)`, or if the
+    /// object is not a mesh.
     pub fn of_step(scene: &Scene, object: &str, run: &Value, label: &str) -> Option<Self> {
         let object = scene.object(object)?;
         let mesh = object.as_mesh()?;

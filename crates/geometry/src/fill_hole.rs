@@ -123,9 +123,9 @@ impl<'m> Hole<'m> {
         0.5 * twice + self.shape * (1.0 - roundness)
     }
 
-    /// Finds the triangulation with the smallest total cost, by dynamic programming over parts of the rim. Returns the
-    /// ears in the order in which they are cut off. Returns `None` if every triangulation needs an edge that already
-    /// exists.
+    /// Finds the triangulation with the smallest total cost, by dynamic programming over parts of the rim (consecutive
+    /// vertices around the hole). Returns the ears in the order in which they are cut off. Returns `None` if every
+    /// triangulation needs an edge that already exists.
     fn smallest(&self) -> Option<Vec<usize>> {
         let n = self.points.len();
         let mut best: Vec<Option<Best>> = vec![None; n * n];
@@ -137,7 +137,7 @@ impl<'m> Hole<'m> {
                 let k = i + length;
                 // The part of the hole between the corners i and k is filled separately, so it needs a new edge from i
                 // to k. If the mesh already has this edge, the part cannot be filled separately. The part with all
-                // corners is an exception: its edge from i to k is an edge of the rim, and is not new.
+                // corners is an exception: its edge from i to k is an old edge at the border of the hole.
                 if length < n - 1 && self.is_joined(i, k) {
                     continue;
                 }
@@ -158,8 +158,8 @@ impl<'m> Hole<'m> {
             }
         }
 
-        // The corner of a triangle becomes an ear only after the parts on both sides of the triangle are filled. The
-        // loop below visits each triangle before these parts, so the order is reversed at the end.
+        // The corner `middle` of a triangle is cut off only after the two parts of the hole beside the triangle are
+        // filled. The loop below visits each triangle before these parts, so the order is reversed at the end.
         let mut ears = Vec::with_capacity(n - 2);
         let mut parts = vec![(0, n - 1)];
         while let Some((i, k)) = parts.pop() {

@@ -17,8 +17,8 @@ pub(crate) enum Kind {
 }
 
 /// Returns, for each edge, whether it is a part of a line. These edges are parts of lines: boundary edges, seams, edges
-/// with a tag or a crease, and the `features`. An edge is also a part of a line if its two faces have different tags,
-/// materials or other whole numbers. The mesh must be [dense](mesh::Mesh::is_dense).
+/// with a tag or a crease, and the `features`. An edge is also a part of a line if a tag, the material or another
+/// whole-number attribute differs between its two faces. The mesh must be [dense](mesh::Mesh::is_dense).
 pub(crate) fn lines(mesh: &Mesh, features: &[EdgeId]) -> Vec<bool> {
     let faces: Vec<&Column> = labels(mesh, Domain::Face).collect();
     let tags: Vec<&[bool]> = labels(mesh, Domain::Edge)

@@ -9,9 +9,9 @@
 //! ```
 //!
 //! Faces that are adjacent in the mesh and belong to the same part stay connected. A fan is a set of faces around a
-//! vertex that are connected by edges at this vertex. At a vertex of the new boundary, each boundary half-edge that
-//! ends at the vertex gets a successor: the boundary half-edge that leaves the vertex at the other end of the same fan.
-//! If a vertex has several fans, the first fan keeps the vertex and each of the other fans gets a copy.
+//! vertex that are connected by edges at this vertex. At a vertex of the new boundary, each fan has one boundary
+//! half-edge that ends at the vertex and one that leaves the vertex. The second half-edge becomes the successor of the
+//! first one. If a vertex has several fans, the first fan keeps the vertex and each of the other fans gets a copy.
 
 use mesh::{Connectivity, Domain, EdgeId, FaceId, HalfEdgeId, Mesh, Sources, VertexId};
 
@@ -65,10 +65,10 @@ pub fn separated(mesh: &Mesh) -> Vec<Mesh> {
 ///
 /// Elements keep their order and their values. An edge between two parts is copied to both parts. A fan is a set of
 /// faces around a vertex that are connected by edges at this vertex. If the faces of a part form several fans around a
-/// vertex, the fan with the lowest boundary half-edge keeps the vertex. Each of the other fans gets a copy of the
-/// vertex. The copies are numbered after all other vertices. A part with a new boundary loses the attribute columns
-/// with [`Rule::Drop`](mesh::Rule::Drop). The parts are dense: their ids have no gaps. Apart from sorting the faces,
-/// the time is linear in the size of the mesh, for any number of parts.
+/// vertex, the fan whose boundary half-edge has the lowest index keeps the vertex. Each of the other fans gets a copy
+/// of the vertex. The copies are numbered after all other vertices. A part with a new boundary loses the attribute
+/// columns with [`Rule::Drop`](mesh::Rule::Drop). The parts are dense: their ids have no gaps. Apart from sorting the
+/// faces, the time is linear in the size of the mesh, for any number of parts.
 ///
 /// # Panics
 ///
@@ -228,8 +228,8 @@ mod tests {
     use crate::{area, n_components, shapes};
     use mesh::{CREASE, Column, DVec2, DVec3, MATERIAL, Rule, UV, Values};
 
-    /// Returns one mesh of several shapes, with interleaved faces and with attributes, and the list of the
-    /// shapes.
+    /// Returns a mesh that consists of several shapes, and the list of these shapes. The mesh has attributes, and the
+    /// faces of the shapes are interleaved.
     fn mixed() -> (Mesh, Vec<Mesh>) {
         let shapes = vec![
             shapes::cube(),

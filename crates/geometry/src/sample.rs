@@ -27,10 +27,10 @@ const CANDIDATES: usize = 5;
 /// the area of the surface is zero or not finite.
 ///
 /// First, 5 × `count` random points are drawn, so that equal areas get about equal numbers of points. Then the most
-/// crowded point (the point with the most and nearest neighbors) is removed, again and again, until `count` points are
-/// left (Yuksel, "Sample Elimination for Generating Poisson Disk Sample Sets", 2015). Distances are Euclidean, not
-/// along the surface. The returned points are in the order in which they were drawn. The result depends only on the
-/// mesh, `count` and the seed.
+/// crowded point is removed, again and again, until `count` points are left (Yuksel, "Sample Elimination for Generating
+/// Poisson Disk Sample Sets", 2015). A point is crowded if many other points are near it; the nearer they are, the more
+/// they count. Distances are Euclidean, not along the surface. The returned points are in the order in which they were
+/// drawn. The result depends only on the mesh, `count` and the seed.
 ///
 /// # Errors
 ///

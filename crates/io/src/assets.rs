@@ -28,7 +28,7 @@ pub(crate) fn inside(name: &str) -> Result<PathBuf, &'static str> {
                     return Err("leads out of the folder of the file");
                 }
             }
-            // A part with a colon is refused. The colon can belong to a drive (`C:`), a scheme (`file:`), or a named
+            // A path with a colon is refused. The colon can belong to a drive (`C:`), a scheme (`file:`), or a named
             // stream of a file on Windows.
             _ if part.contains(':') => return Err("names a drive or a scheme"),
             _ if part.contains(char::is_control) => return Err("has control characters"),
@@ -136,8 +136,7 @@ impl<'a> Assets<'a> {
         }
     }
 
-    /// Converts a path that [`inside`] or [`inside_uri`] returned to a path that includes the folder of the requested
-    /// file.
+    /// Joins the folder of the requested file and a path that was returned by [`inside`] or [`inside_uri`].
     pub(crate) fn place(&self, name: &Path) -> PathBuf {
         folder_of(self.path).join(name)
     }

@@ -87,8 +87,8 @@ impl Stored<'_> {
             Format::Off => match (domain, name, values) {
                 (Domain::Vertex, "normal", Values::Vec3(_))
                 | (Domain::Vertex, "color", Values::Vec4(_)) => Kept,
-                // Texture coordinates are lost if corners of the same vertex differ. For faces, a file stores either
-                // colors or color indices.
+                // Texture coordinates are lost if they differ between corners of the same vertex. For faces, a file
+                // stores either colors or color indices.
                 (Domain::Corner, "uv", Values::Vec2(_))
                 | (Domain::Face, "color", Values::Vec4(_))
                 | (Domain::Face, COLOR_INDEX, Values::Int(_)) => Partial,
@@ -176,7 +176,7 @@ impl Format {
     }
 
     /// Whether files of this format store the names of several objects. Files of the format `.ply` do not store these
-    /// names, but when several objects are written, each face gets a tag with the name of its object.
+    /// names. But when several objects are written to such a file, each face gets a tag with the name of its object.
     pub const fn keeps_names(self) -> bool {
         !matches!(
             self,

@@ -14,8 +14,8 @@ use mesh::parallel;
 /// because the computed area of a zero-area face is rarely exactly 0.
 const DEGENERATE_RATIO: f64 = 1e-14;
 
-/// To find duplicate faces, the faces are divided into this number of groups according to a hash, and each face is
-/// compared only with the faces of its own group. Groups are processed in parallel.
+/// To find duplicate faces, the faces are divided into this number of groups according to a hash. Each face is compared
+/// only with the faces of its own group. Groups are processed in parallel.
 const N_GROUPS: usize = 16;
 
 /// For each polygon, its index in the file; `None` if all polygons have the same indices as in the file.
@@ -151,7 +151,7 @@ fn is_degenerate(points: &[DVec3]) -> bool {
 /// Returns the polygons that have the same vertices as an earlier polygon, in the same or the opposite circular order.
 fn duplicates(polygons: &Polygons) -> Vec<usize> {
     let hashes = parallel::collect(polygons.n_faces(), |f| sum_of_hashes(corners(polygons, f)));
-    // Each task sorts the faces of one group, so that equal faces become neighbors.
+    // Each task sorts the faces of one group by their hashes, so that equal faces are next to each other in the list.
     let shares = parallel::map(N_GROUPS, |share| {
         let own = hashes
             .iter()

@@ -26,8 +26,8 @@ pub(crate) struct CornerNumbers {
 impl CornerNumbers {
     /// Assigns numbers to the values of corners. `equal` returns whether two corners of one vertex have the same value.
     /// A corner is compared only with the latest [`MAX_COMPARED`] distinct values at its vertex. This limit keeps the
-    /// time for a vertex with a million corners linear. If a vertex has more distinct values, a value can get a second
-    /// number.
+    /// time for a vertex with a million corners linear. If a vertex has more distinct values than this limit, a value
+    /// can get a second number.
     pub(crate) fn new(mesh: &Mesh, equal: impl Fn(HalfEdgeId, HalfEdgeId) -> bool + Sync) -> Self {
         // Each entry of `same` is written by only one task: the task that handles the origin of the half-edge. Each
         // entry of `numbers` is also written by only one task: the task whose block of numbers contains the value of

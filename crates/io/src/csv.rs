@@ -1,4 +1,5 @@
-//! Writes CSV files, which contain a table of the vertices, faces or corners of a mesh. These files cannot be read.
+//! Writes CSV files, which contain a table of the vertices, faces or corners of a mesh. The program does not read CSV
+//! files.
 //!
 //! | column | content |
 //! | --- | --- |
@@ -12,7 +13,7 @@
 //! Lines end with a line feed, and fields with commas, quotes or line breaks are quoted (RFC 4180). Each number has the
 //! fewest digits from which a reader restores exactly the same 64-bit number. Numbers that are not finite are written
 //! as `nan`, `inf` and `-inf`. If the name of an attribute is already the name of another column, a number is appended
-//! to it.
+//! to the name of the attribute.
 
 use mesh::{Domain, FaceId, HalfEdgeId, Mesh};
 use scene::{Geometry, Object, Scene};
@@ -74,7 +75,7 @@ pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<SingleFile,
     Ok((out, joined.losses))
 }
 
-/// An object, and the number of vertices and faces of the objects before it.
+/// An object, and the total numbers of vertices and faces of the objects before it.
 struct Part {
     name: String,
     vertices: usize,
@@ -128,7 +129,7 @@ fn push_corner(out: &mut Vec<u8>, mesh: &Mesh, f: usize, h: HalfEdgeId, part: &P
     );
 }
 
-/// Appends the position and the attributes of the element at `i`, and ends the row.
+/// Appends the position and the attributes of the element with index `i`, and ends the row.
 fn push_row(out: &mut Vec<u8>, mesh: &Mesh, domain: Domain, i: usize, position: [f64; 3]) {
     for x in position {
         push_value(out, x);

@@ -17,12 +17,13 @@ pub(crate) fn leading_number(text: &[u8]) -> Option<(f64, usize)> {
 
 /// Parses at most eight digits, beginning at `at`. Returns the value of the digits, and their number.
 ///
-/// Processes all digits at once as the bytes of one word (Lemire, "Quickly parsing eight digits", 2018).
+/// Processes all digits at once as the bytes of one 64-bit word (Lemire, "Quickly parsing eight digits", 2018).
 #[inline]
 pub(crate) fn up_to_eight_digits(text: &[u8], at: usize) -> (u64, usize) {
     let word = eight_bytes(text, at) ^ 0x3030_3030_3030_3030;
-    // In `non_digits`, a set high bit marks a byte that is not a digit. The bits are right up to the lowest byte that
-    // is not a digit, and can be wrong in the bytes above it. Therefore, only the lowest set bit is used.
+    // In `non_digits`, a set high bit marks a byte that is not a digit. The bits are correct from the lowest byte up to
+    // the first byte that is not a digit. In the bytes above it, they can be wrong. Therefore, only the lowest set bit
+    // is used.
     let non_digits = (word.wrapping_add(0x7676_7676_7676_7676) | word) & 0x8080_8080_8080_8080;
     let count = non_digits.trailing_zeros() / 8;
     if count == 0 {

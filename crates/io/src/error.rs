@@ -150,7 +150,7 @@ pub enum WriteError {
         /// What the format can store and what was found.
         message: String,
     },
-    /// The format cannot store the scene as a whole.
+    /// The format cannot store the scene, for a reason that does not concern a single object.
     #[error("{}: {message}", path.display())]
     Scene {
         /// The file.
@@ -172,7 +172,7 @@ impl From<StoreError> for WriteError {
 /// The reason why a format cannot store a scene. The value does not contain the name of the file, which is added later.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Unwritable {
-    /// The object that the format cannot store; `None` for the scene as a whole.
+    /// The object that the format cannot store. `None` if the reason does not concern a single object.
     object: Option<String>,
     message: String,
 }

@@ -18,8 +18,8 @@ pub(crate) struct FileVertices {
     /// Two lists. The first contains the vertices to write. The second contains, for each vertex of the mesh, the index
     /// with which the vertex is written. `None` if the mesh has no copies.
     originals: Option<(Vec<u32>, Vec<u32>)>,
-    /// For each copy, a pair of the index with which it is written, and the index of the copy in the mesh. The pairs
-    /// are sorted.
+    /// For each copy, a pair of indices: the index with which the copy is written, and the index of the copy in the
+    /// mesh. The pairs are sorted.
     copies: Vec<(u32, u32)>,
     n: usize,
 }
@@ -100,7 +100,7 @@ impl FileVertices {
     }
 }
 
-/// Whether an attribute is the one that marks the copies of split vertices, [`COPY_DISTANCE`].
+/// Whether an attribute is [`COPY_DISTANCE`], which marks the copies of split vertices.
 pub(crate) fn is_mark(domain: Domain, column: &Column) -> bool {
     domain == Domain::Vertex && column.name == COPY_DISTANCE
 }

@@ -113,7 +113,7 @@ impl fmt::Display for Format {
     }
 }
 
-/// The kind of elements of a `.csv` file. Each element has a row.
+/// The kind of elements that a `.csv` file lists. Each of these elements has a row.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Rows {

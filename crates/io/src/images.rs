@@ -165,9 +165,9 @@ const KINDS: [(&str, &str); 16] = [
     ("svg", "image/svg+xml"),
 ];
 
-/// Returns the media type of an image file. The first bytes of the file determine the type. If they are not known, the
-/// extension of the file determines it. Returns `None` if the file does not seem to be an image, so that other files
-/// are never embedded or copied.
+/// Returns the media type of an image file. The first bytes of the file determine the type. If these bytes do not
+/// belong to a known type, the extension of the file determines the type. Returns `None` if the file does not seem to
+/// be an image, so that other files are never embedded or copied.
 fn media_type(path: &Path, bytes: &[u8]) -> Option<&'static str> {
     let extension = path.extension().unwrap_or_default();
     let of_bytes = sniffed(bytes);
@@ -200,8 +200,8 @@ pub(crate) struct Settled<'a> {
 ///
 /// # Errors
 ///
-/// Returns an error if an image would be embedded in an OBJ file, or if a folder for images cannot be created or is
-/// outside the folder of the file.
+/// Returns an error if an image would be embedded in an OBJ file. Also returns an error if a folder for images cannot
+/// be created or is outside the folder of the file.
 pub(crate) fn settle<'a>(
     store: &dyn Store,
     path: &Path,

@@ -2,8 +2,8 @@
 //! and NPZ files.
 //!
 //! [`read()`] reads the objects of a file, and [`write()`] writes a scene to files. [`peek()`] returns the kinds of the
-//! objects in a file and the numbers of their elements, without building meshes. The extension of the file name
-//! determines the [`Format`]:
+//! objects in a file and their element counts, without building meshes. The extension of the file name determines the
+//! [`Format`]:
 //!
 //! | extension | content | module |
 //! | --- | --- | --- |
@@ -204,7 +204,8 @@ pub struct WriteReport {
 ///
 /// # Errors
 ///
-/// Returns a [`ReadError`] with the position if the file cannot be read or breaks the rules of its format.
+/// Returns a [`ReadError`] if the file cannot be read or breaks the rules of its format. An error in the syntax has a
+/// position.
 pub fn read(store: &dyn Store, path: &Path, options: &ReadOptions) -> Result<Loaded, ReadError> {
     known_format(path)?;
     let mut loaded = read_bytes(store, path, store.read(path)?, options)?;
@@ -365,8 +366,8 @@ fn fail_if_left_out(path: &Path, notes: &[Note]) -> Result<(), ReadError> {
     })
 }
 
-/// Returns the objects that reading a file would give, with the numbers of their elements. If the format has a header
-/// with these numbers, they are taken from the header.
+/// Returns the objects that reading a file would give, with their element counts. If the format has a header with these
+/// counts, they are taken from the header.
 ///
 /// Also returns notes about the content that reading would leave out, as far as this content can be found without
 /// building the objects.
@@ -376,8 +377,8 @@ fn fail_if_left_out(path: &Path, notes: &[Note]) -> Result<(), ReadError> {
 ///
 /// # Errors
 ///
-/// Returns a [`ReadError`] if the file cannot be read, if the checked part breaks the rules of its format, or if
-/// [`ReadOptions::strict`] is set and some of the content would be left out.
+/// Returns a [`ReadError`] if the file cannot be read, or if the checked part breaks the rules of its format. Also
+/// returns an error if [`ReadOptions::strict`] is set and some of the content would be left out.
 pub fn peek(store: &dyn Store, path: &Path, options: &ReadOptions) -> Result<Peek, ReadError> {
     let format = known_format(path)?;
     let bytes = match format {
@@ -482,7 +483,7 @@ pub fn write(
     Ok(report)
 }
 
-/// Writes a scene from which `placed` has already removed the nodes if the format cannot store nodes.
+/// Writes a scene. If the format cannot store nodes, `placed` has already removed the nodes from the scene.
 fn write_placed(
     store: &dyn Store,
     path: &Path,
@@ -499,8 +500,8 @@ fn write_placed(
         scene,
         files: mut all,
     } = images::settle(store, path, format, scene, options)?;
-    // When a reader builds a mesh that is not a manifold, it splits vertices into copies. In the scene, these copies
-    // are marked. The writers of OBJ, PLY, OFF and glTF use these marks to merge the copies again. For all other
+    // If the polygons of a file do not form a manifold, the reader splits vertices into copies. In the scene, these
+    // copies are marked. The writers of OBJ, PLY, OFF and glTF use these marks to merge the copies again. For all other
     // formats, the marks are removed. The files of those other formats contain all copies, and some readers of these
     // formats merge vertices with equal positions.
     let scene = &*if keeps_vertices(path) {
@@ -542,8 +543,8 @@ fn write_placed(
     })
 }
 
-/// Whether files with the format of `path` can store a mesh that is not a manifold. Only for these formats,
-/// [`ReadOptions::keep_vertices`] has an effect.
+/// Whether files with the format of `path` can store a mesh that is not a manifold. [`ReadOptions::keep_vertices`] has
+/// an effect only if the file to write has such a format.
 pub fn keeps_vertices(path: &Path) -> bool {
     let format = Format::from_path(path);
     matches!(

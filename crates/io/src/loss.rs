@@ -24,8 +24,8 @@ pub struct Loss {
     pub reason: String,
 }
 
-/// The names of lost parts that are not attributes, but whose losses can have a domain. The losses of all other parts
-/// that are not attributes have no domain.
+/// Names in losses that have a domain but are not the names of attributes. All other losses with a domain are losses of
+/// attributes.
 const NOT_ATTRIBUTES: [&str; 4] = ["influences", "joint weights", "morph targets", "polygon"];
 
 impl Loss {

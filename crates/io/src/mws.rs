@@ -21,7 +21,7 @@ use crate::{
 const MAGIC: &[u8; 4] = b"MWS1";
 const HEADER: usize = MAGIC.len() + size_of::<u64>();
 
-/// Reads the scene of a file. If the file contains a single object, `name` replaces its name.
+/// Reads the scene of a file. If the file contains a single object, `name` replaces the name of this object.
 pub(crate) fn read(
     bytes: &[u8],
     name: Option<&str>,
@@ -38,8 +38,8 @@ pub(crate) fn read(
     })
 }
 
-/// Returns the objects that reading would give, with the numbers of their elements. Decodes the whole file, because the
-/// file is refused if any part is invalid.
+/// Returns the objects that reading would give, with their element counts. Decodes the whole file, because the file is
+/// refused if any part is invalid.
 pub(crate) fn peek(
     bytes: &[u8],
     name: Option<&str>,

@@ -230,7 +230,7 @@ impl Notes {
         }
     }
 
-    /// Adds a note, unless `count` is 0.
+    /// Adds a note about content that is left out, unless `count` is 0.
     pub(crate) fn left_out(
         &mut self,
         code: &'static str,
@@ -241,7 +241,7 @@ impl Notes {
         self.add(code, NoteKind::LeftOut, count, line.into(), what.into());
     }
 
-    /// Adds a note, unless `count` is 0.
+    /// Adds a note about content that is changed, unless `count` is 0.
     pub(crate) fn changed(
         &mut self,
         code: &'static str,

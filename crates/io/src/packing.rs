@@ -51,7 +51,7 @@ impl Default for Quantization {
     }
 }
 
-/// A number of bits from 8 to 16.
+/// How many bits a number has: at least 8 and at most 16.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(try_from = "u32", into = "u32")]
 pub struct Bits(#[schemars(range(min = 8, max = 16))] u32);
@@ -87,7 +87,7 @@ impl From<Bits> for u32 {
     }
 }
 
-/// A number of bits that is not from 8 to 16.
+/// The error for a bit count that is less than 8 or greater than 16.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("expected 8 to 16 bits, found {0}")]
 pub struct BadBits(u32);

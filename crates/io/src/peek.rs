@@ -8,7 +8,7 @@ use scene::{Geometry, Graph, Material};
 
 use crate::{CleanupPolicy, Format, NonManifold, Note, Policies};
 
-/// The content of a file: its objects with the numbers of their elements.
+/// The content of a file: its objects with their element counts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Peek {
     /// The format of the file.
@@ -29,7 +29,7 @@ pub struct Peek {
 pub struct PeekObject {
     /// The name of the object.
     pub name: String,
-    /// The kind of the geometry of the object, and the numbers of its elements.
+    /// The kind of the geometry of the object, and its element counts.
     pub geometry: PeekGeometry,
     /// The names of the materials of the object. `None` if the names are known only after reading.
     pub materials: Option<Vec<String>>,
@@ -66,7 +66,7 @@ impl PeekObject {
     }
 }
 
-/// The kind of the geometry of an object, and the numbers of its elements.
+/// The kind of the geometry of an object, and its element counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PeekGeometry {
     /// A mesh.
@@ -108,11 +108,11 @@ impl PeekGeometry {
     }
 }
 
-/// The attributes of a mesh and the numbers of its elements, according to its file.
+/// The attributes and the element counts of a mesh, according to its file.
 ///
 /// Reading never gives more faces or corners than these counts. Reading can give more vertices, because non-manifold
 /// vertices and edges are split. Reading can also give fewer vertices, for example because a glTF file has a separate
-/// vertex for each side of a seam. [`ranges`](Self::ranges) returns the possible numbers of elements.
+/// vertex for each side of a seam. [`ranges`](Self::ranges) returns the ranges of the possible element counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[expect(
     clippy::struct_excessive_bools,
@@ -141,10 +141,9 @@ pub struct PeekMesh {
     pub joints: u64,
     /// The number of morph targets.
     pub targets: u64,
-    /// The number of faces of which it is certain that no vertex occurs twice. Reading keeps these faces, unless a
-    /// policy drops them. In OBJ, OFF, PLY and binary STL files, such faces are counted if they have at most 16
-    /// corners. In `.mws` files, all faces are counted. In other formats, the number is 0, because the vertices of
-    /// faces are not examined.
+    /// The number of faces that certainly do not use any vertex twice. Reading keeps these faces, unless a policy drops
+    /// them. In OBJ, OFF, PLY and binary STL files, such faces are counted if they have at most 16 corners. In `.mws`
+    /// files, all faces are counted. In other formats, the number is 0, because the vertices of faces are not examined.
     pub simple_faces: u64,
     /// The number of corners of the faces that `simple_faces` counts.
     pub simple_corners: u64,
@@ -154,7 +153,7 @@ pub struct PeekMesh {
     pub is_exact: bool,
 }
 
-/// The numbers of elements that a mesh can have after reading.
+/// The ranges of the element counts that a mesh can have after reading.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PeekRanges {
     /// The number of vertices.
@@ -188,7 +187,7 @@ pub(crate) fn differ<T: PartialEq>(items: &[T]) -> bool {
 }
 
 impl PeekMesh {
-    /// Returns the numbers of elements that the mesh can have after reading with these policies.
+    /// Returns the ranges of the element counts that the mesh can have after reading with these policies.
     pub fn ranges(&self, policies: Policies) -> PeekRanges {
         let drops = |policy| policy == CleanupPolicy::Drop && !self.is_exact;
         let faces = match self.simple_faces {
@@ -196,7 +195,7 @@ impl PeekMesh {
             n if drops(policies.duplicates) => n.min(1),
             n => n,
         };
-        // An edge has at most two faces.
+        // An edge of a mesh has at most two faces, so at most two corners belong to each edge.
         let edges = match self.simple_corners {
             _ if faces < self.simple_faces => 3 * faces,
             corners => corners.div_ceil(2),

@@ -64,7 +64,7 @@ pub enum Placements {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum CleanupPolicy {
-    /// Keep them.
+    /// Keep the elements.
     #[default]
     Keep,
     /// Leave the elements out, and list them in the report. Of several duplicate faces, the first face is kept.

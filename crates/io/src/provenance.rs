@@ -13,8 +13,8 @@ const HEAD: u64 = 1 << 20;
 /// The maximum number of decompressed bytes of a compressed glTF file that are read.
 const MAX_DOCUMENT: u64 = 1 << 30;
 
-/// Reads the provenance of a file. Returns `None` if the file has no provenance, or its format cannot store it. Also
-/// reads the provenance of MTL files, and of the PNG and SVG pictures that the program writes.
+/// Reads the provenance of a file. Returns `None` if the file has no provenance, for example because its format cannot
+/// store one. Also reads the provenance of MTL files, and of the PNG and SVG pictures that the program writes.
 ///
 /// An STL file stores only about the first 60 bytes of the provenance.
 ///
@@ -60,8 +60,8 @@ fn of_document(json: &[u8]) -> Option<String> {
     text.as_str().map(str::to_owned)
 }
 
-/// Returns the text that a PNG file stores with the keyword "Software". Returns `None` if this text is not in an
-/// uncompressed chunk for international text.
+/// Returns the text that a PNG file stores with the keyword "Software". Returns `None` if the file has no such text in
+/// an uncompressed `iTXt` chunk (a chunk for international text).
 ///
 /// A chunk consists of its length, four letters, the data, and a checksum. The data of an `iTXt` chunk consists of the
 /// keyword, two bytes about compression, the language, the translated keyword, and the text, separated by zero bytes

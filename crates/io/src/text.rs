@@ -285,7 +285,7 @@ pub(crate) fn parsed<T: FromStr>(word: &[u8]) -> Option<T> {
     std::str::from_utf8(word).ok()?.parse().ok()
 }
 
-/// Whether a word is a common spelling of infinity or not-a-number: `nan`, `-inf`, `1.#IND`.
+/// Whether a word is a common spelling of infinity or not-a-number, for example `nan`, `-inf` or `1.#IND`.
 pub(crate) fn is_not_finite(word: &[u8]) -> bool {
     let unsigned = word.strip_prefix(b"-").unwrap_or(word);
     let unsigned = unsigned.strip_prefix(b"+").unwrap_or(unsigned);

@@ -57,8 +57,8 @@ impl Connectivity {
 /// A half-edge mesh of polygons in space, with attributes.
 ///
 /// A removed element is dead: it is marked, but its entries stay in the arrays. Two meshes are equal if all their
-/// arrays are equal, including the entries of dead elements. A clone has no open journal, which is the record for
-/// undoing edits. Edits of the clone are not recorded until [`Mesh::begin`] is called on the clone.
+/// arrays are equal, including the entries of dead elements. A clone has no open journal (the record with which edits
+/// are undone). Edits of the clone are not recorded until [`Mesh::begin`] is called on the clone.
 #[derive(Debug, Default)]
 pub struct Mesh {
     pub(crate) connectivity: Connectivity,
@@ -66,7 +66,7 @@ pub struct Mesh {
     pub(crate) attributes: Attributes,
     /// The dead (removed) elements of each domain. Corners are never marked: a corner is dead if its edge is dead.
     pub(crate) dead: [Marks; 4],
-    /// The values that edits have overwritten since [`Mesh::begin`]; `None` if no journal is open.
+    /// The journal: the values that edits have overwritten since [`Mesh::begin`]. `None` if no journal is open.
     pub(crate) journal: Option<Box<Journal>>,
 }
 
@@ -112,7 +112,7 @@ impl Mesh {
         mesh
     }
 
-    /// Returns the arrays of the connectivity. The arrays include dead elements unless the mesh [is
+    /// Returns the arrays of the connectivity. The arrays include deleted (dead) elements unless the mesh [is
     /// dense](Self::is_dense).
     #[inline]
     pub fn connectivity(&self) -> &Connectivity {
@@ -121,28 +121,28 @@ impl Mesh {
 
     // ---- Counts and elements -------------------------------------------------------------------
 
-    /// Returns the number of living vertices.
+    /// Returns the number of vertices, not counting deleted (dead) ones.
     pub fn n_vertices(&self) -> usize {
         self.n_living(Domain::Vertex)
     }
 
-    /// Returns the number of living half-edges: two for each edge.
+    /// Returns the number of half-edges, not counting deleted (dead) ones: two for each edge.
     pub fn n_half_edges(&self) -> usize {
         2 * self.n_edges()
     }
 
-    /// Returns the number of living edges.
+    /// Returns the number of edges, not counting deleted (dead) ones.
     pub fn n_edges(&self) -> usize {
         self.n_living(Domain::Edge)
     }
 
-    /// Returns the number of living faces.
+    /// Returns the number of faces, not counting deleted (dead) ones.
     pub fn n_faces(&self) -> usize {
         self.n_living(Domain::Face)
     }
 
-    /// Returns the number of elements of this domain, including dead ones. Each attribute column of the domain has this
-    /// number of values.
+    /// Returns the number of elements of this domain, including deleted (dead) ones. Each attribute column of the
+    /// domain has this number of values.
     #[inline]
     pub fn domain_len(&self, domain: Domain) -> usize {
         match domain {
@@ -153,31 +153,31 @@ impl Mesh {
         }
     }
 
-    /// Whether no element is dead, so that ids run from 0 without gaps.
+    /// Whether no element was deleted (is dead), so that ids run from 0 without gaps.
     #[inline]
     pub fn is_dense(&self) -> bool {
         self.dead.iter().all(|marks| marks.count() == 0)
     }
 
-    /// Iterates over the living vertices in order of their ids.
+    /// Iterates over the vertices that were not deleted, in order of their ids.
     #[inline]
     pub fn vertices(&self) -> impl Iterator<Item = VertexId> + Clone + '_ {
         self.living()
     }
 
-    /// Iterates over the living edges in order of their ids.
+    /// Iterates over the edges that were not deleted, in order of their ids.
     #[inline]
     pub fn edges(&self) -> impl Iterator<Item = EdgeId> + Clone + '_ {
         self.living()
     }
 
-    /// Iterates over the living half-edges in order of their ids.
+    /// Iterates over the half-edges that were not deleted, in order of their ids.
     #[inline]
     pub fn half_edges(&self) -> impl Iterator<Item = HalfEdgeId> + Clone + '_ {
         self.edges().flat_map(EdgeId::half_edges)
     }
 
-    /// Iterates over the living faces in order of their ids.
+    /// Iterates over the faces that were not deleted, in order of their ids.
     #[inline]
     pub fn faces(&self) -> impl Iterator<Item = FaceId> + Clone + '_ {
         self.living()
@@ -201,19 +201,19 @@ impl Mesh {
             .map(I::new)
     }
 
-    /// Whether `v` is a living vertex of this mesh.
+    /// Whether `v` is a vertex of this mesh that was not deleted.
     #[inline]
     pub fn has_vertex(&self, v: VertexId) -> bool {
         self.is_living(v)
     }
 
-    /// Whether `e` is a living edge of this mesh.
+    /// Whether `e` is an edge of this mesh that was not deleted.
     #[inline]
     pub fn has_edge(&self, e: EdgeId) -> bool {
         self.is_living(e)
     }
 
-    /// Whether `f` is a living face of this mesh.
+    /// Whether `f` is a face of this mesh that was not deleted.
     #[inline]
     pub fn has_face(&self, f: FaceId) -> bool {
         self.is_living(f)
@@ -264,7 +264,8 @@ impl Mesh {
         self.positions[v.index()]
     }
 
-    /// Returns the positions of all vertices, including dead ones, by index.
+    /// Returns the positions of all vertices, including deleted (dead) ones. Entry i is the position of the vertex with
+    /// index i.
     #[inline]
     pub fn positions(&self) -> &[DVec3] {
         &self.positions
@@ -298,7 +299,8 @@ impl Mesh {
     ///
     /// # Panics
     ///
-    /// Panics if the length of a column is not the number of elements of its domain.
+    /// Panics if the length of a column is not the number of elements of its domain (vertices, corners, edges or
+    /// faces).
     pub fn set_attributes(&mut self, attributes: Attributes) {
         for (domain, column) in attributes.iter() {
             self.assert_length(domain, column);
@@ -309,7 +311,7 @@ impl Mesh {
         }
     }
 
-    /// Returns the values of an attribute by element index; `None` if the mesh has no attribute with this name,
+    /// Returns the values of an attribute, indexed by element; `None` if the mesh has no attribute with this name,
     /// domain and type.
     pub fn get<I: Id, T: Value>(&self, attribute: Attribute<I, T>) -> Option<&[T]> {
         self.attributes
@@ -385,7 +387,8 @@ impl Mesh {
         }
     }
 
-    /// Returns the flags of a tag by element index; `None` if the mesh has no tag of this name in this domain.
+    /// Returns the flags of a tag (a named selection), indexed by element; `None` if the mesh has no tag of this name
+    /// in this domain.
     pub fn tag(&self, domain: Domain, name: &str) -> Option<&[bool]> {
         match &self.attributes.column(domain, name)?.values {
             Values::Tag(marks) => Some(marks),

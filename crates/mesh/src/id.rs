@@ -106,26 +106,27 @@ macro_rules! id {
 }
 
 id!(
-    /// A vertex. Displayed as `v12`.
+    /// A vertex. Displayed as the letter v and the index, such as `v12`.
     VertexId, "v", Vertex, Vertex
 );
 id!(
-    /// A half-edge: an edge seen from one of its sides, with a direction. Displayed as `h12`.
+    /// A half-edge: an edge seen from one of its sides, with a direction. Displayed as the letter h and the index, such
+    /// as `h12`.
     ///
-    /// The two halves of edge e are half-edges 2e and 2e + 1.
+    /// Edge e consists of the half-edges 2e and 2e + 1.
     HalfEdgeId, "h", Corner, HalfEdge
 );
 id!(
-    /// An edge: a pair of half-edges. Displayed as `e12`.
+    /// An edge: a pair of half-edges. Displayed as the letter e and the index, such as `e12`.
     EdgeId, "e", Edge, Edge
 );
 id!(
-    /// A face: a polygon of any degree. Displayed as `f12`.
+    /// A face: a polygon with any number of corners. Displayed as the letter f and the index, such as `f12`.
     FaceId, "f", Face, Face
 );
 
 impl HalfEdgeId {
-    /// Returns the other half of the same edge.
+    /// Returns the other half-edge of the same edge.
     #[inline]
     #[must_use]
     pub const fn twin(self) -> Self {
@@ -140,13 +141,13 @@ impl HalfEdgeId {
 }
 
 impl EdgeId {
-    /// Returns the first half of the edge. The second half is its twin.
+    /// Returns the first half-edge of the edge. The second half-edge is its twin.
     #[inline]
     pub const fn half_edge(self) -> HalfEdgeId {
         HalfEdgeId(self.0 << 1)
     }
 
-    /// Returns both halves of the edge.
+    /// Returns both half-edges of the edge.
     #[inline]
     pub const fn half_edges(self) -> [HalfEdgeId; 2] {
         [HalfEdgeId(self.0 << 1), HalfEdgeId(self.0 << 1 | 1)]

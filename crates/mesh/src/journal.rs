@@ -13,9 +13,9 @@
 //! entries: an undo truncates the arrays to their old lengths. An undo in turn records the values that it
 //! overwrites; this record is the change that redoes the edits.
 //!
-//! A long journal is shortened before the next edit starts. If the entries (without copies of whole arrays) take at
-//! least as much memory as the mesh plus 64 KiB, one copy of the mesh replaces them. If a level of the journal has a
-//! copy of the mesh, no further entries are recorded for this level.
+//! A long journal is shortened before the next edit starts: if the entries (without copies of whole arrays) take at
+//! least as much memory as the mesh plus 64 KiB, one copy of the mesh replaces the entries. If a level of the journal
+//! has a copy of the mesh, no further entries are recorded for this level.
 
 use bytemuck::cast_slice_mut;
 use glam::DVec3;
@@ -288,8 +288,8 @@ impl Mesh {
     /// # Panics
     ///
     /// Panics if a journal is open. If the change belongs to a different mesh, or to a different state of this mesh,
-    /// the result is unspecified. The call leaves an invalid mesh, or it panics if the change refers to an element that
-    /// does not exist.
+    /// the result is unspecified: the mesh can become invalid, and the call panics if the change refers to an element
+    /// that does not exist.
     ///
     /// # Examples
     ///

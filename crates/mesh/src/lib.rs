@@ -13,9 +13,9 @@
 //!      <---- twin(h) ---        twin(h)      = from b to a, on the other face or on the boundary
 //! ```
 //!
-//! Ids are plain numbers ([`VertexId`], [`HalfEdgeId`], [`EdgeId`], [`FaceId`]). The halves of edge e are
-//! 2e and 2e + 1, so `h.twin()` and `h.edge()` need no mesh. Faces are counter-clockwise when seen from
-//! outside. Iterators around a vertex go clockwise.
+//! Ids are plain numbers ([`VertexId`], [`HalfEdgeId`], [`EdgeId`], [`FaceId`]). The half-edges of edge e have the ids
+//! 2e and 2e + 1, so `h.twin()` and `h.edge()` need no mesh. Faces are counter-clockwise when seen from outside.
+//! Iterators around a vertex go clockwise.
 //!
 //! # Invariants
 //!
@@ -26,8 +26,8 @@
 //! 2. Every stored id belongs to an element that was not removed.
 //! 3. `next` is a permutation of the half-edges. The half-edge `next(h)` lies on the same face as `h` (or around the
 //!    same hole), and starts where `h` ends: `origin(next(h)) == target(h)`.
-//! 4. The two ends of an edge are different vertices, and each edge has a face on at least one side. Both
-//!    halves of an edge always exist; on the boundary `face(h)` is `None`.
+//! 4. The two ends of an edge are different vertices, and each edge has a face on at least one side. Both half-edges of
+//!    an edge always exist; on the boundary `face(h)` is `None`.
 //! 5. A face has at least three corners. Its half-edges form one loop, which contains the
 //!    [`face_half_edge`](Mesh::face_half_edge) of the face.
 //! 6. The [`vertex_half_edge`](Mesh::vertex_half_edge) of a vertex is an outgoing half-edge of that vertex. At a
@@ -53,10 +53,10 @@
 //! element that an edit removes is marked dead ("dies"). The id of a dead element is not reused until [`Mesh::compact`]
 //! renumbers the elements. If an edit that added elements is undone, later edits reuse the ids of these elements.
 //!
-//! [`Mesh::begin`] starts to record edits, [`Mesh::rollback`] undoes them and ends the recording, and [`Mesh::commit`]
-//! ends the recording and returns a [`Change`]. [`Mesh::revert`] undoes the change later, and returns another change,
-//! which redoes it. Operations on a whole mesh build a new mesh from arrays ([`Mesh::from_arrays`]) or from polygons
-//! ([`build()`]), and replace the old mesh with [`Mesh::replace`].
+//! [`Mesh::begin`] starts to record edits. [`Mesh::rollback`] undoes the recorded edits and ends the recording.
+//! [`Mesh::commit`] keeps the edits, ends the recording and returns a [`Change`]. Later, [`Mesh::revert`] can undo this
+//! change; it returns another change, with which the edits can be redone. Operations on a whole mesh build a new mesh
+//! from arrays ([`Mesh::from_arrays`]) or from polygons ([`build()`]), and replace the old mesh with [`Mesh::replace`].
 //!
 //! # Read in this order
 //!

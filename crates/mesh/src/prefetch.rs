@@ -10,7 +10,7 @@
 use crate::{EdgeId, HalfEdgeId, Mesh};
 
 /// [`Mesh::fetch_ahead`] prefetches the memory for an edit in four steps, because each step reads an address that the
-/// step before it has prefetched. The numbers say how many edits ahead each step looks.
+/// step before it has prefetched. For each step, this array contains how many edits ahead the step looks.
 const STEPS: [usize; 4] = [32, 24, 16, 8];
 
 impl Mesh {
@@ -35,7 +35,7 @@ impl Mesh {
             let e = edges.get(at + STEPS[step]).copied();
             e.into_iter().flat_map(EdgeId::half_edges)
         };
-        // The two halves of an edge are adjacent in memory, so only the first half is prefetched.
+        // The two half-edges of an edge are adjacent in memory, so only the first one is prefetched.
         if let Some(h) = halves(0).next() {
             self.fetch(h);
         }

@@ -84,23 +84,24 @@ impl Mesh {
         self.vertex_half_edges(v).filter_map(|h| self.face(h))
     }
 
-    /// Returns the two vertices of `e`: the origin and the target of its first half.
+    /// Returns the two vertices of `e`: the origin and the target of its first half-edge.
     #[inline]
     pub fn edge_vertices(&self, e: EdgeId) -> [VertexId; 2] {
         e.half_edges().map(|h| self.origin(h))
     }
 
-    /// Returns the faces at `e`: the face of its first half and the face of its second half.
+    /// Returns the faces at `e`: the face of its first half-edge and the face of its second half-edge.
     #[inline]
     pub fn edge_faces(&self, e: EdgeId) -> [Option<FaceId>; 2] {
         e.half_edges().map(|h| self.face(h))
     }
 
     /// Returns the half-edge whose `next` is `h`. Walks around the face of `h` and around the origin of `h` at the same
-    /// time, so the time is proportional to the smaller of the number of corners and the valence.
+    /// time, so the time is proportional to the number of corners of the face or to the valence of the origin,
+    /// whichever is smaller.
     #[inline]
     pub fn prev(&self, h: HalfEdgeId) -> HalfEdgeId {
-        // The start of the walk around the face makes it shortest for a triangle.
+        // The walk around the face starts two half-edges after `h`, so in a triangle it ends at once.
         let (mut in_face, mut around) = (self.next(self.next(h)), h);
         loop {
             let next = self.next(in_face);

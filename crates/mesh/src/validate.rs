@@ -26,7 +26,7 @@ pub enum Defect {
         element: Element,
     },
     /// The half-edge must be the `next` of exactly one half-edge, but it is the `next` of none or of several.
-    #[error("{0} must be the `next` of exactly one half-edge")]
+    #[error("the half-edge {0} must be the `next` of exactly one half-edge")]
     NextNotPermutation(HalfEdgeId),
     /// The half-edge and its `next` lie on different faces.
     #[error("the half-edge {0} and its `next` half-edge lie on different faces")]
@@ -35,13 +35,13 @@ pub enum Defect {
     #[error("the `next` half-edge of the half-edge {0} does not start where {0} ends")]
     NextNotConnected(HalfEdgeId),
     /// Both ends of an edge are the same vertex.
-    #[error("{0} starts and ends at the same vertex")]
+    #[error("the edge {0} starts and ends at the same vertex")]
     SelfLoop(EdgeId),
     /// An edge has no face on either side.
-    #[error("{0} has no face on either side")]
+    #[error("the edge {0} has no face on either side")]
     NoFace(EdgeId),
     /// A face has fewer than three corners.
-    #[error("{0} has fewer than three corners")]
+    #[error("the face {0} has fewer than three corners")]
     FewCorners(FaceId),
     /// The half-edge stored at a face lies on a different face, or the half-edges of the face form several loops.
     #[error(
@@ -233,7 +233,7 @@ impl Mesh {
         if self.origin(next) != self.origin(twin) {
             report(Defect::NextNotConnected(h));
         }
-        // Each edge is reported once, by its first half.
+        // Each edge is reported once, at its first half-edge.
         if h < twin && self.origin(h) == self.origin(twin) {
             report(Defect::SelfLoop(h.edge()));
         }

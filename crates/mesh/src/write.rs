@@ -94,7 +94,7 @@ impl Mesh {
         self.edit_values(a, |column| column.values.swap(a.index(), b.index()));
     }
 
-    /// Negates the normals that are stored as attributes of an element.
+    /// Negates the values of an element in all attribute columns that store normals.
     pub(crate) fn negate_normals<I: Id>(&mut self, element: I) {
         let i = element.index();
         self.edit_values(element, |column| column.negate_normals(i..i + 1));

@@ -9,8 +9,9 @@ use bytemuck::Zeroable;
 #[cfg(any(target_os = "linux", test))]
 const LARGE: usize = 8 << 20;
 
-/// The system has no memory for a large array. [`zeroed`] and [`require_memory`] unwind with this value. Running out
-/// of memory is not a bug in the program: callers catch the value and report it as an error.
+/// The system has no memory for a large array. The functions [`zeroed`] and [`require_memory`] unwind the stack (like a
+/// panic) with this value. Running out of memory is not a bug in the program: callers catch the value and report it as
+/// an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the system has no memory for another {bytes} bytes")]
 pub struct OutOfMemory {

@@ -33,7 +33,9 @@ pub enum BadAttributeName {
     )]
     Whitespace(String),
     /// This name has a fixed meaning.
-    #[error("the attribute \"{0}\" has a fixed meaning: choose another name")]
+    #[error(
+        "the name \"{0}\" is reserved for attributes with a fixed meaning: choose another name"
+    )]
     Reserved(String),
 }
 

@@ -21,8 +21,8 @@ use crate::OpError;
 pub enum FileError {
     /// The output path leads out of the output folder.
     #[error(
-        "the output path \"{0}\" must stay inside the output folder: use a relative path without \".\", \
-         \"..\", \"\\\" and \":\""
+        "the output path \"{0}\" must stay inside the output folder: use a relative path without the folders \".\" \
+         and \"..\" and without the characters \"\\\" and \":\""
     )]
     Outside(String),
     /// The output path does not end with a file name.

@@ -76,7 +76,7 @@ def test_ten_thousand_random_arrays() -> None:
     [
         (np.zeros((3, 2)), [[0, 1, 2]], r"vertices have the shape \(3, 2\)"),
         (np.full((3, 3), np.nan), [[0, 1, 2]], "vertex 0 is not finite"),
-        (np.eye(3), [[0, 1, 3]], "vertex 3, but there are 3 vertices"),
+        (np.eye(3), [[0, 1, 3]], "vertex 3, but there are 3 vertices, numbered from 0"),
         (np.eye(3), [[0, 1, -1]], "faces contain -1"),
         (np.eye(3), [[0, 1, 2**40]], "faces contain 1099511627776"),
         (np.eye(3), [[0.0, 1.0, 2.0]], "expected whole numbers"),

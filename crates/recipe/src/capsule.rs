@@ -5,10 +5,10 @@
 //! capsule/before.mws     the scene before that step, bit for bit
 //! ```
 //!
-//! `recipe.ron` is an ordinary recipe. In this recipe, parameters are replaced by their values, and calls and
-//! repetitions by the steps that they stand for. Each step keeps its label. The label seeds random choices, so the step
-//! makes the same choices as in the original run. The files that the steps read are not copied: `recipe.ron` refers to
-//! their original locations.
+//! `recipe.ron` is an ordinary recipe without parameters, calls or repetitions. Each parameter is replaced by its
+//! value, and each call and each repetition by the steps inside it. Each step keeps its label. The label seeds random
+//! choices, so the step makes the same choices as in the original run. The files that the steps read are not copied:
+//! `recipe.ron` refers to their original locations.
 
 use std::path::{Path, PathBuf};
 
@@ -43,7 +43,7 @@ pub fn capsule(
         string_literal(&about)
     );
     text += "    steps: [\n";
-    // Before the first step, the scene is empty, so nothing is loaded.
+    // The scene before the first step is empty, so a capsule for the first step loads no scene.
     if from > 0 {
         text += &format!("        Load(path: {}),\n", string_literal(BEFORE));
     }
@@ -85,8 +85,9 @@ fn line(step: &RecipeStep, value: &Value) -> String {
 }
 
 impl Rebase<'_> {
-    /// Returns the edits of a recipe's text that make the relative paths of input files relative to the folder `to`.
-    /// `value` is the syntax tree of this text, and `inputs` are the files that the recipe reads.
+    /// Returns the edits that rewrite the relative paths of input files in the text of a recipe. The new paths are
+    /// relative to the folder `to` instead of `from`. `value` is the syntax tree of this text, and `inputs` are the
+    /// files that the recipe reads.
     pub fn edits(&self, value: &Value, inputs: &[PathBuf]) -> Vec<(Span, String)> {
         let mut edits = Vec::new();
         let mut values = vec![value.clone()];

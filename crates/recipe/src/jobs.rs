@@ -8,12 +8,12 @@
 //! Jobs run on the same threads as the parallel loops inside them. As long as every thread has a job, no thread is
 //! idle. Each loop then runs entirely on the thread of its job, without the cost of distributing its work. When no more
 //! jobs can start, idle threads help with the parallel loops of the last jobs. If there is not enough memory for the
-//! next job, the thread does not wait for memory, because a waiting thread could not help with the loops of other jobs.
-//! Instead, the thread returns to the thread pool. When a thread completes a job, memory becomes free. If there is now
-//! enough memory, this thread starts the next job. The thread also wakes another thread if the limits allow one more
-//! job. While a job waits for a part of its parallel loop, the thread of the job does not start another job. Therefore,
-//! no job has to wait until another job has ended. A job also cannot deadlock on a lock that a suspended job on the
-//! same thread holds.
+//! next job, a thread without a job does not wait for memory. A waiting thread could not help with the loops of other
+//! jobs. Instead, the thread returns to the thread pool. When a thread completes a job, memory becomes free. If there
+//! is now enough memory, the thread that completed the job starts the next job. This thread also wakes another thread
+//! if the limits allow one more job. While a job waits for a part of its parallel loop, the thread of the job does not
+//! start another job. Therefore, a job never has to wait until another job on the same thread has ended. A job also
+//! cannot deadlock on a lock that a suspended job on the same thread holds.
 
 use std::any::Any;
 use std::cell::Cell;
@@ -239,7 +239,6 @@ where
     }
 }
 
-/// A job that was started.
 struct StartedJob {
     job: usize,
     bytes: u64,
@@ -295,7 +294,8 @@ impl Forecast {
     /// Returns the estimated peak memory of the run, in bytes. For each step, the forecast can have an upper limit for
     /// the memory that the meshes take after the step. If all steps have such a limit, the estimate is the size of the
     /// input files plus the largest of these limits. Otherwise, the estimate is eight times the size of the input
-    /// files, but at least the largest lower limit of a step.
+    /// files. If a step has a larger lower limit for the memory of the meshes, the estimate is the largest of these
+    /// lower limits.
     pub fn peak_bytes(&self) -> u64 {
         let size = |path: &std::path::PathBuf| Path::metadata(path).map_or(0, |m| m.len());
         let read: u64 = self.inputs.iter().map(size).sum();

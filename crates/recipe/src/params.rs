@@ -23,7 +23,7 @@ pub struct Rebase<'a> {
     pub store: &'a dyn Store,
 }
 
-/// A parameter that a recipe declares. A step uses its value with `arg("name")`.
+/// A parameter that a recipe declares. A step uses the value of the parameter with `arg("name")`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Param {
@@ -127,7 +127,7 @@ impl Param {
         }
     }
 
-    /// Returns the default value as a value of a recipe.
+    /// Returns the default value in the form of a recipe value (`Value`).
     ///
     /// # Errors
     ///
@@ -147,8 +147,8 @@ impl Param {
     }
 
     /// Converts a value that is written in a recipe to the form in which this parameter stores its values. For example,
-    /// the number `1` becomes `1.0` for a `Float`. If `folders` is given, a relative path is rewritten so that it is
-    /// relative to the new folder.
+    /// the number `1` becomes `1.0` for a `Float`. If `folders` is given, a relative path is rewritten: the new path is
+    /// relative to the folder `folders.to`.
     ///
     /// # Errors
     ///
@@ -171,7 +171,8 @@ impl Param {
                 Ok(value(ValueKind::String(text.clone())))
             }
             (Self::Path { .. }, ValueKind::String(text)) => {
-                // A file gets the same path, whether it is given as an absolute or as a relative path.
+                // An absolute path inside the folder `f.to` becomes relative, too. Thus absolute and relative paths of
+                // the same file become equal.
                 let rebased = |f: Rebase| {
                     let path = rebase_path(f.store, text, f.from, f.to);
                     below(&path, f.to).unwrap_or(path)
@@ -205,7 +206,7 @@ impl Param {
     }
 
     /// Converts plain text, for example from the command line, to a value of this parameter. If `folders` is given, a
-    /// relative path is rewritten so that it is relative to the new folder.
+    /// relative path is rewritten: the new path is relative to the folder `folders.to`.
     ///
     /// # Errors
     ///
@@ -263,8 +264,8 @@ fn vector(parts: [f64; 3]) -> Result<Value, ParamError> {
     Ok(value(ValueKind::Tuple(parts)))
 }
 
-/// Returns a number as a value. The text of the value has a decimal point or an exponent, and parsing this text gives
-/// exactly the same number.
+/// Returns a number as a `Value`. The text of this `Value` has a decimal point or an exponent, and parsing the text
+/// gives exactly the same number.
 fn float(x: f64) -> Result<Value, ParamError> {
     if !x.is_finite() {
         return Err(ParamError::new("a number", &format!("`{x:?}`")));

@@ -157,7 +157,7 @@ pub struct RecipeStep {
     pub step: Option<Arc<dyn Step>>,
     /// The names of the objects in `on`, each with its span.
     pub on: Option<Vec<(String, Span)>>,
-    /// If the recipe expects that the step is refused: the expected reason.
+    /// The expected reason, if the recipe expects the operation to refuse its input.
     pub refused: Option<Refusal>,
     /// The losses that the step is allowed to cause.
     pub on_loss: OnLoss,
@@ -169,8 +169,8 @@ pub struct RecipeStep {
     pub span: Span,
     /// The operation as written in the recipe, but with parameters replaced by their values.
     pub value: Value,
-    /// One number for each `Repeat` around the step, from the outermost to the innermost. It is the number, counted
-    /// from 1, of the repetition to which this step belongs.
+    /// One number for each `Repeat` around the step, from the outermost to the innermost. Each number says to which
+    /// repetition of that `Repeat` the step belongs, counted from 1.
     pub(crate) turns: Vec<u32>,
     /// The label without the numbers of the repetitions.
     pub(crate) stem: String,
@@ -274,7 +274,7 @@ impl Recipe {
     }
 
     /// Returns a digest of all operations of the recipe. The digest depends on all parameters of the operations, in
-    /// canonical form. Layout, comments and notes do not change the digest.
+    /// canonical form. Layout, comments and the notes on steps (`note: ..`) do not change the digest.
     pub fn digest(&self) -> String {
         let mut hasher = blake3::Hasher::new();
         for step in &self.steps {
@@ -288,7 +288,8 @@ impl Recipe {
             let id = (step.label != step.name).then_some(&step.label);
             let line = format!("{id:?} {:?} {} {canonical}\n", step.on_names(), step.name);
             hasher.update(line.as_bytes());
-            // The same relative path refers to a different file in a different folder.
+            // In a called recipe, relative paths are relative to the folder of that recipe, so the digest depends on
+            // this folder.
             let called = self.source_of(step.scope);
             if called > 0 {
                 let folder = self.sources[called].folder().to_string_lossy();

@@ -157,7 +157,7 @@ struct Stopped;
 
 impl Runner<'_> {
     fn run(&mut self, listener: &dyn Listener) {
-        // The reason for an early end has already been reported.
+        // If the run ends early, the reason has already been reported, so the result is ignored.
         let _ = self.run_steps(listener);
         if self.failures.is_empty()
             && !self.cancelled
@@ -270,9 +270,8 @@ impl Runner<'_> {
         Ok(digest)
     }
 
-    /// Advances `scene` to its state before the step with the index `to`. All steps before that step must be done. From
-    /// the scenes that the cache has stored, loads the latest one that is not after that state, and runs the steps
-    /// after it again.
+    /// Advances `scene` to the scene before the step with the index `to`. All earlier steps must be done. If the cache
+    /// has stored scenes between the two, loads the latest of them. Then runs the remaining steps before `to` again.
     fn advance_scene(&mut self, to: usize, listener: &dyn Listener) -> Result<(), Stopped> {
         if self.scene_index < to
             && let Some(session) = &mut self.session
@@ -427,7 +426,7 @@ impl Runner<'_> {
         let is_current = self.scene_index == self.n_done;
         let known = self.session.as_ref().and_then(|s| s.digest());
         if known.is_none() && !is_current && !self.cancelled {
-            // If a step fails while it runs again, `apply` adds the failure.
+            // If a step fails while it runs again, `apply` adds the failure to `failures`, so the result is ignored.
             let _ = self.advance_scene(self.n_done, &Silent);
         }
         let is_current = self.scene_index == self.n_done;

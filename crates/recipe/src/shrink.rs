@@ -1,5 +1,5 @@
 //! Reduces a scene on which a step fails. Removes objects and faces as long as the step still fails with the same
-//! message, apart from the numbers in it.
+//! message. The numbers in the message are allowed to change.
 //!
 //! Faces are removed in blocks. The size of the blocks is halved until each block is a single face, as in the algorithm
 //! ddmin. Source: Zeller and Hildebrandt, "Simplifying and Isolating Failure-Inducing Input", 2002. Vertices keep their

@@ -102,7 +102,8 @@ pub(crate) fn rebase_path(store: &dyn Store, text: &str, from: &Path, to: &Path)
     if Path::new(text).is_absolute() {
         return target;
     }
-    // If `a` is a link to a folder, `a/..` does not lead to the folder that contains the link.
+    // If `a` is a link to a folder, `a/..` does not lead to the folder that contains the link. Therefore both paths are
+    // compared with links resolved.
     let is_same = |relative: &PathBuf| {
         let (rebased, original) = (
             store.canonical(&to.join(relative)),
@@ -122,7 +123,7 @@ pub(crate) fn below(path: &Path, folder: &Path) -> Option<PathBuf> {
     let absolute = if folder.has_root() {
         folder.to_owned()
     } else {
-        // If a file is given only by its name, its folder is "".
+        // If a file is given only by its name, its folder is "", which stands for the working directory.
         std::path::absolute(Path::new(".").join(folder)).ok()?
     };
     path.strip_prefix(absolute).ok().map(Path::to_owned)

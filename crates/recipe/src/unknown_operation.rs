@@ -22,8 +22,8 @@ const BOOLEANS: &[&str] = &[
 /// before them. If neither search finds an operation, the text suggests operations whose names share a word with
 /// `name`. If there are no such operations either, the text names the command that lists all operations.
 ///
-/// If `name` contains a word for a boolean operation, the text instead says that there are no boolean operations, and
-/// names other operations that can be used instead.
+/// If `name` contains a word for a boolean operation, the help text says that there are no boolean operations. The text
+/// then names operations that can be used instead.
 pub fn suggest_operations(name: &str, registry: &Registry) -> String {
     let entries = registry.entries();
     let known = entries.iter().map(|entry| entry.name);

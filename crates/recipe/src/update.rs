@@ -22,8 +22,8 @@ pub struct Update {
     pub changes: Vec<Change>,
     /// The reference files to write, with their contents.
     pub files: BTreeMap<PathBuf, Vec<u8>>,
-    /// The failures that the update does not fix, in the order of the run. If the failure is an expectation that does
-    /// not hold, its help text gives the reason.
+    /// The failures that the update does not fix, in the order of the run. If a failure is an expectation that does not
+    /// hold, its help text says why the update does not fix the expectation.
     pub left: Vec<Diagnostic>,
 }
 
@@ -99,9 +99,9 @@ pub fn update(recipe: &Recipe, outcome: &Outcome) -> Update {
     }
 }
 
-/// For each written expectation that does not hold in at least one repetition of its step, returns a list with one
-/// entry for each repetition. The entry is `None` if the expectation holds in that repetition, and otherwise the
-/// failure.
+/// Finds the expectations in the text that do not hold after at least one repetition of their step. For each of them,
+/// returns a list with one entry for each repetition. The entry is `None` if the expectation holds in that repetition,
+/// and otherwise the failure.
 fn unmet_in_text<'o>(
     recipe: &Recipe,
     outcome: &'o Outcome,
@@ -217,7 +217,7 @@ fn fix(expectation: &Value, found: Option<&ActualValue>) -> Result<Fix, String> 
             max,
             tolerance,
         } => {
-            // The tolerance of `Bounds` is for each coordinate.
+            // The tolerance of `Bounds` applies to each coordinate separately.
             let mut edits = vector(recorded("min")?, min.to_array(), *tolerance)?;
             edits.extend(vector(recorded("max")?, max.to_array(), *tolerance)?);
             let corner = |p: &mesh::DVec3| format!("({}, {}, {})", p.x, p.y, p.z);

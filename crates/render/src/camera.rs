@@ -67,8 +67,9 @@ impl Default for Camera {
 
 impl Camera {
     /// Returns the camera rotated about the upward axis through the point that the camera looks at. A positive angle
-    /// moves the camera to the right. [`Self::Fit`] also becomes [steady](Self::Fit::steady). `points` are the points
-    /// of the scene, which determine the upward axis if it is [`Up::Auto`].
+    /// moves the camera to the right. A [`Self::Fit`] camera also becomes [steady](Self::Fit::steady): its scale is the
+    /// same from every direction. `points` are the points of the scene, which determine the upward axis if it is
+    /// [`Up::Auto`].
     #[must_use]
     pub fn turned(mut self, degrees: f64, points: &impl Fn(&mut dyn FnMut(DVec3))) -> Self {
         match &mut self {
@@ -317,7 +318,7 @@ impl View {
     /// # Errors
     ///
     /// [`PictureError::Camera`] if a number of the camera is out of its range or not finite, or if the camera has no
-    /// direction because it looks from a point to this same point.
+    /// direction because `from` and `to` are equal.
     pub fn new(
         camera: &Camera,
         points: &impl Fn(&mut dyn FnMut(DVec3)),

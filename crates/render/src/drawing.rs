@@ -159,7 +159,7 @@ impl Drawing<'_> {
         self.parts.iter().map(|p| p.triangles.len()).sum()
     }
 
-    /// Calls `each` with all points of parts and both ends of all lines.
+    /// Calls `each` with every point of every part, and with both ends of every line.
     pub fn each_point(&self, each: &mut dyn FnMut(DVec3)) {
         for part in &self.parts {
             part.points.iter().for_each(|&p| each(p));

@@ -33,11 +33,11 @@ pub enum Background {
     White,
     /// Transparent, so that the picture can be placed over other images.
     Transparent,
-    /// This color.
+    /// One color for the whole background.
     Plain(Color),
 }
 
-/// Lines on a surface.
+/// How lines on a surface are drawn.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Lines {

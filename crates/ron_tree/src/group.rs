@@ -292,7 +292,7 @@ impl Parser<'_> {
         let start = self.current.span;
         if !self.too_deep {
             self.too_deep = true;
-            let message = format!("brackets are nested more than {MAX_DEPTH} deep");
+            let message = format!("brackets are nested more than {MAX_DEPTH} levels deep");
             self.report(Diagnostic::error(start, message));
         }
         let mut depth = 0_usize;

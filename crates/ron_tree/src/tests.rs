@@ -290,7 +290,7 @@ fn depth_is_limited() {
     assert_eq!(problems(&nested(MAX_DEPTH)), []);
     assert_eq!(
         problem(&nested(MAX_DEPTH + 1)).0,
-        "brackets are nested more than 128 deep"
+        "brackets are nested more than 128 levels deep"
     );
     assert_eq!(
         problem(&format!("[{}, {}]", nested(10_000), nested(10_000))).1,

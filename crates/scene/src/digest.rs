@@ -132,7 +132,7 @@ pub(crate) const TEXTURES: [NamedTexture; 5] = [
     ("emissive texture", |m| &mut m.emissive_texture),
 ];
 
-/// The names of the rules in the canonical form.
+/// The names of the edit rules of attributes in the canonical form.
 pub(crate) const RULES: [(&str, Rule); 4] = [
     ("interpolate", Rule::Interpolate),
     ("normal", Rule::Normal),
@@ -417,7 +417,8 @@ mod tests {
 
     #[test]
     fn materials_without_other_properties_keep_their_digests() {
-        // The expected digest was recorded when materials had only a color, two numbers and a path.
+        // The expected digest was recorded when materials had only a base color, metalness, roughness and the path of a
+        // texture.
         assert_eq!(digest_with(|_| {}), "ada3f121a9c1a3fae1913ce36d14aef1");
         let glass = digest_with(|m| {
             m.base_color = [0.5, 0.25, 1.0, 0.5];

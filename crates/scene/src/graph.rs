@@ -61,7 +61,7 @@ pub struct Node {
     pub camera: Option<usize>,
     /// The index of the light in [`Graph::lights`].
     pub light: Option<usize>,
-    /// The index of the skin in [`Graph::skins`] that deforms the object.
+    /// The index, in [`Graph::skins`], of the skin that deforms the object.
     pub skin: Option<usize>,
     /// The weights of the morph targets of the object. If empty, the weights of the [label](MeshLabel::weights) are
     /// used.

@@ -189,8 +189,8 @@ impl Scene {
         Ok(self.graph_mut().append(graph))
     }
 
-    /// Removes an object and returns it. The nodes that reference the object are removed, unless they still have
-    /// children, have a camera or a light, or are joints or roots of joints of a skin.
+    /// Removes an object and returns it. The nodes that reference the object are removed, too. A node is kept if it
+    /// still has children, has a camera or a light, or is a joint of a skin or the root of such joints.
     pub fn remove(&mut self, name: &str) -> Option<Object> {
         let index = self.objects.iter().position(|o| o.name == name)?;
         self.unplace(name);
@@ -198,8 +198,8 @@ impl Scene {
     }
 
     /// Removes an object from all nodes, so that its own space becomes the space of the scene. The nodes that
-    /// referenced the object are removed, unless they still have children, have a camera or a light, or are joints or
-    /// roots of joints of a skin.
+    /// referenced the object are removed, too. A node is kept if it still has children, has a camera or a light, or is
+    /// a joint of a skin or the root of such joints.
     pub fn unplace(&mut self, name: &str) {
         if !self.graph.is_empty() {
             self.graph_mut().remove_object(name);

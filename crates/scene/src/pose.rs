@@ -13,7 +13,8 @@ use mesh::{
 use crate::transformed::{LinearMap, holds_tangents, mapped, transformed};
 use crate::{Graph, Node};
 
-/// The weight of a morph target, and the domain and the values of its changes to an attribute.
+/// The changes that a morph target makes to an attribute: the weight of the target, and the domain and the values of
+/// the changes.
 type Change<'a> = (f64, Domain, &'a Values);
 
 /// A column of normals and its domain.
@@ -30,7 +31,7 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// Returns the pose of a mesh with these attributes at a node. `to_scene` is the result of
+    /// Returns the pose that a node gives to a mesh with these attributes. `to_scene` is the result of
     /// [`Graph::to_scene`].
     pub(crate) fn of(
         graph: &Graph,

@@ -230,7 +230,8 @@ fn read_plain(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
         bytes = read_at_once(&file, expected)?;
         io::Seek::seek(&mut &file, io::SeekFrom::Start(expected as u64))?;
     }
-    // Reads the rest: a whole small file, or bytes that were added to a large file after its size was determined.
+    // Reads the rest of the file. For a small file, the rest is the whole file. For a large file, the rest is only the
+    // bytes that were added after the size was determined.
     let rest = limit - bytes.len() as u64;
     file.take(rest).read_to_end(&mut bytes)?;
     Ok(bytes)

@@ -1,4 +1,4 @@
-//! The attributes of the next level.
+//! Computes the attributes of the next subdivision level.
 
 use mesh::{
     Attributes, CREASE, Column, DVec2, DVec3, DVec4, Domain, Mesh, Rule, VERTEX_SHARPNESS, Value,
@@ -17,7 +17,7 @@ use crate::topology::{Place, Topology, add_linear, linear_value};
 /// The input from which the attributes of the next level are computed.
 pub(crate) struct AttributeSources<'a> {
     pub(crate) mesh: &'a Mesh,
-    /// The next level, without attributes.
+    /// The mesh of the next level, without attributes.
     pub(crate) finer: &'a Mesh,
     pub(crate) topology: &'a dyn Topology,
     pub(crate) masks: &'a dyn AnyMasks,
@@ -36,9 +36,9 @@ impl AttributeSources<'_> {
     ///
     /// - Vertices: [`Rule::Interpolate`] uses the masks of the positions. [`Rule::Copy`] keeps the values of
     ///   old vertices, and new vertices have the value zero.
-    /// - Corners: if `sharpness` is given, [`Rule::Interpolate`] smooths each piece between seams separately, as
-    ///   defined by [`FaceVarying`]; otherwise it interpolates linearly within the old face. [`Rule::Copy`] keeps the
-    ///   values of old corners, and new corners have the value zero.
+    /// - Corners: if `sharpness` is given, [`Rule::Interpolate`] smooths the values separately in each region between
+    ///   seams, as defined by [`FaceVarying`]; otherwise it interpolates linearly within the old face. [`Rule::Copy`]
+    ///   keeps the values of old corners, and new corners have the value zero.
     /// - Edges: parts of an old edge copy its value, and other new edges have the value zero.
     /// - Faces: parts of an old face copy its value.
     ///

@@ -28,8 +28,8 @@ pub enum SubdivisionError {
     TooFar {
         /// The scheme.
         scheme: Scheme,
-        /// The first vertex with a coordinate above the maximum. The id is valid in the compacted mesh (without deleted
-        /// elements).
+        /// The first vertex with a coordinate whose magnitude is above the maximum. The id is valid in the compacted
+        /// mesh (without deleted elements).
         vertex: VertexId,
     },
     /// The scheme can only subdivide a whole mesh.
@@ -43,7 +43,7 @@ pub enum SubdivisionError {
         /// The number of flags that were given.
         flags: usize,
     },
-    /// No limit masks are implemented for the scheme.
+    /// For this scheme, the crate has no limit masks (the weights that give the limit positions).
     #[error("the limit surface is not available for {}", .0.name())]
     NoLimit(Scheme),
     /// The result would have more elements than there are ids, or exceed the memory budget.

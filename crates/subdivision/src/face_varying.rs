@@ -53,7 +53,7 @@ enum State {
     Corner,
     /// The value does not change as long as an edge inside the piece, or the vertex, is sharp.
     SemiSharp,
-    /// The value does not change as long as an edge inside the other piece is sharp.
+    /// The vertex has two pieces. The value does not change as long as an edge inside the other piece is sharp.
     Dependent,
     /// The value is smoothed along the border of the piece.
     Crease,
@@ -113,7 +113,7 @@ impl<'a> Field<'a> {
         })
     }
 
-    /// Returns the value of a corner of the next level.
+    /// Returns the value of a corner of the next subdivision level.
     pub(crate) fn value(&self, place: Place) -> DVec4 {
         match place {
             Place::At(h) => self.at(h),
@@ -154,8 +154,8 @@ impl<'a> Field<'a> {
         if sharp >= 1.0 {
             return (self.of(h) + self.of(self.mesh.next(h))) * 0.5;
         }
-        // The terms are added in the same order for both halves of the edge. So the values on the two sides of the edge
-        // are identical bit for bit.
+        // The terms are added in the same order for both half-edges of the edge. So the values on the two sides of the
+        // edge are identical bit for bit.
         let halves = e.half_edges();
         let ends = self.of(halves[0]) + self.of(self.mesh.next(halves[0]));
         let [smooth_end, sides] = if self.scheme == Scheme::CatmullClark {

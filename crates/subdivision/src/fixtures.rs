@@ -3,8 +3,8 @@
 use geometry::shapes;
 use mesh::{DVec3, FaceId, Mesh, VertexId};
 
-/// Returns triangle meshes of many kinds, with their names. Positions are jittered, so that no two neighborhoods are
-/// equal.
+/// Returns triangle meshes of many kinds, with their names. Positions are jittered, so that no two vertices have equal
+/// neighborhoods.
 pub(crate) fn all() -> Vec<(&'static str, Mesh)> {
     let fixtures = vec![
         ("nothing", Mesh::default()),

@@ -16,7 +16,7 @@
 //!
 //! Each vertex stores one outgoing half-edge. An old vertex stores the first part of the half-edge that it stored
 //! before. This part is on the boundary if the old half-edge is. A new vertex stores the second part of one of the two
-//! halves of the old edge. If the old edge is on the boundary, this is the second part of the boundary half-edge.
+//! half-edges of the old edge. If the old edge is on the boundary, this is the second part of the boundary half-edge.
 //!
 //! The four half-edges and the vertex of each old edge are computed from the old mesh only, so all old edges can
 //! be processed in parallel. The idea is from Vanhoey and Dupuy, "A Halfedge Refinement Rule for Parallel Loop
@@ -47,7 +47,8 @@ pub(crate) fn on_edge(mesh: &Mesh, h: HalfEdgeId) -> VertexId {
     VertexId::new(mesh.n_vertices() + h.edge().index())
 }
 
-/// Returns the location of the corner at the origin of new half-edge `i`, which must be a part of an old half-edge.
+/// Returns the location, in the old mesh, of the corner at the origin of new half-edge `i`. This half-edge must be a
+/// part of an old half-edge.
 pub(crate) fn place(mesh: &Mesh, i: usize) -> Place {
     // An old edge has four parts: parts 0 and 2 belong to its first half-edge, parts 1 and 3 to its second half-edge.
     // Part 0 starts at the origin of the first half-edge, and part 3 starts at the origin of the second half-edge.
@@ -72,9 +73,9 @@ pub(crate) struct AddedArrays<'n> {
     pub(crate) face_half_edge: &'n mut [HalfEdgeId],
 }
 
-/// Builds the connectivity of the next level. The links of a half-edge are its next half-edge and its face. The parts
-/// of old edges come first; `parts` gives the links of the two parts of each old half-edge. After the parts of old
-/// edges, `fill_added` writes `edges` edges, `vertices` vertices and `faces` faces.
+/// Builds the connectivity of the next subdivision level. The links of a half-edge are its next half-edge and its face.
+/// The parts of old edges come first; `parts` gives the links of the two parts of each old half-edge. After the parts
+/// of old edges, `fill_added` writes `edges` edges, `vertices` vertices and `faces` faces.
 pub(crate) fn split_edges(
     mesh: &Mesh,
     [vertices, edges, faces]: [usize; 3],

@@ -25,7 +25,7 @@ use crate::parallel::any;
 /// A face with at most this number of corners is not large: each new corner in it sums all corners of the face again.
 const MAX_SMALL: usize = 64;
 
-/// The number of sums for each face: m, c and s.
+/// Each large face has three sums, called m, c and s.
 const SUMS: usize = 3;
 
 /// The faces of a mesh with more than [`MAX_SMALL`] corners.
@@ -57,7 +57,7 @@ impl LargeFaces {
         self.faces.is_empty()
     }
 
-    /// Returns the number of sums of all faces.
+    /// Returns the total number of sums of all large faces.
     pub(crate) fn n_sums(&self) -> usize {
         SUMS * self.faces.len()
     }

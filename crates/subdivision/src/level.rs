@@ -15,7 +15,8 @@ use crate::topology::Topology;
 use crate::triangles::Triangles;
 
 /// Computes one level of a dense mesh, which is a mesh without deleted elements. `level` is the index of the level,
-/// counted from 0. The caller must have checked the faces and the size of the next level.
+/// counted from 0. The caller must have checked that the scheme accepts all faces, and that the next level is not too
+/// large.
 pub(crate) fn finer(
     mesh: &Mesh,
     rules: Rules,
@@ -78,7 +79,7 @@ pub(crate) fn with_masks<T>(
     }
 }
 
-/// Builds the next level of a dense mesh: connectivity, positions and attributes.
+/// Builds the next subdivision level of a mesh without deleted elements: connectivity, positions and attributes.
 pub(crate) fn build(
     mesh: &Mesh,
     rules: Rules,

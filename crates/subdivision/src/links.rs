@@ -92,7 +92,7 @@ pub(crate) trait Links: Sync {
     /// Returns the number of vertices, the number of edges, and the number of faces.
     fn counts(&self) -> [usize; 3];
 
-    /// Returns the two halves of edge `i`.
+    /// Returns the two half-edges of edge `i`.
     fn edge(&self, i: usize) -> [Link; 2];
 
     /// Returns the half-edge of vertex `i`; [`HalfEdgeId::NONE`] if the vertex is isolated.

@@ -21,7 +21,7 @@
 //! ```
 //!
 //! Without smoothing, each new triangle is similar to its old triangle, or is half of a triangle that is similar to the
-//! old triangle. So the smallest angle has a bound that does not depend on the number of levels. Over all levels
+//! old triangle. So the smallest angle has a lower bound that does not depend on the number of levels. Over all levels
 //! together, the cotangent of the smallest angle grows by at most a factor of three. Source: Bank, Sherman and Weiser,
 //! "Refinement Algorithms and Data Structures for Regular Local Mesh Refinement", 1983.
 //!
@@ -52,7 +52,8 @@ use closure::Cuts;
 use pieces::{Pieces, SmoothedElements};
 use smoothed::LocalMasks;
 
-/// Subdivides some of the faces of a mesh `levels` times. Each level refines the parts of the chosen faces.
+/// Subdivides some of the faces of a mesh `levels` times. The first level refines the chosen faces. Each further level
+/// refines the parts into which the previous level has cut these faces.
 ///
 /// `faces` has one flag for each face, which is true if the face is chosen. Supports Loop, Catmull-Clark and midpoint
 /// subdivision.
@@ -66,9 +67,9 @@ use smoothed::LocalMasks;
 ///
 /// Ids change as follows. Old vertices keep their ids. Each level appends the new vertices on edges, in order of the
 /// edges, then the new vertices in faces, in order of the faces. Edges and faces are renumbered. The parts of an edge
-/// are consecutive, in order from the origin of its first half to the target. The parts of a face are consecutive too.
-/// New edges inside faces come after the parts of old edges, in order of the faces. A mesh with dead (deleted) elements
-/// is compacted first.
+/// have consecutive ids, in order from the origin of its first half-edge to the target. The parts of a face have
+/// consecutive ids too. New edges inside faces come after the parts of old edges, in order of the faces. A mesh with
+/// dead (deleted) elements is compacted first.
 ///
 /// Vertex attributes are blended with the weights of the positions. Where positions are smoothed, corner values
 /// are smoothed as defined by [`Rules::face_varying`]. Elsewhere each corner value is a mean of values of its own
@@ -150,7 +151,7 @@ pub fn refine_faces(
     Ok(mesh.into_owned())
 }
 
-/// Computes one level of a dense mesh, given how its faces and edges are cut.
+/// Computes one level of a mesh without deleted elements, given how its faces and edges are cut.
 fn finer(mesh: &Mesh, pieces: &Pieces, rules: Rules, meter: &Meter) -> Result<Mesh, Cancelled> {
     let sharpness = Sharpness::of(mesh, rules);
     level::with_masks(mesh, rules, sharpness, |masks| {

@@ -1,4 +1,4 @@
-//! The connectivity of the next level when every face with n corners is split into n quads.
+//! The connectivity of the next subdivision level if every face with n corners is split into n quads.
 //!
 //! The old mesh has V vertices, E edges and F faces. Corner indices increase face by face, and c(h) is the index of the
 //! corner at the origin of half-edge h. Edges are split in two as in [`halves`](crate::halves). Each part of a face is
@@ -109,7 +109,7 @@ impl<'a> Quads<'a> {
         ((0..c % 4).fold(start, |h, _| self.mesh.next(h)), f)
     }
 
-    /// Returns the half of the spoke of corner `c` that runs to the center.
+    /// Returns the half-edge of the spoke of corner `c` that runs to the center.
     #[inline]
     fn out(&self, c: usize) -> HalfEdgeId {
         HalfEdgeId::new(4 * self.n_edges + 2 * c)
@@ -125,7 +125,7 @@ impl<'a> Quads<'a> {
         ([self.out(c), after], [FaceId::new(c), FaceId::new(next)])
     }
 
-    /// Returns the entries of corner `c`: the two halves of its spoke, and the half-edge of its face.
+    /// Returns the array entries of corner `c`: the two half-edges of its spoke, and the half-edge of its face.
     #[inline]
     fn spoke(&self, c: usize) -> Entries<2, 1> {
         let (h, f) = self.half_edge_of_corner(c);

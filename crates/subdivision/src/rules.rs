@@ -107,7 +107,7 @@ pub enum Creasing {
 pub enum FaceVarying {
     /// Values are smoothed everywhere. Along a seam, values are smoothed as along the boundary of the mesh.
     None,
-    /// Like `None`, but if only one face has a value at a vertex, this value does not change.
+    /// Like `None`, but a value at a vertex does not change if only one face at this vertex has the value.
     CornersOnly,
     /// Like `CornersOnly`, but values also do not change at a vertex with three or more different values. At a vertex
     /// with two different values, each value belongs to a set of faces. Neither value changes if one of these sets is

@@ -75,7 +75,7 @@ impl<K: Copy> VertexRule<K> {
 
 impl<K: Copy> Blend<K> {
     /// Returns the blend of a vertex. `at` is the sharpness of the vertex on this level and on the next level. `edges`
-    /// has the edges around the vertex with the same two values.
+    /// has the edges around the vertex, each with its sharpness on these two levels.
     pub(crate) fn of(at: [f64; 2], edges: impl Iterator<Item = (K, [f64; 2])> + Clone) -> Self {
         let rule = |i: usize| VertexRule::of(at[i], edges.clone().map(|(k, s)| (k, s[i])));
         let now = rule(0);

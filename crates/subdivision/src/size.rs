@@ -12,8 +12,8 @@ use crate::rules::{Scheme, Split};
 /// The largest number of elements of one kind: the highest id is 2^32 - 2.
 const MAX_ELEMENTS: u64 = u32::MAX as u64;
 
-/// A number of elements: an exact number, or a range if the number is not known yet. Arithmetic saturates at the
-/// largest value.
+/// A number of elements: an exact number, or a range if the number is not known yet. A result that is too large is
+/// replaced by the largest value.
 pub trait Count: Copy {
     /// Returns the sum of two counts.
     #[must_use]
@@ -69,7 +69,7 @@ pub struct Size<N = u64> {
 }
 
 impl Size {
-    /// Measures a dense mesh.
+    /// Returns the size of a mesh without deleted elements.
     pub fn of(mesh: &Mesh) -> Self {
         let attributes = Domain::ALL.map(|domain| {
             let columns = mesh.attributes().of(domain).iter();
@@ -126,7 +126,7 @@ impl<N: Count> Size<N> {
             inner_of_valence_2,
             ..
         } = self;
-        // Each boundary edge has one half without a face.
+        // Each boundary edge has one half-edge without a face.
         let boundary = edges.times(2).minus(corners);
         let [vertices, edges, faces, corners] = match scheme {
             Scheme::Loop(_) | Scheme::Butterfly | Scheme::Midpoint(Split::Triangles) => [

@@ -220,7 +220,7 @@ impl<'a> Sqrt3<'a> {
         Link(origin, next, self.triangle(h))
     }
 
-    /// Returns the origin, the next half-edge and the face of both halves of the spoke of `h`.
+    /// Returns the origin, the next half-edge and the face of both half-edges of the spoke of `h`.
     #[inline]
     fn edge_spoke(&self, h: HalfEdgeId) -> [Link; 2] {
         let mesh = self.mesh;
@@ -246,8 +246,8 @@ impl<'a> Sqrt3<'a> {
         [half, Link(self.end(h), next, face)]
     }
 
-    /// Returns the origin, the next half-edge and the face of both halves of the edge from c to y. The level must cut
-    /// the edge of `h`.
+    /// Returns the origin, the next half-edge and the face of both half-edges of the edge from c to y. The level must
+    /// cut the edge of `h`.
     #[inline]
     fn edge_second_spoke(&self, h: HalfEdgeId) -> [Link; 2] {
         let after = self.mesh.next(h);

@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use mesh::{Connectivity, DVec4, EdgeId, FaceId, HalfEdgeId, Mesh};
 use progress::{Cancelled, Meter};
 
-/// Computes the connectivity of the next level of a mesh without deleted elements, and the old element that each new
-/// element comes from.
+/// Computes the connectivity of the next subdivision level, and the old element that each new element comes from. The
+/// old mesh has no deleted elements.
 pub(crate) trait Topology: Sync {
     /// Computes the connectivity of the next level.
     fn connectivity(&self, meter: &Meter) -> Result<Connectivity, Cancelled>;

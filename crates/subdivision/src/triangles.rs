@@ -1,9 +1,10 @@
-//! The connectivity of the next level when every triangle is split into four.
+//! The connectivity of the next subdivision level if every triangle is split into four.
 //!
 //! Edges are split in two as in [`halves`](crate::halves). The old mesh has V vertices and E edges. Face f has the
 //! half-edges h0, h1, h2, counted from its first one. Face 4f + k is the triangle at the origin of hk, and face 4f + 3
 //! is the middle triangle. The edge between the corner triangle at hk and the middle triangle is 2E + 3f + k. The first
-//! half of this edge, cut k, belongs to the corner triangle, and the second half to the middle triangle:
+//! half-edge of this edge, called cut k, belongs to the corner triangle, and the second half-edge to the middle
+//! triangle:
 //!
 //! ```text
 //!                  v2
@@ -50,7 +51,7 @@ impl Triangles<'_> {
         ([self.cut(f, k), first(next)], [corner(k), corner(after_k)])
     }
 
-    /// Returns the entries of an old face: the six half-edges inside it, and its four new faces.
+    /// Returns the array entries of an old face: the six half-edges inside it, and its four new faces.
     #[inline]
     fn cut_face(&self, f: FaceId) -> Entries<6, 4> {
         let h0 = self.0.face_half_edge(f);

@@ -31,7 +31,7 @@ use crate::size::Size;
 /// Sharpness ([`mesh::CREASE`], [`mesh::VERTEX_SHARPNESS`]) shapes Loop and Catmull-Clark surfaces and decreases with
 /// each level; other schemes copy it unchanged.
 ///
-/// Progress is reported from the worker threads.
+/// The worker threads call `progress`, possibly at the same time.
 ///
 /// # Errors
 ///

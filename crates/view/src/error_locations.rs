@@ -27,10 +27,10 @@ const ERROR: Color = Color::rgb(0xd6, 0x20, 0x28);
 const EXPECTED: Color = Color::rgb(0x1b, 0x8e, 0x3d);
 /// The color of the border around marks.
 const HALO: Color = Color([255, 255, 255, 220]);
-/// The opacity of hidden marks.
+/// The opacity of marks where a surface hides them.
 const HIDDEN: f64 = 0.4;
-/// The overview marks locations that are too small to see with dots. If there are more locations than this maximum,
-/// these dots are left out.
+/// In the overview, dots mark the locations that are too small to see. If there are more locations than this maximum,
+/// the overview has no dots for them.
 const MAX_DOTTED: usize = 200;
 /// The maximum number of names in the close-up.
 const MAX_NAMES: usize = 24;
@@ -115,7 +115,7 @@ pub fn draw_error_locations(
         margin: 0.05,
         steady: false,
     };
-    // Locations that are too small to see are marked with dots.
+    // Dots mark the locations that are too small to see.
     let dot_limit = (locations.len() <= MAX_DOTTED).then_some(0.05 * radius);
     let overlays = marks(locations, &surroundings, [4.0, 14.0], dot_limit);
     let has_edges = surroundings.n_faces <= MAX_FACES_WITH_EDGES;

@@ -9,8 +9,8 @@ use scene::Scene;
 
 use crate::position_bits::bits;
 
-/// The number of directions on the whole sphere. Only those of them are tried that lie on the outer side of the surface
-/// and whose elevation is allowed.
+/// The number of directions on the whole sphere. A direction is tried only if it lies on the outer side of the surface
+/// and its elevation is allowed.
 const DIRECTIONS: u32 = 200;
 
 /// The sine of 75 degrees, which is the maximum elevation of the camera. If the camera looks straight down, the upward
@@ -19,8 +19,8 @@ const MAX_ELEVATION: f64 = 0.965_925_826_289_068_3;
 
 /// A location in a scene that the camera looks at.
 pub(crate) struct Target<'a> {
-    /// The points of the location. Faces that touch one of these points are ignored when faces that hide the location
-    /// are searched for.
+    /// The points of the location. Faces that touch one of these points are ignored in the search for faces that hide
+    /// the location.
     pub(crate) points: &'a [DVec3],
     /// The middle of the points.
     pub(crate) middle: DVec3,
@@ -44,7 +44,7 @@ pub(crate) fn clear_direction(
     let directions = std::iter::once(preferred).chain(directions());
     let directions: Vec<DVec3> = directions.filter(is_outside).collect();
     let points: HashSet<[u64; 3]> = target.points.iter().map(|&p| bits(p)).collect();
-    // For each direction: the distance to the nearest face.
+    // For each direction, the distance from the target to the nearest face.
     let mut distances = vec![f64::INFINITY; directions.len()];
     for mesh in scene.objects().iter().filter_map(|o| o.as_mesh()) {
         let n = mesh.domain_len(mesh::Domain::Face);

@@ -21,7 +21,7 @@ pub(crate) fn banners(ui: &mut Ui, parts: &mut Parts, colors: &Colors) {
     if parts.editor.document().conflict().is_some() {
         frame(colors.warning).show(ui, |ui| {
             ui.horizontal_wrapped(|ui| {
-                ui.label("Another program changed the file while your text has unsaved changes.");
+                ui.label("Another program changed the file, but your text has unsaved changes. Keep your text, or take the text of the file?");
                 if ui.button("Keep mine").clicked() {
                     parts.editor.keep_mine();
                 }

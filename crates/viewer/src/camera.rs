@@ -122,8 +122,8 @@ impl Camera {
         [x, up * cos - forward * sin, forward * cos + up * sin]
     }
 
-    /// Returns the axes of the scene for a viewer in front of it: the directions to the right, upwards, and towards
-    /// this viewer.
+    /// Returns three axes of the scene, as a viewer in front of the scene sees them: to the right, upwards, and towards
+    /// the viewer.
     pub fn world_axes(&self) -> [DVec3; 3] {
         match self.up {
             UpAxis::Y => [DVec3::X, DVec3::Y, DVec3::Z],
@@ -184,8 +184,8 @@ impl Camera {
         self.target -= (x * pixels.x - y * pixels.y) * self.pixel_size(size.y);
     }
 
-    /// Multiplies the distance by `factor`. The point under the pixel `at`, at the distance of the target, stays at
-    /// this pixel.
+    /// Multiplies the distance to the target by `factor`. A point that is seen at the pixel `at`, and is as deep in the
+    /// scene as the target, stays at this pixel.
     pub fn zoom(&mut self, factor: f64, at: DVec2, size: DVec2) {
         let [x, y, _] = self.axes();
         let d = (at - 0.5 * size) * self.pixel_size(size.y);
@@ -198,7 +198,7 @@ impl Camera {
     pub fn fit(&mut self, center: DVec3, radius: f64, size: DVec2) {
         let aspect = (size.x / size.y.max(1.0)).clamp(0.05, 1.0);
         self.target = center;
-        // The margin keeps the toolbar and the axes of the view clear.
+        // The factor 1.06 leaves a margin, so that the sphere does not reach the toolbar and the drawn axes.
         let sine = libm::sin(libm::atan(tangent() * aspect));
         self.distance = 1.06 * radius.max(1e-12) / sine;
     }

@@ -15,7 +15,7 @@ use crate::gpu::Wireframe;
 use crate::theme::Colors;
 use crate::view_pane::ViewPane;
 
-/// The controls over the view.
+/// Draws the controls over the view.
 pub(crate) fn over_view(ui: &mut Ui, rect: Rect, parts: &mut Parts) {
     let colors = Colors::current(ui);
     let builder = UiBuilder::new().max_rect(rect.shrink(8.0));

@@ -20,7 +20,7 @@ const MOUSE: [(&str, &str); 10] = [
     ("Ctrl+Drag", "add all elements in a lasso"),
     (
         "with Alt",
-        "remove all elements in a box or a lasso from the picked elements",
+        "remove all elements in the box or lasso from the picked elements",
     ),
     ("Double click", "pick an edge loop"),
     ("Drag a control point", "move it (curves and patches)"),
@@ -30,8 +30,8 @@ const MOUSE: [(&str, &str); 10] = [
 const LOOK: &str = "Look";
 /// Keys that the table of actions does not have.
 const SIDES: [(&str, &str); 2] = [
-    ("1 to 7", "look from the sides"),
-    ("0", "switch perspective"),
+    ("1 to 7", "look from one of seven directions"),
+    ("0", "switch perspective on or off"),
 ];
 
 pub(crate) fn ui(ctx: &Context, parts: &mut Parts) {
@@ -39,8 +39,8 @@ pub(crate) fn ui(ctx: &Context, parts: &mut Parts) {
         return;
     }
     let modal = egui::Modal::new(Id::unique("help")).frame(modal_frame(ctx)).show(ctx, |ui| {
-        // All keys fit in a window of 1280 x 800 points. In a smaller window, the list of keys is scrolled below its
-        // title.
+        // All keys fit in a window of 1280 x 800 logical pixels. In a smaller window, the list of keys is scrolled
+        // below its title.
         let window = ctx.content_rect().size();
         ui.set_width((window.x - 120.0).clamp(300.0, 1000.0));
         ui.horizontal(|ui| {
@@ -51,7 +51,7 @@ pub(crate) fn ui(ctx: &Context, parts: &mut Parts) {
                 }
             });
         });
-        ui.label(RichText::new("Everything you do becomes a step of the recipe at the left. Undo goes back in the history of the recipe.").weak());
+        ui.label(RichText::new("Every edit becomes a step of the recipe at the left. Undo reverts the last change of the recipe.").weak());
         ui.separator();
         ScrollArea::vertical().min_scrolled_height(window.y - 180.0).max_height(window.y - 180.0).show(ui, |ui| {
             // A row is as high as its text. By default, it would be at least as high as a button.

@@ -5,9 +5,9 @@ use eframe::egui::{Context, Event, Id, Key, Modifiers, Popup};
 
 /// Removes the keys with an action from the input, and returns the actions.
 ///
-/// While a text is edited, only F1, Escape and keys with Ctrl have an action, and only if the action is about the
-/// window or the file. While a widget other than the view has the focus, that widget receives Space and Enter. While a
-/// menu or a list of choices is open, this menu or list receives all keys.
+/// While the user edits a text, only F1, Escape and keys with Ctrl have an effect. Even these keys have an effect only
+/// if their action is about the window or the file. While a widget other than the view has the focus, that widget
+/// receives Space and Enter. While a menu or a list of choices is open, this menu or list receives all keys.
 pub(crate) fn actions(ctx: &Context, keys: &Keys, is_modal: bool, view: Option<Id>) -> Vec<Action> {
     if Popup::is_any_open(ctx) {
         return Vec::new();
@@ -76,7 +76,7 @@ fn name(key: Key, modifiers: Modifiers) -> String {
         }
     }
     text + match key {
-        // On many keyboards, plus is on the same key as equals.
+        // On many keyboards, plus is on the same key as equals, so this key is called `Plus`.
         Key::Equals => "Plus",
         key => key.name(),
     }

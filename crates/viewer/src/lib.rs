@@ -37,7 +37,7 @@ use view_pane::Loss;
 
 pub use app::{App, Opened, Start};
 
-/// How the program is used.
+/// The text that explains how to start the program.
 const USAGE: &str = "\
 Edits a mesh in a window. Every edit becomes a step of a recipe.
 

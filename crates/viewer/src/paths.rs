@@ -215,7 +215,7 @@ fn proceed(parts: &mut Parts, purpose: Purpose, path: &Path, ctx: &Context) {
     }
 }
 
-/// The text field for a path, and the list of files.
+/// Draws the text field for a path, and the list of files.
 pub(crate) fn ui(ctx: &Context, parts: &mut Parts) {
     let Some(mut prompt) = parts.prompt.take() else {
         return;
@@ -241,7 +241,7 @@ pub(crate) fn ui(ctx: &Context, parts: &mut Parts) {
             }
             None => "Write the path of a file.",
             _ if path.is_dir() => "This is a folder.",
-            _ if is_file && !is_open => "The existing file is replaced.",
+            _ if is_file && !is_open => "Saving replaces the existing file.",
             _ => "",
         };
         ui.label(RichText::new(problem).weak());

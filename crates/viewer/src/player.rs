@@ -28,7 +28,8 @@ pub(crate) struct Player {
     scene: Arc<Scene>,
     /// The number of edits per second.
     speed: f64,
-    /// When the next edit is done, in seconds since the start of the program. `None` while the player is paused.
+    /// The time at which the player does the next edit, in seconds since the start of the program. `None` while the
+    /// player is paused.
     next: Option<f64>,
 }
 
@@ -62,7 +63,7 @@ impl Player {
         self.speed
     }
 
-    /// Stops between two edits.
+    /// Pauses the player between two edits.
     pub(crate) fn pause(&mut self) {
         self.next = None;
     }
@@ -87,7 +88,7 @@ impl Parts {
     pub(crate) fn play(&mut self, step: usize) {
         let Some((object, play)) = self.editor.play(step) else {
             self.inform(
-                "These edits cannot be played: the step must flip (without `until`), split or collapse edges of a mesh, or make one level of Loop subdivision.",
+                "The edits of this step cannot be played. Playable steps flip (without `until`), split or collapse edges of a mesh, or make one level of Loop subdivision. The recipe must have run, and the step must be enabled and contain no `arg(..)`.",
             );
             return;
         };

@@ -19,7 +19,7 @@ enum Edit {
     Move(usize, usize),
 }
 
-/// A heading of a tile.
+/// Draws the heading of a tile.
 pub(crate) fn heading(ui: &mut Ui, title: &str, right: impl FnOnce(&mut Ui)) {
     let colors = Colors::current(ui);
     ui.horizontal(|ui| {
@@ -43,7 +43,7 @@ pub(crate) fn ui(ui: &mut Ui, parts: &mut Parts) {
                 records = ui
                     .small_button("Record a test")
                     .on_hover_text(
-                        "Writes expectations that hold for the scene after the selected step",
+                        "Adds to the recipe the expectations that the scene after the selected step meets",
                     )
                     .clicked();
             });
@@ -180,7 +180,7 @@ fn details(ui: &mut Ui, text: &str, color: Color32) {
     });
 }
 
-/// A row that can be clicked.
+/// Draws a row that can be clicked.
 fn row(
     ui: &mut Ui,
     label: &str,

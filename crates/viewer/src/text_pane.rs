@@ -196,9 +196,9 @@ struct Words {
     texts: Vec<String>,
 }
 
-/// Returns the completions of the word before the cursor. For a word with a capital letter, the completions are the
-/// names of the variants of the parameter whose value contains the word. If there is no such parameter, or it has no
-/// variants, the completions are the names of operations. For other words, the completions are the names of the
+/// Returns the completions of the word before the cursor. For a word that begins with a capital letter, the completions
+/// are the names of the variants of the parameter whose value contains the word. If there is no such parameter, or it
+/// has no variants, the completions are the names of operations. For other words, the completions are the names of the
 /// parameters of the step.
 fn completions(parts: &Parts, ui: &Ui, id: Id) -> Words {
     let none = Words {
@@ -257,8 +257,8 @@ fn completions(parts: &Parts, ui: &Ui, id: Id) -> Words {
     }
 }
 
-/// Returns the variants of the parameter whose value contains a byte of the text. Selections inside of a selection have
-/// the same variants. Empty outside of the parameters of a step.
+/// Returns the variants of the parameter whose value contains a byte of the text. For a selection inside of another
+/// selection, the variants are the same. Empty outside of the parameters of a step.
 fn variants_at(editor: &editor::Editor, at: usize) -> Vec<recipe::VariantDoc> {
     let outline = editor.outline();
     let field = outline.step_at(at).and_then(|step| {

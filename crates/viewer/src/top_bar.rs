@@ -9,7 +9,7 @@ use crate::app::{Parts, Pending};
 use crate::theme::Colors;
 use crate::widgets::{counts, dot, duration, grouped, size};
 
-/// The bar at the top.
+/// Draws the bar at the top of the window.
 pub(crate) fn top(ui: &mut Ui, parts: &mut Parts) {
     let colors = Colors::current(ui);
     let frame = Frame::new()
@@ -138,7 +138,7 @@ fn file_menu(ui: &mut Ui, parts: &mut Parts) {
     });
 }
 
-/// The status at the bottom.
+/// Draws the status bar at the bottom of the window.
 pub(crate) fn status(ui: &mut Ui, parts: &mut Parts) {
     let colors = Colors::current(ui);
     let frame = Frame::new()

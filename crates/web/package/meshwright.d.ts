@@ -60,7 +60,7 @@ export interface Checked {
     presets: string[];
     /** The steps in order. `line` is the line in the recipe, counted from 1; `null` if the step is in a called recipe. */
     steps: { label: string; operation: string; line: number | null }[];
-    /** The largest memory of all meshes after any step, in bytes. `null` if unknown. */
+    /** An upper bound of the memory of all meshes together after any step, in bytes. `null` if unknown. */
     peak_bytes: number | null;
 }
 
@@ -96,7 +96,7 @@ export interface MeshArrays {
 /** A quantity as recipes write it in `ColorBy(of: ..)`, such as `"MeanCurvature"`. */
 export type Quantity = string | Record<string, unknown>;
 
-/** The colors of all meshes that have a quantity, with a common scale. Colors of the legend are as in `#4477aa`. */
+/** The colors of all meshes that have a quantity, with a common scale. Colors of the legend are texts such as `#4477aa`. */
 export interface Colors {
     legend:
         | { title: string; low: number; high: number; colors: string[] }
@@ -125,8 +125,8 @@ export interface Options {
 
 export interface RunOptions extends Options {
     /**
-     * Receives the events of the run. If it returns false for an event `progress`, the run is canceled. Progress is
-     * reported at most ten times per second.
+     * Receives the events of the run. If the function returns false for an event `progress`, the run is canceled.
+     * Progress is reported at most ten times per second.
      */
     onEvent?: (event: Event) => boolean | void;
 }

@@ -90,7 +90,7 @@ export class Engine {
 
     /// Starts another engine after a trap.
     #stopped(error) {
-        this.#end(new Error(`The engine stopped (${error}), probably because memory is exhausted. Another one was started.`));
+        this.#end(new Error(`The engine stopped (${error}), probably because memory is exhausted. The engine was started again.`));
         this.#start().catch(() => {});
     }
 

@@ -63,7 +63,7 @@ const showForm = debounced(50, () => form.show());
 /// Adds a step after the step whose meshes are shown, and runs the recipe if it is trusted.
 function addStep(step) {
     if (!(shown ? editor.insertStep(step, shown.written) : editor.addStep(step))) {
-        notify("The recipe has no list of steps.");
+        notify("The step was not added, because the recipe has no list of steps.");
         return;
     }
     form.show();

@@ -96,7 +96,7 @@ export class Steps {
         const cells = [done.vertices, done.edges, done.faces].map((n) => n.toLocaleString("en"));
         [...cells, done.cached ? "cached" : milliseconds(done.milliseconds)].forEach((text, i) => (row.cells[i + 1].textContent = text));
         const notes = [
-            ...done.refused.map(({ reason, count, first }) => `${counted(count, "edit")} refused: ${reason}, first ${first}`),
+            ...done.refused.map(({ reason, count, first }) => `${counted(count, "edit")} refused (${reason}). The first: ${first}`),
             ...done.losses.map(({ name, message }) => `${name}: ${message}`),
             ...done.changes.map((change) => change.text),
             ...done.notes,

@@ -20,7 +20,7 @@ export const STARTER = `// Move a slider, or change the text and press Run (Ctrl
     },
     steps: [
         Cube(name: "jack"),
-        // A moved face keeps its number, so the second step makes the arms longer.
+        // A beveled face keeps its number, so the second BevelFaces makes the arms longer.
         BevelFaces(faces: All, fraction: 0.4, distance: arg("reach")),
         BevelFaces(faces: Faces([0, 1, 2, 3, 4, 5]), fraction: 0.2, distance: 1),
         CatmullClark(levels: arg("levels")),

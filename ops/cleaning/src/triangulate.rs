@@ -26,11 +26,11 @@ use op::prelude::*;
 /// A quadrilateral is cut along its shorter diagonal. If both diagonals have the same length, the quadrilateral is cut
 /// along the diagonal that contains its vertex with the lowest id. Two lengths count as the same if the relative
 /// difference of their squares is at most 1e-12. A diagonal is bad if one of its two triangles has zero area or is
-/// turned over: clockwise where the face is counter-clockwise. If the diagonal chosen so far is bad and the other one
-/// is not, the other one is used. A quadrilateral with a reflex corner (an angle above 180 degrees) is therefore cut at
-/// that corner. A diagonal is a duplicate if its ends are also joined by an edge or by a diagonal of another face. A
-/// duplicate is replaced with the other diagonal if the other one is equally good and not itself a duplicate. The
-/// report counts the duplicates that remain.
+/// turned over: clockwise where the face is counter-clockwise. If the diagonal that was chosen by length or id is bad
+/// and the other diagonal is not bad, the other diagonal is used. A quadrilateral with a reflex corner (an angle above
+/// 180 degrees) is therefore cut at that corner. A diagonal is a duplicate if its ends are also joined by an edge or by
+/// a diagonal of another face. A duplicate is replaced with the other diagonal if the other diagonal is not a
+/// duplicate, and if either both diagonals are bad or neither is bad. The report counts the duplicates that remain.
 ///
 /// A face with more than four corners is projected along its normal. The projected face is cut by ear clipping, or into
 /// monotone pieces if it has more than 4096 corners. Then diagonals are flipped until the triangulation is a
@@ -39,7 +39,7 @@ use op::prelude::*;
 /// face that cannot be triangulated in this way becomes a triangle fan around its vertex with the lowest id. The report
 /// counts these faces.
 ///
-/// In the list of faces, the triangles of a face take the place of this face, so the ids of later faces change. The
+/// In the list of faces, the triangles of a face take the place of this face, so faces with higher ids get new ids. The
 /// triangles have the values of the face. Vertices and edges keep their ids. A corner of a triangle has the values of
 /// the old face's corner at the same vertex.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]

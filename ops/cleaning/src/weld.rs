@@ -20,17 +20,17 @@ use op::prelude::*;
 ///
 /// Two vertices are linked if they are at most `distance` apart. Vertices that are connected by a chain of links merge
 /// into one, even if the ends of the chain are farther apart than `distance`. Of the vertices that merge, the vertex
-/// with the lowest id remains, with its position and values. The others are removed, so the ids of later vertices
-/// change. If several edges then join the same two vertices, they become one edge with the values of the edge with the
-/// lowest id. Corner values, such as UVs, stay with the corners of the faces, so UV seams are kept.
+/// with the lowest id remains, with its position and values. The other vertices are removed, so vertices with higher
+/// ids get new ids. If several edges then join the same two vertices, they become one edge with the values of the edge
+/// with the lowest id. Corner values, such as UVs, stay with the corners of the faces, so UV seams are kept.
 ///
 /// If neighboring corners of a face merge, the face loses a corner. A face is removed if it has fewer than three
 /// corners left or would contain a vertex twice. After the merge, neighboring faces can have opposite orientations. If
 /// all orientations in a connected part of the mesh can be made to agree, the step reverses the faces with the less
 /// frequent orientation. If faces are reversed, the report counts them, and the normals of vertices and corners are
 /// dropped. If the result is still not a manifold, vertices and edges are copied. For example, if three faces share an
-/// edge, the third face gets a copy of the edge. The report counts the copies. If no vertices merge, the mesh does not
-/// change.
+/// edge, one of these faces gets a copy of the edge. The report counts the copies. If no vertices merge, the mesh does
+/// not change.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Weld {

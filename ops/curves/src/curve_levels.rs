@@ -19,8 +19,9 @@ use scene::Geometry;
 /// Replaces each curve with polylines that show the levels of de Casteljau's algorithm.
 ///
 /// A curve with n control points becomes n polylines in the plane z = 0. The first polyline is the control polygon with
-/// n points. The points of each later polyline divide the segments of the polyline before it in the ratio t : 1 - t, so
-/// the number of points decreases by one. The last polyline has a single point, the point of the curve at `t`.
+/// n points. The points of each later polyline divide the segments of the previous polyline in the ratio t : 1 - t, so
+/// each polyline has one point fewer than the previous polyline. The last polyline has a single point, the point of the
+/// curve at `t`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct CurveLevels {

@@ -21,13 +21,13 @@ use scene::Geometry;
 
 /// Turns Bezier patches into a mesh.
 ///
-/// Acts on the objects that the step lists in `on`. Without `on`, the step acts on all objects that consist of Bezier
-/// patches. Each object becomes one mesh of the same name. Every patch is divided into `segments` x `segments` cells.
-/// Elements of earlier patches have lower ids. Different patches share no vertices. If two patches have the same
-/// control points on a common side, their vertices on this side have bitwise equal positions, so that
-/// `Weld(distance: 0)` joins the patches. A side whose points coincide, as at the pole of a teapot's lid, becomes one
-/// vertex. Patches without area give no faces. The report counts these patches. The mesh has UVs only with `uvs: true`,
-/// and normals only with `normals: true`.
+/// The step acts on the objects that its parameter `on` lists. Without `on`, the step acts on all objects that consist
+/// of Bezier patches. Each object becomes one mesh of the same name. Every patch is divided into `segments` x
+/// `segments` cells. Vertices, edges and faces of earlier patches have lower ids. Different patches share no vertices.
+/// If two patches have the same control points on a common side, their vertices on this side have bitwise equal
+/// positions, so that `Weld(distance: 0)` joins the patches. If all points of a side coincide, as at the pole of a
+/// teapot's lid, the side becomes one vertex. Patches without area give no faces. The report counts the patches without
+/// area. The mesh has UVs only with `uvs: true`, and normals only with `normals: true`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tessellate {
@@ -47,7 +47,7 @@ pub struct Tessellate {
     pub normals: bool,
 }
 
-/// The faces that a cell of a patch becomes.
+/// Whether each cell of a patch becomes triangles or a quad.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Faces {

@@ -21,7 +21,8 @@ use crate::moved::moved;
 /// in the box is the weighted sum of the new positions of all control points, with Bernstein polynomials as weights
 /// (Sederberg, Parry, "Free-Form Deformation of Solid Geometric Models", 1986). If all control points move by the same
 /// offset, the whole box moves by this offset. If only one control point moves, the points in the box move in the same
-/// direction, but less far. Only a point at a corner of the box moves as far as the control point at this corner.
+/// direction, but less far. If this control point is at a corner of the box, the point of the box at the same corner
+/// moves exactly as far as the control point.
 ///
 /// Vertices outside the box do not move. Normals and tangents are dropped. Faces, element ids and other attributes do
 /// not change, so textures stretch with the surface. Only vertices move, so refine the mesh first if its faces are

@@ -16,9 +16,9 @@ use crate::moved::{Stretch, moved, next};
 
 /// Scales vertices towards or away from an axis, by a factor that changes along the axis.
 ///
-/// The factor changes linearly from 1 at `from` to `factor` at `to`. Vertices below `from` do not move, and vertices
-/// above `to` are scaled by `factor`. Coordinates along the axis do not change. Source: Barr, "Global and Local
-/// Deformations of Solid Primitives", 1984.
+/// Along the axis, the factor changes linearly from 1 at the coordinate `from` to `factor` at the coordinate `to`.
+/// Vertices below `from` do not move, and vertices above `to` are scaled by `factor`. Coordinates along the axis do not
+/// change. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
 ///
 /// Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch with
 /// the surface. Only vertices move, so refine the mesh first if its faces are large.

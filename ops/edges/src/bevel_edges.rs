@@ -17,12 +17,12 @@ use op::{Refusal, readable};
 ///
 /// A selected edge and both of its ends are removed, and a new face replaces the edge. On both sides, the new face
 /// extends up to the distance `width` from the old edge. An edge that is not selected, but shares an end with a
-/// selected edge, is shortened at this end. If the two edges are not neighboring sides of a face, the new end is at the
-/// distance `width` from the old end. If they are, the new end is where the distance from the selected edge is `width`,
-/// but at most four times `width` from the old end. If two selected edges are neighboring sides of a face, a new vertex
-/// inside this face replaces the corner between them. If three or more new vertices replace an old vertex, another new
-/// face joins the new vertices. All edges are beveled together, so a cube that is beveled at all edges keeps all of its
-/// symmetries.
+/// selected edge, is shortened at this end. If the two edges are neighboring sides of a face, the new end is where the
+/// distance from the selected edge is `width`, but at most four times `width` from the old end. If the two edges are
+/// not neighboring sides of a face, the new end is at the distance `width` from the old end. If two selected edges are
+/// neighboring sides of a face, a new vertex inside this face replaces the corner between them. If three or more new
+/// vertices replace an old vertex, another new face joins the new vertices. All selected edges are beveled at once, so
+/// a cube that is beveled at all edges keeps all of its symmetries.
 ///
 /// The ends of the edges are removed, so the ids of the vertices after them change. New vertices get the highest ids.
 /// Faces keep their ids. New faces get the highest ids: first the faces that replace edges, in order of these edges,
@@ -33,10 +33,10 @@ use op::{Refusal, readable};
 /// faces is used, but the choice is the same in every run. New edges have zero values (no crease, no tags). Normals are
 /// dropped.
 ///
-/// An edge cannot be beveled if it is on the boundary (`Boundary`), or if one of its ends has only one other edge and
-/// this other edge is not selected (`FewEdges`). If the bevels at the two ends of any edge would overlap, the selected
-/// edges at these ends cannot be beveled (`OutsideEdge`). If the result would not be manifold, no edge is beveled
-/// (`NonManifold`).
+/// An edge cannot be beveled if it is on the boundary (reason: `Boundary`), or if one of its ends has only one other
+/// edge and this other edge is not selected (reason: `FewEdges`). If the bevels at the two ends of any edge would
+/// overlap, the selected edges at these ends cannot be beveled (reason: `OutsideEdge`). If the result would not be
+/// manifold, no edge is beveled (reason: `NonManifold`).
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct BevelEdges {

@@ -29,16 +29,16 @@ use goal::Goal;
 /// edges and faces keep their values. Each of the two faces gets one new corner. The new corner of a face gets its
 /// values from the corner of the other face at the same vertex. All other corners keep their values.
 ///
-/// If a face beside the edge has more than three corners, consider the polygon that the two faces form together. Each
-/// end of the edge moves to the next corner of this polygon, counter-clockwise. With `until: Delaunay` or
-/// `until: Valence`, only edges between two triangles are flipped.
+/// If a face beside the edge has more than three corners, the edge turns inside the polygon that the two faces form
+/// together: each end of the edge moves to the next corner of this polygon, counter-clockwise. With `until: Delaunay`
+/// or `until: Valence`, only edges between two triangles are flipped.
 ///
-/// With `until: Delaunay` or `until: Valence`, an edge is flipped only if the flip improves the mesh. The step makes
-/// several passes over the edges. It stops after a pass that flips no edge, or after `passes` passes. Flips with
-/// `until: Delaunay` or `until: Valence` neither fold the surface nor create zero-area triangles. If a flip that would
-/// improve the mesh is refused, the edge is left unchanged, and the step does not fail. The report counts the refused
-/// flips for each reason. The report also states the number of passes, and whether the step stopped because of the
-/// limit `passes`.
+/// With `until: Delaunay` or `until: Valence`, an edge is flipped only if the flip improves the angles of the triangles
+/// (`Delaunay`) or the numbers of edges at the vertices (`Valence`). The step makes several passes over the edges. It
+/// stops after a pass that flips no edge, or after `passes` passes. Flips with `until: Delaunay` or `until: Valence`
+/// neither fold the surface nor create zero-area triangles. If a flip that would improve the mesh is refused, the edge
+/// is left unchanged, and the step does not fail. The report counts the refused flips for each reason. The report also
+/// states the number of passes, and whether the step stopped because of the limit `passes`.
 ///
 /// On a surface that is not flat, a flip changes the shape. To keep creases and other edges, exclude them from `edges`.
 /// For example, `Flat(below: 30)` selects only edges at which the surface bends by less than 30 degrees, and
@@ -86,7 +86,8 @@ const fn hundred() -> Count<1, 1_000_000> {
 
 impl MeshOperation for FlipEdges {
     const NAME: &'static str = "FlipEdges";
-    const SUMMARY: &'static str = "Flip edges to the other diagonal of their two triangles";
+    const SUMMARY: &'static str =
+        "Replace the edge between two triangles with the other diagonal of their quadrilateral";
     const EXAMPLE: &'static str = "FlipEdges(edges: All)";
     const WORDS: &'static [&'static str] = &["swap", "delaunay", "rotate"];
     const DONE: &'static str = "flipped";
@@ -137,7 +138,7 @@ impl MeshOperation for FlipEdges {
             n => {
                 let edges = counted(n, "seam edge");
                 report.note(format!(
-                    "flipped {edges}; the new corner of each face took the attribute values of the other face's corner at the same vertex"
+                    "flipped {edges}; each of the two faces at a flipped edge got one new corner, with the attribute values of the other face's corner at the same vertex"
                 ))
             }
         })

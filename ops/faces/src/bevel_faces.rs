@@ -10,11 +10,11 @@ use op::prelude::*;
 
 /// Shrinks and raises faces, and surrounds each face with a ring of faces.
 ///
-/// Works like `InsetFaces`, and also moves the inner face along its normal. Each face is beveled separately, even if
-/// selected faces share edges. The shrunk inner face keeps the id of the selected face, and existing vertices do not
-/// move. For a face with n corners, the step adds n vertices, 2 n edges and n faces with four corners. New vertices and
-/// faces get the highest ids. They are numbered in order of the selected faces, and counter-clockwise around each face
-/// from its first corner. A zero-area face has no normal, so its inner face is not raised.
+/// The step works like `InsetFaces`, and also moves the inner face along its normal. Each face is beveled separately,
+/// even if selected faces share edges. The shrunk inner face keeps the id of the selected face, and existing vertices
+/// do not move. For a face with n corners, the step adds n vertices, 2 n edges and n faces with four corners. New
+/// vertices and faces get the highest ids. They are numbered in order of the selected faces, and counter-clockwise
+/// around each face from its first corner. A zero-area face has no normal, so its inner face is not raised.
 ///
 /// Attribute values at a new corner or vertex are interpolated with the parameter `fraction`: from the value at the
 /// outer corner (0) to the mean of the values at all corners of the face (1). The faces of the ring have the values of

@@ -147,7 +147,9 @@ impl MeshOperation for ExtrudeFaces {
             Report::default().note("nothing was selected")
         } else {
             let n = regions.len();
-            Report::changed(n_faces).note(format!("regions: {n}, side faces: {n_sides}"))
+            Report::changed(n_faces).note(format!(
+                "connected regions of selected faces: {n}, new side faces: {n_sides}"
+            ))
         })
     }
 }

@@ -21,7 +21,8 @@ use op::prelude::*;
 /// no tags).
 ///
 /// A cut is refused if the two vertices are the same or are already joined by an edge. A cut is also refused if no face
-/// has both vertices as corners, or if several faces do, because the cut would then be ambiguous.
+/// has both vertices as corners. If several faces have both vertices as corners, the cut is refused because it is
+/// ambiguous.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct SplitFaces {

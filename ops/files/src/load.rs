@@ -17,13 +17,14 @@ use op::{Loss, Operation, ReadingChange, ReadingElements};
 /// and `.mws` (a complete scene). Files in all of these formats except `.glb` and `.mws` can be compressed with gzip.
 /// The name of a compressed file ends with `.gz`, as in `a.obj.gz`. An OBJ file becomes one object of the scene.
 /// Objects and groups inside an OBJ file become tags (named sets) of faces: a line `o hat` gives the tag `o:hat`, and a
-/// line `g hat` gives the tag `hat`. Each mesh of a glTF file that a node references becomes an object. If exactly one
-/// node references the mesh, the object gets the name of the node, otherwise the name of the mesh. Unless `placements`
-/// is `Bake`, the scene keeps the nodes, cameras, lights, skins, morph targets and animations of the glTF file. In a
-/// COLLADA file (`.dae`), each node with a mesh becomes an object. The report lists and counts the content of the file
-/// that the scene cannot store. Image files of materials are read from the folder of the model or of its material
-/// library. If two successive corners of a face are at the same vertex, the second one is removed. A face is left out
-/// if it then has fewer than three corners or still contains a vertex twice.
+/// line `g hat` gives the tag `hat`. With `placements: Keep` (the default), each mesh of a glTF file becomes an object
+/// if at least one node references the mesh. If exactly one node references the mesh, the object gets the name of the
+/// node. If several nodes reference the mesh, the object gets the name of the mesh. With `placements: Keep`, the scene
+/// also keeps the nodes, cameras, lights, skins, morph targets and animations of the glTF file. In a COLLADA file
+/// (`.dae`), each node with a mesh becomes an object. If the scene cannot store some of the content of the file, the
+/// report lists and counts this content. Image files of materials are read from the folder of the model or of its
+/// material library. If two successive corners of a face are at the same vertex, the second of these corners is
+/// removed. If the face then has fewer than three corners or still contains a vertex twice, the face is left out.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Load {

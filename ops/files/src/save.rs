@@ -14,9 +14,9 @@ use crate::save_plan;
 /// patches, `.bzc` for a curve, and `.mws` for a complete scene without any loss. A `.csv` file is a table of the
 /// positions and attributes of vertices, faces or corners. An `.npz` file stores the arrays of a mesh for the Python
 /// library `NumPy`. `Load` cannot read `.csv` and `.npz` files. If `path` ends with `.gz`, as in `a.obj.gz`, the file
-/// is compressed with gzip. Files in the formats `.glb`, `.mws` and `.npz` cannot be compressed with gzip. The report
-/// lists the content of the objects that the format cannot store. The file is created only if all steps of the recipe
-/// succeed and all expectations of the recipe (checks of the result) are met.
+/// is compressed with gzip. Files in the formats `.glb`, `.mws` and `.npz` cannot be compressed with gzip. If the
+/// format cannot store some of the content of the objects, the report lists this content. The file is created only if
+/// all steps of the recipe succeed and all expectations of the recipe (checks of the result) are met.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Save {
@@ -26,8 +26,8 @@ pub struct Save {
     pub path: String,
     /// What to do with the images of materials. If omitted, images are embedded in `.glb` files. For `.gltf` and
     /// `.obj`, the image files of the model that was loaded are copied to the folder of the output file. If images are
-    /// embedded in the loaded model, a `.gltf` file also embeds them. For `.obj`, they are written to separate files,
-    /// because OBJ cannot embed images.
+    /// embedded in the loaded model, a `.gltf` file also embeds them. For `.obj`, embedded images are written to
+    /// separate files, because OBJ cannot embed images.
     #[serde(default)]
     pub images: Option<Images>,
     /// How to compress the geometry of `.glb` and `.gltf` files without loss. If omitted, the geometry is not
@@ -40,8 +40,8 @@ pub struct Save {
     #[serde(default)]
     pub quantize: Option<Quantization>,
     /// For a skinned mesh in a `.gltf` or `.glb` file, the largest number of sets of joints for each vertex. A set has
-    /// four joints and their weights, so with 2, for example, up to eight joints move a vertex. If omitted, the number
-    /// of sets in the file from which the mesh was read, or 1 if this number is not known.
+    /// four joints and their weights, so with 2, for example, up to eight joints move a vertex. If omitted, the limit
+    /// is the number of sets in the file from which the mesh was read, or 1 if this number is not known.
     #[serde(default)]
     pub weight_sets: Option<Count<1, 8>>,
     /// For `.csv`, the elements that have a row in the table: vertices, faces or corners. If omitted, vertices.

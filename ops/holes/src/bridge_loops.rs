@@ -16,16 +16,17 @@ use op::prelude::*;
 
 /// Joins two holes with a band of faces.
 ///
-/// A hole is a boundary loop. Each hole is given by one of its vertices. The band starts at a new edge that joins the
-/// two given vertices, and runs once around both holes. Let n and m be the numbers of edges of the two holes, where n
-/// is at least m. The band then consists of m quadrilaterals and n - m evenly spread triangles. The step adds n edges
-/// and no vertices. Both holes can be in one connected part of the mesh, which then gets a tunnel or a handle. They can
-/// also be in two separate parts of the mesh, which then become connected. To bridge holes of two objects, first use
-/// `Join` to make one mesh of the objects.
+/// A hole is a boundary loop: a closed loop of edges, each of which has a face on one side only. The parameter `first`
+/// gives a vertex of one hole, and the parameter `second` gives a vertex of the other hole. The band starts at a new
+/// edge that joins these two vertices, and runs once around both holes. Let n and m be the numbers of edges of the two
+/// holes, where n is at least m. The band then consists of m quadrilaterals and n - m evenly spread triangles. The step
+/// adds n edges and no vertices. Both holes can be in one connected part of the mesh, which then gets a tunnel or a
+/// handle. They can also be in two separate parts of the mesh, which then become connected. To bridge holes of two
+/// objects, first use `Join` to make one mesh of the objects.
 ///
 /// Each new face copies the attribute values of the adjacent face at the hole with more edges. If both holes have the
-/// same number of edges, the adjacent face at the hole of `first` is used. A new corner has the values of an existing
-/// corner at the same vertex. Normals are dropped.
+/// same number of edges, the values come from the adjacent face at the hole of the vertex `first`. A new corner has the
+/// values of an existing corner at the same vertex. Normals are dropped.
 ///
 /// The step is refused if one of the given vertices is not on the boundary (reason: `NotBoundary`), or if both are on
 /// the same hole (reason: `WrongPlace`). The step is also refused if a new edge would join two vertices that an edge

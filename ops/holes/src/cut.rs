@@ -14,9 +14,9 @@ use op::prelude::*;
 /// Opens the mesh along edges.
 ///
 /// The edges can form paths, loops and trees. A closed loop can separate a region of faces from the rest of the mesh.
-/// Each cut edge becomes two boundary edges, one for each side of the cut. If the cuts divide the faces around a vertex
-/// into several groups, each group gets a separate copy of the vertex. The group that contains the face with the lowest
-/// id keeps the old vertex, and the other copies get the highest ids. Faces keep their ids, and no vertex moves. Copies
+/// Each cut edge becomes two boundary edges, one for each side of the cut. Cuts can divide the faces around a vertex
+/// into several groups. The group that contains the face with the lowest id then keeps the old vertex, and each other
+/// group gets a copy of the vertex. The copies get the highest ids. Faces keep their ids, and no vertex moves. Copies
 /// of vertices and edges have the values of the originals. Corners keep their values. `Stitch` is the inverse
 /// operation: it joins the two sides of a cut again.
 ///

@@ -16,7 +16,7 @@ use op::prelude::*;
 /// A hole is a boundary loop: a closed loop of edges, each of which has a face on one side only. The outer rim of an
 /// open sheet is also a boundary loop; use `around` or `max_edges` to exclude it. No vertices are added, and existing
 /// elements keep their ids. With `with: Face`, a hole with n edges gets one face with n corners. With
-/// `with: Triangles`, it gets n - 2 triangles and n - 3 new edges.
+/// `with: Triangles`, the hole gets n - 2 triangles and n - 3 new edges.
 ///
 /// For holes with up to 500 edges, the triangles have the smallest possible total area. A hole with more than 500 edges
 /// is filled one triangle at a time. Each triangle cuts off the corner of the remaining hole whose two neighboring

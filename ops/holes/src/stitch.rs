@@ -25,10 +25,10 @@ use pairs::Pairs;
 /// ends of edges that it joins.
 ///
 /// When two vertices become one, the vertex with the lower id is kept, with its position and values. When two edges
-/// become one, the edge with the lower id is kept, with its values. The other vertex or edge is removed, so the ids of
-/// all later vertices or edges change. Faces and corners do not change, so an edge whose sides have different UVs
-/// becomes a seam. If a hole with only two edges remains beside a joined edge, the two edges of this hole are also
-/// joined.
+/// become one, the edge with the lower id is kept, with its values. The other vertex or edge is removed, so all
+/// vertices or edges with higher ids get new ids. Faces and corners do not change, so an edge whose sides have
+/// different UVs becomes a seam. If a hole with only two edges remains beside a joined edge, the two edges of this hole
+/// are also joined.
 ///
 /// A pair of edges cannot be joined if both edges belong to the same face (reason: `SameFace`), or if two other edges
 /// would then join the same two vertices (reason: `DuplicateEdge`). A pair also cannot be joined if both ends of
@@ -40,7 +40,7 @@ pub struct Stitch {
     /// The largest distance between corresponding ends of two edges, in scene units. With 0, only ends at equal
     /// positions are joined.
     pub distance: Length,
-    /// What to do when a pair cannot be joined, or when an edge coincides with several edges.
+    /// What to do when a pair of coinciding edges cannot be joined, or when an edge coincides with several edges.
     #[serde(default)]
     pub on_refusal: OnRefusal,
 }
@@ -63,8 +63,9 @@ impl MeshOperation for Stitch {
         let mut report = Report::default();
         for h in ambiguous {
             let [v, w] = [mesh.origin(h), mesh.target(h)].map(mesh::VertexId::index);
-            let message =
-                format!("several boundary edges coincide with the edge Between({v}, {w})");
+            let message = format!(
+                "the edge Between({v}, {w}) coincides with several other boundary edges; a smaller `distance` can help"
+            );
             let refused = OpError::refused(Refusal::NonManifold, message).about([h.edge()]);
             self.on_refusal.refuse(refused, &mut report)?;
         }

@@ -28,13 +28,14 @@ use crate::join::skin::{KeptSkin, LostSkin};
 /// copy of the mesh for each of these nodes. The points of each copy are transformed by the transform of the node. The
 /// result keeps a skin only if all skinned parts have the same skin and each of them has exactly one node. In this
 /// case, the result also keeps the node of the first skinned part, and parts without a skin follow the first joint of
-/// the skin. Otherwise, skinned parts are joined in their current pose, and no node places the result. The names and
-/// default weights of morph targets are kept if all parts with morph targets have the same names and default weights.
+/// the skin. If no skin is kept, skinned parts are joined in their current pose, and the result has no node, because
+/// its points are already at their positions in the scene. The names and default weights of morph targets are kept if
+/// they are the same in all parts that have morph targets.
 ///
-/// If a part lacks an attribute that another part has, the elements of this part get the value zero. Missing material
-/// indices become -1 (no material). If a part has no normals, the normals of all parts are dropped and reported as
-/// lost. If an attribute of a part has a different type than in earlier parts, the attribute of this part is dropped
-/// and reported as lost. Equal materials become one material.
+/// If a part (one of the joined meshes) lacks an attribute that another part has, the attribute gets the value zero in
+/// the part that lacks it. Missing material indices become -1 (no material). If a part has no normals, the normals of
+/// all parts are dropped and reported as lost. If an attribute of a part has a different type than in earlier parts,
+/// the attribute of this part is dropped and reported as lost. Equal materials become one material.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Join {

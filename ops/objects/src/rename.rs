@@ -9,9 +9,9 @@ use op::{Operation, named_object};
 
 /// Renames an object.
 ///
-/// The order of the objects does not change. Objects from a glTF file can have separate names for the object, its nodes
-/// and its mesh. If the name of a node or of the mesh is the old name of the object, this name also changes to the new
-/// name.
+/// The order of the objects does not change. If an object comes from a glTF file, the object, its nodes and its mesh
+/// each have a name, and these names can differ. A node or mesh with the old name of the object also gets the new name.
+/// If no node has the old name, the mesh always gets the new name.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Rename {

@@ -20,8 +20,8 @@ use scene::{Geometry, Node, Object, Placement, transformed};
 /// origin of the object to one of the points. To make one mesh of all copies, use `Join` in a later step. If no node
 /// placed the object before the step, the object is no longer visible at its original position, only at the points.
 ///
-/// Without `object`, the result is a mesh that consists of the points and has no faces. The vertex normals of this mesh
-/// are the normals of the surface at the points.
+/// Without `object`, the result is a mesh whose vertices are the chosen points. The mesh has no faces. Its vertex
+/// normals are the normals of the surface at the points.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scatter {

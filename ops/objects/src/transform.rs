@@ -31,16 +31,17 @@ use crate::transform::map::Map;
 /// polylines. If nodes of the scene (as in glTF) place an object and `space` is `Scene`, the step changes the
 /// transforms of these nodes instead of the points. The descendants of these nodes move with them. A skinned mesh
 /// follows its joints, so with `space: Scene`, the step moves the joints. If the transform of a node is animated, the
-/// animation would overwrite the change. The step therefore gives this node a new parent and moves the parent. If
-/// `space` is `Scene`, `on:` is omitted and `about` is not `Center`, root nodes without an object also move, such as
-/// the nodes of cameras and lights. The step fails if a curve would leave the plane z = 0.
+/// animation would overwrite the change. The step therefore gives this node a new parent and moves the parent. Root
+/// nodes without an object, such as the nodes of cameras and lights, also move if three conditions hold: `space` is
+/// `Scene`, the step has no `on`, and `about` is not `Center`. The step fails if a curve would leave the plane z = 0.
 ///
 /// Ids do not change. If the points of a mesh change, the normals, tangents and deltas of morph targets of this mesh
 /// are also transformed. Other attributes do not change. If the points are mirrored (one or three negative factors in
 /// `scale`), the faces are also reversed, so that they stay counter-clockwise seen from outside. In a reversed face,
 /// the first corner stays first, and the other corners follow in reverse order. In mirrored patches, u and v are
 /// exchanged, so that the same side of the surface remains the outside. Attributes with the edit rule `Drop`, such as
-/// tangents of corners, are removed by every step that changes the connectivity. Mirroring the points removes them too.
+/// tangents of corners, are removed by every step that changes the connectivity. Mirroring the points reverses the
+/// faces, so it also removes the attributes with this rule.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Transform {

@@ -51,8 +51,8 @@ pub struct CurveFigure {
     /// panels.
     #[serde(default = "width")]
     pub width: Count<80, 8192>,
-    /// The number of panels in each row. If omitted, each row has as many panels as `t` has values (with `by_level`, as
-    /// the curve has levels), but at most 4.
+    /// The number of panels in each row. If omitted, each row has one panel for each value of `t` (with `by_level`, for
+    /// each level of the curve), but at most 4 panels.
     #[serde(default)]
     pub columns: Option<Count<1, 256>>,
     /// The width and height of one SVG pixel, in pixels of a `.png` file. Has no effect on `.svg` files.

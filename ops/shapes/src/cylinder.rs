@@ -15,8 +15,9 @@ use op::prelude::*;
 /// Creates a cylinder around the z axis.
 ///
 /// The vertices of the rim at -z come first, and then the vertices of the rim at +z. The first vertex of each rim is in
-/// the direction +x from the axis, and the others follow counter-clockwise, seen from +z. The first `around` faces are
-/// rectangles. With `caps: true`, two polygons with `around` corners follow: first the cap at -z, then the cap at +z.
+/// the direction +x from the axis, and the others follow counter-clockwise, seen from +z. The rectangles around the
+/// axis are the faces with the lowest ids. With `caps: true`, the two caps follow: first the cap at -z, then the cap
+/// at +z. Each cap is one polygon.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cylinder {

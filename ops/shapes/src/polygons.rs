@@ -15,12 +15,13 @@ use op::prelude::*;
 /// Creates a mesh from points and faces.
 ///
 /// The id of each vertex is the index of its point in `points`, and the id of each face is its index in `faces`. If
-/// connected faces have opposite orientations, the faces with the less frequent orientation are reversed. No face is
-/// reversed if the orientations of the connected faces cannot be made to agree. If the faces do not form a manifold,
-/// edges and vertices are split. A split edge keeps two faces with consistent orientations. Each other face at this
-/// edge gets a copy of the edge. A split vertex keeps one fan of faces (faces that are connected by edges at the
-/// vertex). Each other fan gets a copy of the vertex. The copies of vertices get the highest ids. The report and the
-/// command `check` list the reversed and split elements.
+/// connected faces have opposite orientations, the faces with the less frequent orientation are reversed. If the
+/// orientations of the connected faces cannot be made to agree, as in a Moebius strip, none of these faces is reversed.
+/// Two kinds of edges are split: edges with more than two faces, and edges whose two faces still have opposite
+/// orientations. At a split edge, faces with consistent orientations stay connected in pairs. Each pair, and each face
+/// that is left over, gets its own copy of the edge. A vertex is split if its faces form several fans (groups of faces
+/// that are connected by edges at the vertex). One fan keeps the vertex, and each other fan gets a copy of the vertex.
+/// The copies of vertices get the highest ids. The report and the command `check` list the reversed and split elements.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Polygons {

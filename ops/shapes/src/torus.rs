@@ -15,9 +15,9 @@ use op::prelude::*;
 
 /// Creates a torus of quadrilaterals around the z axis.
 ///
-/// The vertices form `around` rings, one for each cross section of the tube. Each ring has `across` vertices. With i
-/// and j counted from 0, vertex j of ring i has the id `i * across + j`. Ring 0 is in the direction +x from the center
-/// of the torus. Vertex 0 of each ring is the vertex farthest from the axis.
+/// The vertices form rings, one for each cross section of the tube. The number of rings is `around`, and each ring has
+/// `across` vertices. With i and j counted from 0, vertex j of ring i has the id `i * across + j`. Ring 0 is in the
+/// direction +x from the center of the torus. Vertex 0 of each ring is the vertex farthest from the axis.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Torus {

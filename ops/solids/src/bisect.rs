@@ -19,7 +19,8 @@ use op::prelude::*;
 /// bounding box, or at most 1e-14 times the largest absolute coordinate. Every edge has two half-edges. When an edge is
 /// cut, the part at the start of the half-edge with the lower id keeps the id of the edge. When a face is cut, the part
 /// with the first corner keeps the id of the face. New elements get the highest ids. Where an edge crosses the plane,
-/// attributes are interpolated. At a seam, the two sides are interpolated separately.
+/// attributes are interpolated. At a seam (an edge whose corner values, such as UVs, differ between its two sides), the
+/// corner values of each side are interpolated separately.
 ///
 /// With `keep: Front`, the part of the mesh behind the plane is removed. With `keep: Back`, the part in front of the
 /// plane is removed. A face that lies in the plane belongs to the back if its normal points to the front, because the

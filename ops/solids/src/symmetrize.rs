@@ -18,7 +18,7 @@ use op::prelude::*;
 /// that the result is symmetric. Faces that lie in the plane are removed, because they would become walls inside the
 /// result. The halves are joined at the vertices on the plane that are on the boundary of the kept half. Where the
 /// surface only touches the plane, without a boundary there, the halves are not joined. The report counts the faces
-/// that are removed whole. Faces that the plane cuts are not counted.
+/// that are removed completely, but not the faces that the plane cuts.
 ///
 /// The elements of the kept half come first, in their old order. The elements of the mirror image follow. Attributes
 /// are copied, so both halves have the same texture coordinates, tags and joint weights. Normals and tangents are

@@ -37,8 +37,8 @@ use crate::step::{Step, Until};
 ///
 /// Vertex attributes are interpolated with the same weights as the positions. Corner values are interpolated linearly,
 /// separately in each old triangle. When an edge or a triangle is split, its parts copy its attribute values, such as
-/// tags and materials. Normals are dropped, because they would be wrong. Sharpness has no effect and is copied
-/// unchanged.
+/// tags and materials. Normals are dropped, because they would be wrong. The sharpness that `Crease` sets has no effect
+/// and is copied unchanged.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Butterfly {

@@ -42,9 +42,9 @@ use crate::step::{Step, Until};
 /// e. Edge e becomes edges 2e and 2e + 1, and face f becomes faces 4f to 4f + 3. All faces must be triangles.
 ///
 /// Vertex attributes are smoothed with the same weights as the positions. Texture coordinates and other corner values
-/// are smoothed according to `face_varying`, and seams are kept. When an edge or a triangle is split, its parts copy
-/// its attribute values, such as tags and materials. Normals are dropped, because they would be wrong. An edge or a
-/// vertex to which `Crease` gave the sharpness s stays sharp for s levels.
+/// are smoothed as the parameter `face_varying` specifies, and seams are kept. When an edge or a triangle is split, its
+/// parts copy its attribute values, such as tags and materials. Normals are dropped, because they would be wrong. An
+/// edge or a vertex to which `Crease` gave the sharpness s stays sharp for s levels.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct LoopSubdivide {

@@ -18,9 +18,10 @@ use crate::simplify::{
 /// Makes levels of detail: simplified copies of an object.
 ///
 /// The copies are named after the object, for example `rock_lod1`, `rock_lod2` and so on. Each copy is made as with
-/// `Simplify`, which keeps attributes, materials and lines. The first copy is made from the object, and each further
-/// copy from the previous copy. If the scene has nodes that reference the object, each of these nodes gets one sibling
-/// node for each copy. The sibling node references the copy and has the same transform.
+/// `Simplify`, which keeps attributes, materials and lines such as boundaries, seams and creases. The first copy is
+/// made from the object, and each further copy from the previous copy. If the scene has nodes that reference the
+/// object, each of these nodes gets one sibling node for each copy. The sibling node references the copy and has the
+/// same transform.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Lods {

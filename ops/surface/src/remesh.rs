@@ -30,10 +30,10 @@ use crate::simplify::triangles_problem;
 ///
 /// - Topology: the numbers of holes, handles and separate parts do not change.
 /// - Lines: lines consist of boundary edges, seams of texture coordinates or normals, edges between faces with
-///   different tags or materials, tagged edges, creases, and the edges of `features`. Vertices on a line can only slide
-///   along this line. The ends of lines, the vertices where lines meet, and corners where a line turns by more than 40
-///   degrees keep their exact positions. Sharp edges that are not on a line are rounded. To keep sharp edges, select
-///   them with `features`.
+///   different tags or materials, tagged edges, creases, and the edges that `features` selects. Vertices on a line can
+///   only slide along this line. The ends of lines, the vertices where lines meet, and corners where a line turns by
+///   more than 40 degrees keep their exact positions. Sharp edges that are not on a line are rounded. To keep sharp
+///   edges, select them with `features`.
 /// - Attributes: each vertex and corner gets the values of the original surface at its position. Values are never
 ///   interpolated across a line.
 /// - Vertex tags: a new vertex gets a tag if all old vertices around its position have the tag. Usually, these old
@@ -57,7 +57,7 @@ pub struct Remesh {
     /// The target length of edges, in scene units.
     #[serde(default)]
     pub length: Option<PositiveLength>,
-    /// Target lengths that follow the curvature of the surface, instead of one target length for all edges.
+    /// Target lengths that depend on the curvature of the surface, instead of one target length for all edges.
     #[serde(default)]
     pub curvature: Option<RemeshCurvature>,
     /// Edges to keep as lines, in addition to the lines that are always kept. For example, `Sharp(above: 30)`. If
@@ -81,8 +81,8 @@ pub struct Remesh {
     pub on_refusal: OnRefusal,
 }
 
-/// Target lengths of edges that follow the curvature of the surface: short where the surface is curved, and long where
-/// it is flat.
+/// Target edge lengths that depend on the curvature of the surface: edges are short where the surface is curved, and
+/// long where it is flat.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct RemeshCurvature {

@@ -19,16 +19,16 @@ use op::prelude::*;
 /// Edges are collapsed, starting with the edges whose collapse changes the surface least. A collapse merges the two
 /// ends of an edge into one vertex. The change is measured by the squared distance of this vertex to the planes of the
 /// original triangles around the merged vertices (Garland, Heckbert, 1997). The step ends when the number of faces
-/// given by `faces` or `ratio` is reached. It also ends when every remaining collapse would change one of the
-/// properties below or could exceed `error`. At least one of `faces`, `ratio` and `error` must be given, but not both
-/// `faces` and `ratio`. All faces must be triangles.
+/// given by `faces` or `ratio` is reached. It also ends when every remaining collapse would change a property that must
+/// be kept (see the list below) or could exceed `error`. At least one of `faces`, `ratio` and `error` must be given,
+/// but not both `faces` and `ratio`. All faces must be triangles.
 ///
 /// The following properties are kept:
 ///
 /// - Topology: the numbers of holes, handles and separate parts do not change.
 /// - Lines: lines consist of boundary edges, seams of texture coordinates or normals, edges between faces with
-///   different tags or materials, tagged edges, creases, and the edges of `features`. A line can lose vertices, but its
-///   ends, and the vertices where lines meet, keep their exact positions.
+///   different tags or materials, tagged edges, creases, and the edges that `features` selects. A line can lose
+///   vertices, but its ends, and the vertices where lines meet, keep their exact positions.
 /// - Attributes: changes of texture coordinates, normals, colors and other numbers count as changes of the surface
 ///   (Hoppe, 1999), and new vertices get the values that fit best. Values are never mixed across a line, and no
 ///   triangle is turned over in the texture. Stored normals are kept, so that a simplified mesh is shaded like the
@@ -224,7 +224,7 @@ impl MeshOperation for Simplify {
         if before as u64 <= goal {
             let faces = counted(before, "face");
             report = report.note(format!(
-                "a mesh of {faces} does not change, because it does not have more faces than the requested number, {goal}"
+                "a mesh of {faces} does not change, because it already has at most the requested number of faces, {goal}"
             ));
         }
         if after < before {
@@ -335,7 +335,7 @@ mod tests {
         assert_eq!(
             report.notes,
             [
-                "a mesh of 20 faces does not change, because it does not have more faces than the requested number, 99"
+                "a mesh of 20 faces does not change, because it already has at most the requested number of faces, 99"
             ]
         );
         let triangle = vec![mesh::DVec3::ZERO, mesh::DVec3::X, mesh::DVec3::Y];

@@ -98,7 +98,7 @@ pub enum SmoothBy {
     },
 }
 
-/// The weights of the neighbors of a vertex.
+/// The weights of the neighbors of a vertex in the mean towards which the vertex moves.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum SmoothWeights {

@@ -23,16 +23,16 @@ use origins::{Origin, Source};
 /// The step copies vertex, corner and face attributes from the object `from` to elements of the same kind in the
 /// changed mesh. For each element, the step finds the nearest point on the surface of `from`, and the face that
 /// contains this point. Numbers and vectors of vertices and corners are interpolated inside this face. Whole numbers,
-/// tags, and attributes that edits do not interpolate are copied from the corner of this face that is nearest to the
-/// point. Values of faces are copied from this face. If the changed mesh already has the attribute with the same type
-/// of values, the attribute is overwritten. If the type of values differs, the step fails. If the step does not name
-/// its objects with `on`, it changes all meshes except `from`.
+/// tags, and other attributes that are never interpolated are copied from the corner of this face that is nearest to
+/// the point. Values of faces are copied from this face. If the changed mesh already has the attribute with the same
+/// type of values, the attribute is overwritten. If the type of values differs, the step fails. If the step does not
+/// name its objects with `on`, it changes all meshes except `from`.
 ///
-/// All corners of a face take their values from the same side of a seam of the source object. No triangle is therefore
-/// stretched across the seam in the texture. Usually the side that is nearest to the center of the face is used. Seams
-/// divide the source object into charts. Where parts of the source object intersect, the chart that is nearest to the
-/// center can be far from the corners of the face. If the chart that is nearest to a corner is much nearer to the whole
-/// face, this chart is used instead.
+/// All corners of a face of the changed mesh take their values from the same side of a seam of the source object. No
+/// triangle is therefore stretched across the seam in the texture. Usually the side that is nearest to the center of
+/// the face is used. Seams divide the source object into charts. Where parts of the source object intersect, the chart
+/// that is nearest to the center can be far from the corners of the face. If the chart that is nearest to a corner is
+/// much nearer to the whole face, this chart is used instead.
 ///
 /// Elements that are farther from the source object than `within` keep their values, or get zeros if the attribute is
 /// new. All corners of a face are treated alike. If one of the corners or the center of the face is too far away, all

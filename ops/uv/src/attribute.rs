@@ -64,9 +64,10 @@ pub(crate) fn set(mesh: &mut Mesh, uv: &str, uvs: Vec<DVec2>, report: &mut Repor
         .remove_column(Domain::Corner, CORNER_TANGENT.name)
         .is_some()
     {
-        report
-            .notes
-            .push("removed the tangents, which depend on the texture coordinates".to_owned());
+        report.notes.push(
+            "removed the tangents, because they depend on the replaced texture coordinates"
+                .to_owned(),
+        );
     }
     let columns = mesh.attributes().iter();
     let outdated = columns.filter(|(_, column)| changes(&column.name, uv));
@@ -76,7 +77,7 @@ pub(crate) fn set(mesh: &mut Mesh, uv: &str, uvs: Vec<DVec2>, report: &mut Repor
     for (domain, name) in outdated {
         mesh.remove_column(domain, &name);
         report.notes.push(format!(
-            "removed the attribute `{name}`, which stores how a morph target changes `{uv}`"
+            "removed the attribute `{name}`, because it stores how a morph target changes the replaced values of `{uv}`"
         ));
     }
 }

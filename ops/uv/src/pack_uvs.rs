@@ -47,7 +47,7 @@ pub struct PackUvs {
 impl MeshOperation for PackUvs {
     const NAME: &'static str = "PackUvs";
     const VERSION: u32 = 3;
-    const SUMMARY: &'static str = "Move and scale charts of texture coordinates into one page";
+    const SUMMARY: &'static str = "Arrange charts of texture coordinates without overlaps";
     const EXAMPLE: &'static str = "PackUvs(page: 2048, padding: 4)";
     const WORDS: &'static [&'static str] = &["uv", "texture", "atlas", "lightmap", "island"];
 

@@ -22,18 +22,18 @@ use crate::attribute::{coverage, error, padding, padding_problem, page, page_of,
 /// normals of its faces differ from their mean by at most `max_angle`. Each chart is flattened by a least squares
 /// conformal map (Levy and others, 2002), which the hybrid method of Liu and others (2008) then improves. A chart is
 /// cut again if its flattened shape overlaps itself or exceeds `max_stretch`. A chart is also cut again if its angles
-/// are distorted too much. A small circle on the surface becomes an ellipse in the texture. On 95 % of the area of a
-/// chart, the ratio of the axes of this ellipse is at most 1.15. All charts of a mesh have the same scale, and no chart
-/// is mirrored. No polygon is divided between charts. Each mesh gets its own page, on which the charts are arranged as
-/// by `PackUvs`.
+/// are distorted too much. This distortion turns a small circle on the surface into an ellipse in the texture. On at
+/// least 95 % of the area of a chart, the longer axis of this ellipse is at most 1.15 times the shorter axis. All
+/// charts of a mesh have the same scale, and no chart is mirrored. No polygon is divided between charts. Each mesh gets
+/// its own page, on which the charts are arranged as by `PackUvs`.
 ///
-/// The coordinates are written to the corner attribute with the name `uv`, which is replaced if it exists. Edges at
-/// which charts meet become seams of the texture coordinates. Positions, faces and other attributes do not change, but
-/// tangents are removed because they depend on the texture coordinates. Zero-area faces also have zero area in the
-/// texture. The report counts the faces with zero area in the texture. If a polygon is bent so far that it overlaps
-/// itself in the texture, the step fails and gives the reason `WrongPlace`. To avoid this failure, triangulate such
-/// polygons before this step. With `on_refusal: Skip`, the step does not fail, and the triangles of such a polygon
-/// overlap in the texture.
+/// The coordinates are written to the corner attribute that the parameter `uv` names. If this attribute already exists,
+/// it is replaced. Edges at which charts meet become seams of the texture coordinates. Positions, faces and other
+/// attributes do not change, but tangents are removed because they depend on the texture coordinates. Zero-area faces
+/// also have zero area in the texture. The report counts the faces with zero area in the texture. If a polygon is bent
+/// so far that it overlaps itself in the texture, the step fails and gives the reason `WrongPlace`. To avoid this
+/// failure, triangulate such polygons before this step. With `on_refusal: Skip`, the step does not fail, and the
+/// triangles of such a polygon overlap in the texture.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Unwrap {

@@ -12,18 +12,18 @@ use op::prelude::*;
 
 /// Removes vertices and merges the faces around them.
 ///
-/// Vertices are removed in order of their ids. Each removal is checked against the mesh as edited so far. If a vertex
-/// has three or more edges, all faces around it become one face. The merged face replaces the face with the lowest id
-/// and has its values. If the vertex is on the boundary, its two boundary edges also become one edge. If the vertex has
-/// only two edges, these edges become one edge, and each face beside this edge loses a corner. When two edges become
-/// one, the edge with the lower id is kept, with its values. The remaining elements keep their order and their values
-/// but get new ids. Normals are dropped.
+/// Vertices are removed in order of their ids. Each removal is checked against the mesh that the earlier removals have
+/// produced. If a vertex has three or more edges, all faces around it become one face. The merged face replaces the
+/// face with the lowest id and has its values. If the vertex is on the boundary, its two boundary edges also become one
+/// edge. If the vertex has only two edges, these edges become one edge, and each face beside this edge loses a corner.
+/// When two edges become one, the edge with the lower id is kept, with its values. The remaining elements keep their
+/// order and their values but get new ids. Normals are dropped.
 ///
 /// A vertex cannot be removed if it is isolated or has a single edge. It also cannot be removed if a neighboring vertex
 /// would be left with a single edge, which ends inside a face. A removal is also refused if a face would contain a
-/// vertex twice or have fewer than three corners. The same applies if a new edge would join two vertices that an edge
-/// already joins. At a seam, texture coordinates or other corner values differ between the two sides of an edge. A
-/// vertex at a seam is removed only if `seams` is `Drop`.
+/// vertex twice or have fewer than three corners, or if a new edge would join two vertices that an edge already joins.
+/// A vertex on a seam (an edge whose corner values, such as UVs, differ between its two sides) is removed only if
+/// `seams` is `Drop`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct DissolveVertices {

@@ -11,8 +11,9 @@ use op::prelude::*;
 /// vector perpendicular to the normal, and then the sign of the bitangent (1 or -1). `.glb` and `.gltf` files store the
 /// attribute as `TANGENT`. For the computation, polygons are triangulated in the same way as for `.glb` and `.gltf`
 /// files. Later steps that change the shape or the faces remove the tangents, except a `Transform` that does not mirror
-/// the points. If the texture coordinates define no direction at a corner, the corner gets an arbitrary tangent. An
-/// example is a face whose corners all have the same texture coordinates. The report counts these corners.
+/// the points. If the texture coordinates define no direction at a corner, the corner gets an arbitrary tangent. This
+/// happens, for example, if all corners of a face have the same texture coordinates. The report counts the corners with
+/// an arbitrary tangent.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tangents {
@@ -27,7 +28,7 @@ fn uv() -> String {
 
 impl MeshOperation for Tangents {
     const NAME: &'static str = "Tangents";
-    const SUMMARY: &'static str = "Compute tangents of corners for normal maps";
+    const SUMMARY: &'static str = "Compute tangents at the corners of faces for normal maps";
     const EXAMPLE: &'static str = "Tangents()";
     const WORDS: &'static [&'static str] = &["normal map", "mikktspace", "bitangent"];
 

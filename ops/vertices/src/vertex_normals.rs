@@ -28,8 +28,9 @@ pub use gather::normals;
 /// Computes a unit normal for every vertex, from the faces around it.
 ///
 /// The normals are written to the vertex attribute `normal`, which is replaced if it exists. Corner normals are
-/// removed, because they would contradict the vertex normals. A vertex gets the zero vector if it has no faces or only
-/// zero-area faces, or if the normals of its faces cancel each other out. The report counts these vertices.
+/// removed, because they would contradict the vertex normals. The normal of a vertex is the zero vector if the vertex
+/// has no faces or only zero-area faces, or if the normals of its faces cancel each other out. The report counts these
+/// vertices.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct VertexNormals {
@@ -38,7 +39,7 @@ pub struct VertexNormals {
     pub weight: Weight,
 }
 
-/// The weight of a face at one of its vertices.
+/// How much the normal of a face counts in the normal of one of its vertices.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Weight {

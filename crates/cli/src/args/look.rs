@@ -29,8 +29,8 @@ pub(crate) struct SelectArgs {
     /// For a recipe, use the scene after the step or call with this id
     #[arg(long, value_name = "ID", conflicts_with = "before")]
     pub(crate) after: Option<String>,
-    /// For a recipe, use the scene before the step or call with this id; random selections choose the same elements as
-    /// in that step
+    /// For a recipe, use the scene before the step or call with this id; a random selection chooses the same elements
+    /// as it would in that step
     #[arg(long, value_name = "ID")]
     pub(crate) before: Option<String>,
     #[command(flatten)]

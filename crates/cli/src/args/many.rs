@@ -43,7 +43,7 @@ impl ManyArgs {
 Folders are searched recursively, except hidden folders and folders named `assets`. Two kinds of recipes
 are read and listed, but not run and not counted as passed: recipes without expectations, and recipes that
 other tested recipes call. If the text of such a recipe has an error, the recipe counts as failed. A
-recipe is run even if other recipes call it, if its own path is given on the command line."
+recipe whose own path is given on the command line is run even if other recipes call it."
 )]
 pub(crate) struct TestArgs {
     /// Recipes, or folders of recipes
@@ -79,10 +79,11 @@ pub(crate) struct TestArgs {
   meshwright batch clean.ron --inputs 'models/*' --out clean --shard 1/3 --report one.json
   meshwright batch --merge one.json two.json three.json --report all.csv
 
-If a batch was interrupted or has crashed, run it again to resume it. Finished files that have not changed
-are not processed again, even if the batch is now divided into a different number of parts. The state of
-the batch is kept in DIR/batch.jsonl, where DIR is the folder given by --out. With --shard I/N, the state is
-kept in DIR/batch-I-of-N.jsonl.")]
+If a batch was interrupted or has crashed, run the command again to resume the batch. A finished input file
+is not processed again if its outputs exist, and if the recipe, the parameters, the program and the files
+that its run reads are unchanged. The number of parts can differ from that of the earlier command. The state
+of the batch is kept in DIR/batch.jsonl, where DIR is the folder given by --out. With --shard I/N, the state
+is kept in DIR/batch-I-of-N.jsonl.")]
 pub(crate) struct BatchArgs {
     /// The recipe
     #[arg(required_unless_present = "merge")]
@@ -95,7 +96,8 @@ pub(crate) struct BatchArgs {
     /// are in a folder named after the number of the set
     #[arg(long, value_name = "FILE.json")]
     pub(crate) sets: Option<PathBuf>,
-    /// The parameter that receives the input file; required if the recipe has several parameters of type Path
+    /// The parameter that receives the path of the input file; required if the recipe has several parameters of type
+    /// Path
     #[arg(long, value_name = "NAME", requires = "inputs")]
     pub(crate) param: Option<String>,
     #[command(flatten)]
@@ -124,10 +126,10 @@ pub(crate) struct BatchArgs {
         value_parser = clap::value_parser!(u32).range(1..=1_000_000),
     )]
     pub(crate) estimate: Option<u32>,
-    /// Retry files that failed in an earlier run
+    /// Also process files again that failed in an earlier run and have not changed since
     #[arg(long)]
     pub(crate) retry_failed: bool,
-    /// Merge the reports (.json or .jsonl) of several parts, and run nothing
+    /// Merge the reports (.json or .jsonl) of several parts into the file that --report names, and run nothing
     #[arg(
         long,
         value_name = "REPORT",
@@ -183,10 +185,10 @@ impl fmt::Display for Shard {
       keep: [Faces, Area, MinAngle, DistanceTo(other: File(\"cow.obj\")), Seconds],
   )
 
-The recipe runs once for each combination of the values in `over`. The value of the last parameter changes
-fastest. All lists in `zip` must have the same length. Their first values are used together, then their
-second values, and so on. Each combination is a cell of the sweep. In the table, the row of a failed cell
-contains its error.
+The recipe runs once for each combination of the values in `over`. From run to run, the value of the last
+parameter changes fastest. The field `zip` can have further lists of values, which must all have the same
+length. The first values of these lists are used together, then their second values, and so on. Each
+combination is a cell of the sweep. In the table, the row of a failed cell contains its error.
 
   meshwright sweep levels.sweep.ron --sheet levels.png --wireframe --from Front
 
@@ -202,8 +204,8 @@ pub(crate) struct SweepArgs {
     /// Also write the table to a file
     #[arg(long, value_name = "FILE.csv|.json")]
     pub(crate) out: Option<PathBuf>,
-    /// Keep the outputs of each cell (a run with one combination of values). They are in a folder below DIR that is
-    /// named after the number of the cell
+    /// Keep the outputs of each cell (a run with one combination of values). The outputs of a cell are in a folder
+    /// below DIR that is named after the number of the cell
     #[arg(long, value_name = "DIR")]
     pub(crate) keep_outputs: Option<PathBuf>,
     #[command(flatten)]

@@ -70,7 +70,7 @@ pub(crate) enum Command {
     New(NewArgs),
     /// List the operations or the selections, or describe one operation
     Ops(OpsArgs),
-    /// List the expectations that recipes can have, or describe one
+    /// List the expectations (conditions that recipes check), or describe one
     Expectations {
         /// The expectation to describe
         name: Option<String>,
@@ -86,12 +86,12 @@ pub(crate) enum Command {
     Reproduce(ReproduceArgs),
     /// Reduce the scene before a failing step to a small scene for which the step still fails
     Shrink(ShrinkArgs),
-    /// Show or clear the step cache
+    /// Show or clear the step cache, which stores the results of steps for later runs
     Cache(CacheCommandArgs),
     /// Write the source of a new operation, with a test and a picture
     ///
-    /// Writes a new crate. With `--in`, the command instead writes a file into an operation group of Meshwright's
-    /// workspace.
+    /// Writes a new crate. With `--in`, the command instead writes a file into a group of operations (a folder of
+    /// `ops`) in Meshwright's workspace.
     NewOp(NewOpArgs),
     /// Print a completion script for a shell
     Completions {
@@ -135,8 +135,8 @@ pub(crate) struct OpsArgs {
     /// Print the whole reference as Markdown
     #[arg(long, conflicts_with = "name")]
     pub(crate) markdown: bool,
-    /// A folder with pictures for the Markdown reference. For each operation, `NAME.ron` draws `NAME/before.png` and
-    /// `NAME/after.png`, where NAME is the name of the operation in snake case
+    /// A folder with pictures for the Markdown reference: `NAME/before.png` and `NAME/after.png`, and the recipe
+    /// `NAME.ron` that draws them, where NAME is the name of an operation in snake case
     #[arg(long, requires = "markdown", value_name = "FOLDER")]
     pub(crate) pictures: Option<PathBuf>,
     /// Output format

@@ -1,4 +1,4 @@
-//! `meshwright check`: checks a recipe and forecasts the counts and the memory of each step.
+//! `meshwright check`: checks a recipe, and forecasts the element counts and the memory after each step.
 
 use engine::Engine;
 use mesh::counted;

@@ -14,7 +14,7 @@ pub(crate) fn run(args: &ConvertArgs) -> anyhow::Result<bool> {
     let input = pipes::mesh_name(&args.input, args.from.as_deref(), "stdin", "--from")?;
     let output = pipes::mesh_name(&args.output, args.to.as_deref(), "stdout", "--to")?;
     let to_stdout = pipes::is_pipe(&args.output);
-    // Standard output contains either the file or the report.
+    // If the converted file goes to standard output, the report goes to standard error.
     let report = |text: &str| {
         if to_stdout {
             print_error(text);
@@ -25,8 +25,8 @@ pub(crate) fn run(args: &ConvertArgs) -> anyhow::Result<bool> {
     };
     let (scene, mut notes) = read_file_or_input(&args.input, &input, &options)?;
     if mesh_io::keeps_vertices(&output) {
-        // Reading has split non-manifold edges and vertices, but files of this format are written with the original
-        // vertices, so the splits are not reported.
+        // The reader has split non-manifold edges and vertices. Files of this format are nevertheless written with the
+        // original vertices, so the splits are not reported.
         notes.retain(|note| !matches!(note.code, "edges-split" | "vertices-split"));
     }
     let human = args.format == Format::Human;

@@ -164,8 +164,8 @@ fn extent(counts: &Counts, axis: usize) -> String {
     }
 }
 
-/// Formats the largest distance. If `at_most` exceeds the computed distance, the computed distance is only a lower
-/// bound of the largest distance.
+/// Formats the largest distance. If the upper bound `at_most` exceeds the computed distance, the computed distance is
+/// only a lower bound, and both bounds are shown.
 fn largest(distance: &Distance) -> String {
     let (largest, most) = (distance.largest(), distance.at_most());
     if most > largest {

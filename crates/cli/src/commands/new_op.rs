@@ -30,11 +30,11 @@ const RESERVED_TYPES: &str = "Context DVec3 Deserialize JsonSchema Mesh MeshOper
 type Files = Vec<(PathBuf, String)>;
 
 /// Writes an operation. If a group is given, `dir` is the workspace, and the operation is added to this group.
-/// Otherwise, a new crate is written to `dir`, which depends on the workspace in the folder `meshwright`.
+/// Otherwise, a new crate is written to `dir`. This crate depends on the workspace in the folder `meshwright`.
 pub(crate) fn run(args: &NewOpArgs, registry: &Registry) -> anyhow::Result<bool> {
     let (name, snake) = (&args.name, module_name(&args.name)?);
     let fill = |text: &str| text.replace("{Name}", name).replace("{name}", &snake);
-    // Everything is prepared before anything is written.
+    // All contents are prepared before the first file is written, so that an error in the preparation changes no file.
     let (files, next) = match &args.group {
         Some(group) => in_group(group, &snake, &args.dir, fill)?,
         None => in_new_crate(&snake, &args.dir, &args.meshwright, fill)?,

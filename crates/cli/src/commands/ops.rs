@@ -112,7 +112,7 @@ fn operation(name: &str, registry: &Registry) -> anyhow::Result<String> {
     })
 }
 
-/// An operation, or a step that contains other steps.
+/// An operation, or one of the steps that are not operations: `Call`, `Repeat` and `If`.
 enum Found<'r> {
     /// The JSON schema of the step.
     Step(Json),
@@ -151,7 +151,7 @@ fn detail(entry: &Entry) -> String {
     );
     if entry.takes_on {
         text += &format!(
-            "\nThe operation acts on all objects of a suitable kind. To choose objects by name, write (on: [\"name\"], run: {}(..))\n",
+            "\nThe operation acts on all objects of the kinds that it supports, such as meshes. To choose objects by name, write (on: [\"name\"], run: {}(..))\n",
             entry.name
         );
     }
@@ -176,8 +176,8 @@ fn described(schema: &Json, summary: &str) -> String {
         "\nParameters:\n"
     };
     text.extend(fields.iter().map(|field| field_text(field, "  ")));
-    // If the type of a parameter has only variants, they are listed with the parameter. A type with fields is listed
-    // separately below.
+    // If the type of a parameter has only variants, the parameter's own text lists these variants. A type with fields
+    // is listed separately below.
     let is_shown = |t: &TypeDoc| t.fields.is_empty() && fields.iter().any(|f| f.kind == t.name);
     let types = types(schema);
     for t in types.iter().filter(|t| !t.is_selection() && !is_shown(t)) {

@@ -149,7 +149,7 @@ pub(crate) fn print_outcome(
         if !outcome.unmet.is_empty() {
             let mut parameters = loaded.recipe.parameters().iter();
             let reason = if parameters.any(recipe::Parameter::is_set) {
-                "the expectations may hold only for the default values of parameters: "
+                "perhaps the expectations hold only for the default values of the parameters: "
             } else {
                 ""
             };

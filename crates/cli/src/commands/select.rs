@@ -129,7 +129,7 @@ fn elements_text(
     text
 }
 
-/// Returns the vertices of an edge, in the order in which `Between(..)` shows them.
+/// Returns the two vertices of an edge, in the order in which the command prints them as `Between(..)`.
 fn ends(mesh: &Mesh, e: EdgeId) -> [usize; 2] {
     mesh.edge_vertices(e).map(VertexId::index)
 }

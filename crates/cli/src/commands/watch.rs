@@ -50,7 +50,7 @@ pub(crate) fn run(args: &RunArgs, engine: &Engine) -> anyhow::Result<bool> {
         match load_to_run(args, engine) {
             Ok(loaded) => {
                 for folder in folders(&loaded) {
-                    // If the folder is missing, the check of the recipe has already reported it.
+                    // Errors are ignored: if the folder is missing, the check of the recipe has already reported this.
                     let _ = changes.follow(&folder);
                 }
                 changes.ignore(&loaded.forecast.outputs);

@@ -77,9 +77,9 @@ pub enum CommandError {
 }
 
 impl SelectionText {
-    /// Returns the selection for the operation `name`. If the step `before` has the same operation, the step `before`
-    /// is not needed: for example, a command that tags elements needs no step that tags them first. In this case,
-    /// returns the selection that the step `before` contains. Otherwise, returns a copy of `self`.
+    /// Returns the selection for the operation `name`. The step `before` is not needed if it has the same operation: a
+    /// command that tags elements needs no step that tags them first. In this case, returns the selection that the step
+    /// `before` contains. Otherwise, returns a copy of `self`.
     fn without_tag(&self, name: &str) -> Self {
         let elements = self.before.as_deref().and_then(|before| {
             let step = parse(before).value;
@@ -185,7 +185,8 @@ impl Editor {
         })
     }
 
-    /// Returns the distance with which an extrusion starts: a fifth of the size of the object with the picked elements.
+    /// Returns the first distance of a new extrusion, which the user can change: a fifth of the size of the object with
+    /// the picked elements.
     fn extrusion(&self) -> String {
         let object = self
             .picked()
@@ -244,7 +245,7 @@ impl Editor {
                             operation: name.clone(),
                             kind: kind.map_or("elements", ElementKind::word),
                         })?;
-                    // The selection comes first, as in recipes that people write.
+                    // In the text of the step, the selection is the first parameter, as in recipes that people write.
                     let others: Vec<(String, String)> = command.parameters.clone();
                     for (other, _) in &others {
                         panel.set(other, None);
@@ -376,8 +377,8 @@ impl Panel {
     }
 
     /// Returns the name of the parameter that a command with this selection sets, and its new value as RON. Returns
-    /// `None` if no parameter selects elements, if the first such parameter already has a value, or if the picked
-    /// elements cannot be converted to the elements that it selects.
+    /// `None` if no parameter selects elements, or if the first such parameter already has a value. Also returns `None`
+    /// if the picked elements cannot be converted to the kind of elements that this parameter selects.
     pub fn picked_value(&self, selection: &SelectionText) -> Option<(String, String)> {
         let (field, kind) = unset_selection(self)?;
         let selection = selection.without_tag(&self.operation);
@@ -398,7 +399,7 @@ fn converted(selection: &SelectionText, wanted: Option<ElementKind>) -> Option<S
         }),
         Some(kind) if kind == selection.kind => Some(text.clone()),
         Some(kind) => {
-            // `conversions` lists the narrowest conversion last: `EdgesWithin` comes after `EdgesAround`.
+            // The last conversion is the narrowest, such as `EdgesWithin` instead of `EdgesAround`.
             let outer = kind.conversions(selection.kind).last()?;
             Some(format!("{outer}({text})"))
         }

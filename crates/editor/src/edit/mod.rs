@@ -380,7 +380,7 @@ impl Editor {
     fn result(&self) -> (Option<&Snapshot>, bool) {
         let n = self.cursor + self.preview_steps;
         let (last, is_known) = self.run.result_after(n);
-        // If the recipe has errors, steps can be missing here, because they could not be read.
+        // If the recipe has errors, the run can lack the step before the cursor, because this step could not be read.
         let is_before_first = n == 0 && !self.outline.steps.is_empty();
         let is_read = is_before_first
             || !self.run.has_errors()
@@ -455,7 +455,7 @@ impl Editor {
             .clone()
             .unwrap_or_else(|| self.document.text().clone());
         self.requested = self.preview.is_none().then(|| self.document.version());
-        // The existing results belong to an earlier request.
+        // The existing results belong to an earlier request, not to the text that is requested now.
         self.run_version = None;
         self.runner.request(Request {
             number: self.number,

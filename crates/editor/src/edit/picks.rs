@@ -31,7 +31,8 @@ pub enum PickError {
     /// The scene has no mesh.
     #[error("the scene has no mesh whose elements can be picked")]
     NoMesh,
-    /// The text is not a selection, or the selection is refused.
+    /// The text is not a selection, or the selection fails on the mesh, such as an `Expect` with another number of
+    /// elements.
     #[error("{0}")]
     Selection(String),
     /// The selection selects no elements.
@@ -144,8 +145,8 @@ impl Editor {
     ///
     /// # Errors
     ///
-    /// Returns [`PickError`] if the scene has no mesh, if the text is not a selection, if the selection is refused, or
-    /// if it selects no elements.
+    /// Returns [`PickError`] if the scene has no mesh, if the text is not a selection, or if the selection fails on the
+    /// mesh or selects no elements.
     pub fn pick_by_text(&mut self, text: &str, kind: ElementKind) -> Result<(), PickError> {
         let kind = self.picked.as_ref().map_or(kind, Picked::kind);
         let object = if let Some(picked) = &self.picked {

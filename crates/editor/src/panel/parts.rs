@@ -92,7 +92,8 @@ impl Content {
         if json["properties"].is_object() {
             return Self::Fields(panel_fields(json, root, depth));
         }
-        // A tuple without a name of its own consists of several values in the parentheses of the variant.
+        // If the content is a tuple type without a name, the variant has several values in its parentheses:
+        // `Name(x, y, z)`.
         match FieldKind::at_depth(json, root, depth) {
             kind @ (FieldKind::Vector(_) | FieldKind::Integers(..)) if json["$ref"].is_null() => {
                 Self::Tuple(kind)

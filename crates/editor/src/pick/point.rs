@@ -105,7 +105,7 @@ pub fn pick(
     let element = match mode {
         PickMode::Any | PickMode::Face => Element::Face(face),
         PickMode::HalfEdge => Element::HalfEdge(half_edge?),
-        // The nearest vertex or edge is too far away.
+        // No visible vertex or edge is within the pick radius, and faces are not picked in these modes.
         PickMode::Vertex | PickMode::Edge => return None,
     };
     Some(Hit {
@@ -165,20 +165,21 @@ impl<'s> Target<'s> {
     }
 }
 
-/// Returns the surface point under a pixel that is nearest to the viewer, and the index of the target to which the
-/// point belongs.
+/// Returns the surface point under a pixel that is nearest to the viewer, and the index in `targets` of the mesh
+/// instance with this point.
 pub(super) fn first_hit(targets: &[Target], pixel: DVec2) -> Option<(usize, RayHit)> {
     let hits = targets.iter().enumerate().filter_map(|(i, target)| {
         let (origin, direction) = target.view.ray(pixel);
         Some((i, target.index.ray(origin, direction)?))
     });
-    // The parameter of a hit along the ray is the same in the spaces of all objects.
+    // A point of the ray has the same parameter `t` in the spaces of all objects, so hits on different objects can be
+    // compared.
     hits.min_by(|a, b| a.1.t.total_cmp(&b.1.t))
 }
 
 /// A vertex or an edge near the pixel.
 struct Candidate {
-    /// 0 for vertices, 1 for edges.
+    /// 0 for a vertex and 1 for an edge, because vertices are preferred.
     rank: u8,
     distance: f64,
     target: usize,
@@ -195,9 +196,8 @@ struct Search<'a, 's> {
 }
 
 impl Search<'_, '_> {
-    /// Searches a face and the faces around this face, and adds those of their vertices and edges that are near the
-    /// pixel. Of the faces around the given face, only those are searched that show the same side (front or back) to
-    /// the viewer as the given face.
+    /// Searches a face and the faces around it. Adds the vertices and edges of these faces that are near the pixel. A
+    /// face around the given face is searched only if both faces show the same side (front or back) to the viewer.
     fn around(&mut self, at: usize, face: FaceId) {
         let target = &self.targets[at];
         let (_, direction) = target.view.ray(self.pixel);

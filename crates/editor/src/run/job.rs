@@ -111,7 +111,8 @@ impl Job<'_> {
         if is_whole {
             snapshots.digests.insert(keys.end(), outcome.digest);
         }
-        // A failed expectation is reported by its verdict. An output that cannot be written is reported only here.
+        // A failed expectation is reported by its verdict (the result of the expectation). All other failures are
+        // collected here, such as an output that cannot be written.
         let is_unmet = |i: usize| outcome.unmet.iter().any(|unmet| unmet.failure == i);
         let others = outcome
             .failures
@@ -144,7 +145,7 @@ impl Job<'_> {
             return 0;
         }
         let mut first = known;
-        // An expectation is checked only if the step before it runs.
+        // An expectation is checked only if the step before it runs. Therefore this step must run.
         for placed in state
             .expectations
             .iter()

@@ -177,7 +177,7 @@ impl Drop for Runner {
         }
         self.shared.wake.notify_all();
         if let Some(thread) = self.thread.take() {
-            // The thread catches panics of operations, so it ends only here.
+            // The thread catches panics of operations, so it ends only when `ends` is set.
             let _ = thread.join();
         }
     }

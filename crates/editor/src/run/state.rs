@@ -110,8 +110,8 @@ pub struct FailureState {
     /// The places in the scene that the failure is about. If a step has failed, these are places in the scene before
     /// the step.
     pub places: Vec<ErrorLocation>,
-    /// The index of the step that has failed, or of the step after which an expectation does not hold. `None` if the
-    /// failure is one of the end of the run.
+    /// The index of the step that has failed, or of the step after which an expectation does not hold. `None` for a
+    /// failure at the end of the run, such as an expectation about the final scene that does not hold.
     pub step: Option<usize>,
 }
 

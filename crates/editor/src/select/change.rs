@@ -23,8 +23,8 @@ impl Picked {
     ///
     /// # Errors
     ///
-    /// Returns the errors of the text with their spans. If the selection is refused or the object is not a mesh,
-    /// returns an error without a span.
+    /// Returns the errors of the text with their spans. If the selection fails on the mesh, or the object is not a
+    /// mesh, returns an error without a span.
     pub fn by_text(
         scene: &Scene,
         object: &str,
@@ -117,7 +117,7 @@ fn touching(mesh: &Mesh, kind: ElementKind, is_marked: impl Fn(VertexId) -> bool
     }
 }
 
-/// Returns the elements of the mesh, of the same kind, that are not in the given set.
+/// Returns all elements of the mesh that have the kind of the given elements but are not among them.
 fn complement(mesh: &Mesh, elements: &Selected) -> Selected {
     match elements {
         Selected::Vertices(list) => Selected::Vertices(

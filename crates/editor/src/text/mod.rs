@@ -36,7 +36,7 @@ pub enum TextError {
     NoParameter(String),
     /// The path does not lead to a place where a value can be written.
     #[error(
-        "`{0}` cannot be set in this step: the value that would contain it has no fields, or the item does not \
+        "`{0}` cannot be set in this step: the path leads to a value without fields, or to a list item that does not \
          exist"
     )]
     NoPlace(String),

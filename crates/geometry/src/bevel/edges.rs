@@ -6,19 +6,19 @@
 //!      |             |                    | e              beveled edges, the vertex moves into the face (i).
 //! ```
 //!
-//! If a vertex is replaced by at least three new vertices, a new face joins these vertices. The new mesh is built from
-//! a list of polygons. The values (attributes) of each new vertex or corner are interpolated between corners of one old
-//! face.
+//! If at least three new vertices replace a vertex, these new vertices become the corners of a new face. The new mesh
+//! is built from a list of polygons. The values (attributes) of each new vertex or corner are interpolated between
+//! corners of one old face.
 
 use mesh::build::{NonManifold, build};
 use mesh::{DVec3, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 
 use super::values::{Blend, blended};
 
-/// The lower limit of the sine of the angle between an edge that is cut and a beveled edge. The distance from the end
-/// of the edge to its cut is the width divided by this sine. A smaller sine is replaced by this limit. Otherwise, an
-/// edge that is almost parallel to a beveled edge would be cut far from its end. Between two beveled edges, the limit
-/// applies to the sine of half their angle.
+/// The lower limit of the sine of the angle between a beveled edge and an edge that the bevel cuts. The distance from
+/// the end of the cut edge to the cut is the bevel width divided by this sine. A smaller sine is replaced by this
+/// limit. Otherwise, an edge that is almost parallel to the beveled edge would be cut far from its end. At a corner
+/// between two beveled edges, the limit applies to the sine of half the angle of the corner.
 const LEAST_SINE: f64 = 0.25;
 
 /// Why an edge cannot be beveled.
@@ -26,10 +26,10 @@ const LEAST_SINE: f64 = 0.25;
 pub enum BevelRefusal {
     /// One or both sides of the edge have no face.
     Boundary,
-    /// The vertex at this end of the edge has too few other edges: fewer than two new vertices would replace the
-    /// vertex.
+    /// Too few other edges meet at this end of the edge: fewer than two new vertices would replace the end vertex.
     FewEdges(VertexId),
-    /// The bevels at the two ends of an edge of an adjacent face would overlap, because this edge is too short.
+    /// An edge at one of the two ends of this edge is too short: the bevels at both ends of the short edge would
+    /// overlap.
     TooWide,
     /// The mesh with all bevels would not be a manifold.
     NonManifold,
@@ -64,8 +64,8 @@ pub struct Beveled {
 /// that cannot be averaged are copied from one corner. The face that replaces an edge has the values of the face of the
 /// edge's first half-edge. The face that replaces a vertex has the values of one of the faces around the vertex.
 ///
-/// Edges that cannot be beveled keep their shape, and are listed in [`Beveled::refused`]. If the bevels at the two ends
-/// of an edge would overlap, none of the edges at these two ends is beveled. If the result would not be a manifold, no
+/// Edges that cannot be beveled remain edges, and are listed in [`Beveled::refused`]. If the bevels at the two ends of
+/// an edge would overlap, none of the edges at these two ends is beveled. If the result would not be a manifold, no
 /// edge is beveled.
 ///
 /// # Panics
@@ -130,7 +130,7 @@ struct Point {
     position: DVec3,
     /// The weight of the values at the target of the half-edge when the values of the new vertex are interpolated.
     along: f64,
-    /// The weight of the values at the origin of the previous half-edge of the face.
+    /// The weight, in the same interpolation, of the values at the origin of the previous half-edge of the face.
     before: f64,
 }
 
@@ -252,9 +252,9 @@ impl<'m> Bevel<'m> {
         let sine = 2.0 * half_sine * half_cosine;
         let weight = |length: f64| {
             let weight = self.width / (sine * length);
-            // The weight of an edge is 1 or more if both edges are almost on one line, or if the edge is too short.
-            // Such a weight is replaced by 0. If the weights of both edges are 0, the point gets the values of the old
-            // vertex.
+            // The weight of an edge is 1 or more if both edges of the corner are almost on one line, or if this edge is
+            // too short. Such a weight is replaced by 0. If the weights of both edges are 0, the point gets the values
+            // of the old vertex.
             if weight.abs() < 1.0 { weight } else { 0.0 }
         };
         Some(Point {
@@ -499,7 +499,7 @@ impl<'m> Bevel<'m> {
     }
 }
 
-/// Converts the index of a vertex or a corner. Ids have 32 bits.
+/// Converts the index of a vertex or a corner to 32 bits.
 fn number(i: usize) -> u32 {
     u32::try_from(i).unwrap_or(u32::MAX)
 }

@@ -39,7 +39,8 @@ pub(super) fn chords_along_line(corners: &[Corner], normal: DVec3) -> Vec<[u32; 
     let n = corners.len();
     let is_good = |chords: &[[u32; 2]]| {
         let is_one_sided = |part: &Vec<usize>| {
-            // A half-edge with an index h below n is a side of the polygon: the side that starts at corner h.
+            // A half-edge index h below n, the number of corners, stands for the side of the polygon that starts at
+            // corner h.
             let sides = part.iter().filter(|&&h| h < n);
             let heights = sides.flat_map(|&i| [corners[i].height, corners[(i + 1) % n].height]);
             let (low, high) = heights.fold((0.0_f64, 0.0_f64), |(low, high), h| {
@@ -79,7 +80,8 @@ fn inside_chords(corners: &[Corner], normal: DVec3) -> Option<Vec<[u32; 2]>> {
             }
         })
         .collect();
-    // Among corners at the same place on the line, corners that end an inside interval come first.
+    // If several corners are at the same place on the line, a corner at which an interval inside the polygon ends comes
+    // first.
     let rank = |i: usize| match sees_inside[i] {
         [true, false] => 0,
         [false, true] => 2,

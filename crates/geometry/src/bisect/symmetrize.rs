@@ -18,7 +18,7 @@ pub struct Symmetrized {
     pub report: BuildReport,
 }
 
-/// Why a mesh could not be made symmetric. The mesh is unchanged.
+/// Why a mesh could not be made symmetric. After this error, the mesh is unchanged.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SymmetrizeError {
     /// The mesh could not be cut.
@@ -48,7 +48,8 @@ pub enum SymmetrizeError {
 ///
 /// # Errors
 ///
-/// Returns a [`SymmetrizeError`] if the mesh cannot be cut or the halves cannot be joined. The mesh is unchanged.
+/// Returns a [`SymmetrizeError`] if the mesh cannot be cut or the halves cannot be joined. After an error, the mesh is
+/// unchanged.
 pub fn symmetrize(
     mesh: &mut Mesh,
     point: DVec3,

@@ -19,9 +19,10 @@ fn mixed(x: u64) -> u64 {
     x ^ (x >> 31)
 }
 
-/// Returns smooth noise from -1 to 1 at a point. The noise is 0 at all points with integer coordinates, and has
-/// wavelengths of about 1 to 2. The value and its first two derivatives are continuous. Source:
-/// Perlin, "Improving Noise", 2002; in contrast to this source, the directions of the gradients depend on a seed.
+/// Returns smooth noise from -1 to 1 at a point. The noise is 0 at all points with integer coordinates, and its
+/// wavelengths are about 1 to 2 units of these coordinates. The value and its first two derivatives are continuous.
+/// Source: Perlin, "Improving Noise", 2002; in contrast to this source, the directions of the gradients depend on a
+/// seed.
 pub fn gradient(seed: u64, p: DVec3) -> f64 {
     let floor = p.floor();
     let inside = p - floor;

@@ -168,18 +168,18 @@ impl std::fmt::Display for SurfacePoint {
 /// The approximate number of samples for the mean distance of a surface that has only a few large triangles.
 const SAMPLES: f64 = 50_000.0;
 
-/// The number of faces in a block. One thread measures all faces of a block. The blocks do not depend on the number of
-/// threads, so the sums over the blocks do not depend on it either.
+/// The number of faces in a block. One thread measures all faces of a block. Neither the blocks nor the sums over the
+/// blocks depend on the number of threads.
 const BLOCK: usize = 1024;
 
 /// The result of measuring one block of faces.
 #[derive(Default)]
 struct Block {
-    /// The pieces (triangles) that must possibly be cut later: their upper bounds exceed the largest distance of a
-    /// vertex by more than the tolerance.
+    /// The pieces (triangles) whose upper bounds exceed the largest distance of a vertex by more than the tolerance.
+    /// Only these pieces can be cut later.
     pieces: Vec<Piece>,
-    /// An upper bound of the distances from all those points of the block that are in none of the `pieces` to the other
-    /// surface.
+    /// An upper bound of the distances to the other surface from all points of the block that are in none of the
+    /// `pieces`.
     ceiling: f64,
     farthest: Option<Farthest>,
     /// The sum of the areas of the triangles.
@@ -251,7 +251,7 @@ impl OneSided {
 }
 
 impl OneSided {
-    /// Converts the distances from the scaled unit of length to scene units.
+    /// Converts the distances from the unit of length of the scaled meshes to scene units.
     fn restored(self, scaled: &Scaled) -> Self {
         let point = |point: SurfacePoint| SurfacePoint {
             position: scaled.restored_point(point.position),

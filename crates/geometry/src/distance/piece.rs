@@ -38,8 +38,8 @@ const BLOCK: usize = 64;
 /// upper bounds are cut.
 const MAX_PIECES: usize = 1 << 18;
 
-/// The search stops after it has visited this number of nodes in the tree of the other surface. So many visits take a
-/// few seconds.
+/// The search stops after it has visited this number of nodes in the tree of the other surface. This number of visits
+/// takes a few seconds.
 const MAX_VISITS: u64 = 1 << 28;
 
 impl Farthest {
@@ -132,7 +132,8 @@ impl Piece {
     }
 
     /// Whether cutting the piece can lower its upper bound. Cutting does not help if two conditions hold: the distance
-    /// of a corner is inexact, and the upper bound exceeds the largest corner distance by at most `tolerance`.
+    /// of a corner is inexact, because a search stopped early; and the upper bound exceeds the largest corner distance
+    /// by at most `tolerance`.
     fn can_improve(&self, tolerance: f64) -> bool {
         let hits = self.corners.map(|s| s.hit);
         let far = hits.iter().fold(0.0, |d, hit| hit.distance.max(d));
@@ -195,10 +196,10 @@ impl Piece {
 }
 
 /// Cuts pieces in two until no point of a piece can be more than `tolerance` further from the other surface than the
-/// furthest sample. Stops earlier if [`MAX_VISITS`] nodes were visited. Pieces whose bounds cutting cannot lower are
-/// not cut. If a round has too many pieces, the pieces with the smallest bounds are left uncut. Returns the furthest
-/// sample and an upper bound of the distances of all points of the surface, including the points of pieces that were
-/// not cut. `ceiling` is an upper bound of the distances of the points that are in none of the `pieces`.
+/// furthest sample. Stops earlier if [`MAX_VISITS`] nodes were visited. A piece is not cut if the cut cannot lower its
+/// upper bound. If a round has too many pieces, the pieces with the smallest bounds are left uncut. Returns the
+/// furthest sample and an upper bound of the distances of all points of the surface, including the points of pieces
+/// that were not cut. `ceiling` is an upper bound of the distances of the points that are in none of the `pieces`.
 pub(super) fn refine(
     mut pieces: Vec<Piece>,
     mut farthest: Farthest,
@@ -208,8 +209,8 @@ pub(super) fn refine(
     ask: &Ask,
 ) -> Result<(Farthest, f64), Cancelled> {
     let mut visits_left = MAX_VISITS;
-    // Limits the number of pieces in a round, so that the round does not visit more nodes than the rest of the limit
-    // allows. The number of nodes that a search visits is estimated from earlier searches.
+    // Limits the number of pieces in a round, so that all rounds together visit about `MAX_VISITS` nodes at most. The
+    // number of nodes that a search visits is estimated from earlier searches.
     let visits = pieces.iter().map(|p| u64::from(p.corners[0].hit.visits));
     // Cutting a piece takes at most three searches for nearest points. The factor 5 instead of 3 leaves a margin.
     let per_piece = 5 * (visits.sum::<u64>() / (pieces.len() as u64).max(1)).max(1);

@@ -23,11 +23,11 @@ const NONE: u32 = u32::MAX;
 /// In every triangle, the sum of any two sides must exceed the third side by at least this fraction of the mean side
 /// length. If one triangle fails this test, all sides of all triangles are lengthened by the same length.
 const SLACK: f64 = 1e-5;
-/// The limit on the number of edge flips, divided by the number of sides of all triangles.
+/// The largest number of edge flips is this number times the number of sides of all triangles.
 const MAX_FLIPS: usize = 100;
 
-/// Triangles that are glued along their sides. Side k of a triangle joins its corners k and k + 1. The index of the
-/// side is three times the index of the triangle, plus k.
+/// Triangles that are glued along their sides. Side k of a triangle joins its corners k and k + 1 (modulo 3). The index
+/// of the side is three times the index of the triangle, plus k.
 pub(super) struct Intrinsic {
     /// The vertices of each triangle.
     pub(super) corners: Vec<[u32; 3]>,

@@ -30,9 +30,9 @@ const LEAST_HEAT: f64 = 1e-280;
 /// the vertex with the index i. Entry i of `is_source` tells whether this vertex is a source. The distance is infinite
 /// for vertices that no path of edges connects to a source, and for dead (removed) vertices.
 ///
-/// The distances are approximate: on fine meshes of smooth surfaces, the mean error is below 1 %. The distances of
-/// connected vertices are finite for any finite positions, even if triangles are degenerate. Polygons are cut into
-/// triangles. The result is identical bit for bit for any number of threads.
+/// The distances are approximate: on fine meshes of smooth surfaces, the mean error is below 1 %. If a path of edges
+/// connects a vertex to a source, the distance of the vertex is finite for any finite positions, even if triangles are
+/// degenerate. Polygons are cut into triangles. The result is identical bit for bit for any number of threads.
 ///
 /// # Errors
 ///

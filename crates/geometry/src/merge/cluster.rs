@@ -112,7 +112,8 @@ struct Tree<'p> {
     min: DVec3,
     max: DVec3,
     points: &'p [Point],
-    /// Whether the whole box is at most one step across, so that all its points belong to one cluster.
+    /// Whether the diagonal of the box is at most one step (the given distance) long, so that all points of the box
+    /// belong to one cluster.
     is_cluster: bool,
     halves: Option<Box<[Tree<'p>; 2]>>,
 }
@@ -142,7 +143,8 @@ impl<'p> Tree<'p> {
 /// Tests whether the difference of two positions is at most one step (the given distance) long.
 #[derive(Clone, Copy)]
 struct Reach {
-    /// A power of two. The distance times this power is near 1, so that its square neither overflows nor underflows.
+    /// A power of two. The distance times this power is near 1, so that the square of the product neither overflows nor
+    /// underflows.
     scale: f64,
     /// The square of the scaled distance; 0 for the distance 0.
     squared: f64,
@@ -159,11 +161,12 @@ impl Reach {
         }
     }
 
-    /// Whether the length of `difference` is at most the distance. If the result is true for one difference, the result
-    /// is also true for every difference whose coordinates have smaller absolute values.
+    /// Whether the length of `difference` is at most one step (the given distance). If the result is true for one
+    /// difference, the result is also true for every difference whose coordinates have smaller absolute values.
     fn covers(&self, difference: DVec3) -> bool {
         if self.squared == 0.0 {
-            // The squared lengths are not compared, because the square of a tiny difference can be rounded to 0.
+            // Tests whether the difference itself is 0. The square of a tiny difference can be rounded to 0, so the
+            // squared length would be misleading.
             difference == DVec3::ZERO
         } else {
             (self.scale * difference).length_squared() <= self.squared
@@ -179,8 +182,8 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Joins the sets of all points in one box that are connected by steps, directly or through other points of the
-    /// box.
+    /// Joins the sets of those points of a box that steps connect, directly or through other points of the box. A step
+    /// is at most as long as the given distance.
     fn join_within(&self, tree: &Tree) -> Result<(), Cancelled> {
         if let (false, Some([a, b])) = (tree.is_cluster, tree.halves.as_deref()) {
             let (low, high) = run_both(
@@ -339,7 +342,7 @@ mod tests {
     #[test]
     fn points_at_exactly_the_distance_are_joined_at_any_scale() {
         for size in [1e-300_f64, 1e-160, 1e-3, 1.0, 1e160, 1e300] {
-            // Scaling by a power of two keeps 3, 4 and 5 exact.
+            // `unit` is a power of two, so its products with 3, 4 and 5 are exact.
             let unit = f64::from_bits(size.to_bits() >> 52 << 52);
             let points = [DVec3::ZERO, DVec3::new(3.0, 4.0, 0.0) * unit];
             assert_eq!(clustered(&points, 5.0 * unit), [0, 0], "{size}");
@@ -350,7 +353,7 @@ mod tests {
     #[test]
     fn clusters_are_the_same_for_any_number_of_threads() {
         let points = noise(100_000);
-        // At one of these distances or near it, most points of this cloud merge into one cluster.
+        // At or near one of these distances, most points of this cloud merge into one cluster.
         for distance in [0.005, 0.015, 0.02] {
             let with = |threads| {
                 let pool = rayon::ThreadPoolBuilder::new()
@@ -394,7 +397,8 @@ mod tests {
                 let mut points = vec![a, a + factor * distance * direction];
                 // The other points are far away from the first two points. They only make the tree deeper.
                 points.extend(noise(others).iter().map(|&p| a + 1e4 * (p + 1.0)));
-                // Skips cases in which rounding of the sum could move a point too far.
+                // Skips cases in which the rounding of large coordinates could move a point by more than 1 % of the
+                // distance.
                 prop_assume!(offset.abs() * 1e-15 < 0.01 * distance);
                 let lowest = clustered(&points, distance);
                 prop_assert_eq!(lowest[1] == 0, near);

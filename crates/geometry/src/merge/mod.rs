@@ -34,7 +34,7 @@ pub struct Merged {
     pub report: BuildReport,
 }
 
-/// Why vertices could not be merged. The mesh is unchanged.
+/// Why vertices could not be merged. After this error, the mesh is unchanged.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MergeError {
     /// The distance is negative or not finite.
@@ -214,8 +214,8 @@ impl Polygons {
         for (&old_h, (&e, &h)) in self.half_edges.iter().zip(sides) {
             if h != HalfEdgeId::NONE {
                 corners[h.index()] = old_h;
-                // The edge with the lowest old id gives its values. `NONE` is greater than all ids, so the first edge
-                // always replaces it.
+                // A merged edge gets the values of the old edge with the lowest id. `NONE` is greater than all ids, so
+                // the first old edge always replaces `NONE`.
                 let edge = &mut edges[e.index()];
                 *edge = old_h.edge().min(*edge);
             }

@@ -5,9 +5,9 @@ use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 /// Disjoint sets of the numbers from 0 to n - 1. Each set is a tree, whose root is the lowest number of the set.
 ///
 /// The final sets depend only on which pairs were joined, not on the order of the joins. A parent is always lower than
-/// its child, so that no cycle can arise. A join replaces the parent of one root by a compare-and-swap operation. The
-/// join is repeated if another thread changed the root first. Source: Anderson and Woll, "Wait-free Parallel Algorithms
-/// for the Union-Find Problem", 1991.
+/// its child, so that no cycle can arise. A join sets the parent of one of the two roots with a compare-and-swap
+/// operation. The join is repeated if another thread changed the root first. Source: Anderson and Woll, "Wait-free
+/// Parallel Algorithms for the Union-Find Problem", 1991.
 pub(crate) struct UnionFind {
     parent: Vec<AtomicU32>,
 }
@@ -28,8 +28,8 @@ impl UnionFind {
                 return v;
             }
             let above = self.parent[parent as usize].load(Relaxed);
-            // Halves the path to the root, which makes later calls faster. The parent of `v` is only replaced by an
-            // ancestor of this parent.
+            // Halves the path to the root, which makes later calls faster. The new parent of `v` is always an ancestor
+            // of the old parent.
             let _ = self.parent[v as usize].compare_exchange(parent, above, Relaxed, Relaxed);
             v = above;
         }
@@ -54,7 +54,7 @@ impl UnionFind {
     /// Returns for each number the lowest number of its set.
     pub(crate) fn into_lowest(self) -> Vec<u32> {
         let mut lowest: Vec<u32> = self.parent.into_iter().map(AtomicU32::into_inner).collect();
-        // A parent is lower than its children, so the loop has already replaced the entry of the parent by its root.
+        // A parent is lower than its children, so the entry of the parent already contains the root of the set.
         for v in 0..lowest.len() {
             lowest[v] = lowest[lowest[v] as usize];
         }

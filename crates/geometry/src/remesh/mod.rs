@@ -2,9 +2,10 @@
 //!
 //! Remeshing repeats a pass of four steps: split long edges, collapse short edges, flip edges so that most vertices
 //! have six edges, and move vertices along the surface. Source: Botsch, Kobbelt, "A Remeshing Approach to
-//! Multiresolution Modeling", 2004. Each movement of a vertex ends on the original surface, at a point of the chart or
-//! line to which the vertex belongs. Only a vertex that a split or a collapse has placed can be off the original
-//! surface. The first movement of such a vertex puts it on the surface, unless all of its movements are refused.
+//! Multiresolution Modeling", 2004. Each movement of a vertex ends on the original surface, at a point of the line or
+//! chart (a region between lines) to which the vertex belongs. Only a vertex that a split or a collapse has placed can
+//! be off the original surface. The first movement of such a vertex puts it on the surface, unless all of its movements
+//! are refused.
 //!
 //! ```text
 //!     +---+-----------+            +-----+-----+
@@ -55,8 +56,8 @@ pub enum Length {
     Uniform(f64),
     /// Shorter edges where the surface is curved, longer edges where the surface is flat.
     Curvature {
-        /// Target lengths are chosen so that the centers of triangles are at about this distance from the surface. This
-        /// distance must be positive.
+        /// Target lengths are chosen so that the centers of the new triangles are at about this distance from the
+        /// original surface. This distance must be positive.
         error: f64,
         /// The smallest target length, which must be positive.
         min: f64,
@@ -78,7 +79,8 @@ pub struct Options<'a> {
     /// bound is still above the limit after four attempts, remeshing fails.
     pub error: Option<f64>,
     /// Additional edges that are preserved as lines. Boundaries, seams, tagged edges and creases are always preserved.
-    /// Edges between faces with different tags, materials or other whole numbers are also always preserved.
+    /// An edge is also always preserved if a tag, the material or another whole-number attribute differs between its
+    /// two faces.
     pub features: &'a [EdgeId],
     /// Vertices that keep their positions.
     pub pinned: &'a [VertexId],
@@ -212,17 +214,17 @@ pub enum RemeshError {
 /// - the ends and meeting points of lines, and the corners of lines, where a line turns by more than 40°;
 /// - vertices on a line at which the attributes of the edges of the line change;
 /// - pinned vertices and vertices with sharpness;
-/// - vertices with a tag; a tagged vertex can move only if all corners of an adjacent triangle also have the tag, or if
-///   the vertex is on a line and both of its neighbors on the line also have the tag.
+/// - vertices with a tag, with two exceptions: a tagged vertex can move if all corners of an adjacent triangle also
+///   have the tag, or if the vertex is on a line and both of its neighbors on the line also have the tag.
 ///
 /// Each new element gets its attributes from the original surface at the location of the element, and never from the
 /// other side of a line. Vertex and corner attributes are interpolated at this location. A new vertex has a tag if all
-/// original vertices around its location have the tag. The integers of a new vertex are copied from the nearest of
-/// these original vertices. A new face gets the values of the original face at its center. A new edge on a line gets
-/// the values of the original edge of the line that contains the midpoint of the new edge. Any other new edge gets its
-/// values from the original triangle at the midpoint of the new edge. The new edge gets the values of one edge of this
-/// triangle: of the edges that are not on a line, the edge nearest to the midpoint. If all edges of the original
-/// triangle are on lines, the values of the new edge are zero.
+/// original vertices around its location have the tag. The whole-number attributes of a new vertex are copied from the
+/// nearest of these original vertices. A new face gets the values of the original face at its center. A new edge on a
+/// line gets the values of the original edge of the line that contains the midpoint of the new edge. Any other new edge
+/// gets its values from the original triangle at the midpoint of the new edge. The values are copied from one edge of
+/// this triangle: among the edges that are not on a line, the edge nearest to the midpoint. If all edges of the
+/// original triangle are on lines, the values of the new edge are zero.
 ///
 /// All elements get new ids.
 ///
@@ -286,7 +288,7 @@ fn run(
 ) -> Result<(Mesh, Counts), RemeshError> {
     let max_faces = options.max_faces.min(MAX_FACES);
     let needed = sizes.n_faces(original);
-    // The estimate can be NaN if the target lengths are extreme. The comparison is then false, which gives an error.
+    // The estimate can be NaN if the target lengths are extreme. The comparison is then false, so an error is returned.
     let is_possible = needed <= max_faces as f64;
     if !is_possible {
         return Err(RemeshError::TooManyFaces {

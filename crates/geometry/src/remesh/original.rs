@@ -27,7 +27,7 @@ const STRAIGHT: f64 = 0.766_044_443_118_978;
 pub(super) struct Original<'a> {
     /// The original mesh, which is [dense](mesh::Mesh::is_dense).
     pub(super) source: &'a Mesh,
-    /// The same mesh without attributes, in coordinates relative to `center`, scaled by a power of two. In these
+    /// The mesh `source` without attributes, in coordinates relative to `center`, scaled by a power of two. In these
     /// coordinates, the size of the mesh does not matter: very small and very large meshes of the same shape give the
     /// same result.
     pub(super) mesh: Mesh,
@@ -35,14 +35,14 @@ pub(super) struct Original<'a> {
     pub(super) scale: f64,
     /// For each vertex, its location on the original surface.
     pub(super) places: Vec<Place>,
-    /// For each vertex, the number of edges that flips aim at.
+    /// For each vertex, its target valence. Flips change the number of edges at the vertex towards this number.
     pub(super) valences: Vec<u8>,
     /// For each edge that is a part of a line, its location on a chain (a line between two corners).
     pub(super) tracks: Vec<Option<Track>>,
-    /// For each face, the index of its chart.
+    /// For each face, the index of its chart (a region between lines).
     pub(super) charts: Vec<u32>,
     pub(super) chains: Vec<Chain>,
-    /// For each chart, the spatial index of its triangles.
+    /// For each chart (a region between lines), the spatial index of its triangles.
     pub(super) indexes: Vec<SurfaceIndex>,
     /// For each face, the index of its triangle in the spatial index of its chart.
     pub(super) triangles: Vec<u32>,
@@ -60,7 +60,7 @@ pub(super) enum Place {
     Inside(u32),
 }
 
-/// The location of an edge on a chain.
+/// The location of an edge on a chain (a line between two corners).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Track {
     pub(super) chain: u32,
@@ -93,9 +93,10 @@ impl Chain {
         (self.half_edges[i], t)
     }
 
-    /// Returns the arc length from one parameter of the chain to another, measured in the direction of the chain. If
-    /// both parameters are equal, the result is 0, not the full length of a closed chain. No edge goes all the way
-    /// around a closed chain, because the chain has at least three vertices.
+    /// Returns the arc length from one point of the chain to another, measured in the direction of the chain. Each
+    /// point is given by its arc length from the start of the chain. If both points are equal, the result is 0, not the
+    /// full length of a closed chain. No edge goes all the way around a closed chain, because the chain has at least
+    /// three vertices.
     pub(super) fn way(&self, from: f64, to: f64) -> f64 {
         if self.is_closed && to < from {
             to - from + self.length
@@ -104,8 +105,8 @@ impl Chain {
         }
     }
 
-    /// Returns the parameter of the point that lies the arc length `way` after the parameter `from`, in the direction
-    /// of the chain.
+    /// Returns the point that lies the arc length `way` after the point `from`, in the direction of the chain. Each
+    /// point is given by its arc length from the start of the chain.
     pub(super) fn after(&self, from: f64, way: f64) -> f64 {
         let at = from + way;
         if self.is_closed && at >= self.length {
@@ -302,8 +303,8 @@ impl<'a> Original<'a> {
 fn kinds_to_places(mesh: &Mesh, kinds: &[Kind]) -> Vec<Place> {
     let place = |v: VertexId| match kinds[v.index()] {
         Kind::Inside if mesh.vertex_half_edge(v).is_some() => Place::Inside(0),
-        // A vertex on a chain, between its ends, also gets the place `Corner` here. This place is replaced by the
-        // location on the chain when the chains are built.
+        // Here, a vertex between the two ends of a chain also gets the place `Corner`. When the chains are built, this
+        // place is replaced by `Line`.
         _ => Place::Corner(v),
     };
     mesh.vertices().map(place).collect()

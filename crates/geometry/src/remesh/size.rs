@@ -49,8 +49,8 @@ impl Sizes {
         Self::Varying(sizes)
     }
 
-    /// Halves the target lengths at marked vertices of the original surface, and lowers the target lengths around them
-    /// so that they grow gradually.
+    /// Halves the target lengths at marked vertices of the original surface, and lowers the target lengths around these
+    /// vertices, so that target lengths grow gradually.
     pub(super) fn halve(&mut self, original: &Original, is_marked: &[bool]) {
         let sizes = is_marked.iter().enumerate().map(|(v, is_marked)| {
             let size = self.at_vertex(VertexId::new(v));
@@ -86,7 +86,7 @@ impl Sizes {
         }
     }
 
-    /// Returns the target length at the point of a triangle of the original surface that is nearest to `p`.
+    /// Returns the target length at the point nearest to `p` on a triangle of the original surface.
     pub(super) fn at(&self, original: &Original, chart: u32, triangle: u32, p: DVec3) -> f64 {
         match self {
             Self::Uniform(size) => *size,
@@ -154,7 +154,7 @@ fn curvatures(original: &Original) -> Vec<f64> {
 }
 
 /// Returns the curvature of a line at one of its vertices: the angle by which the line turns at the vertex, divided by
-/// half the total length of the two edges there. The curvature is 0 at corners.
+/// half the total length of the two edges there. The curvature is 0 at the corners of the line.
 fn line_curvature(original: &Original, v: VertexId) -> f64 {
     let Place::Line { .. } = original.places[v.index()] else {
         return 0.0;

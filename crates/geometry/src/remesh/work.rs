@@ -21,10 +21,10 @@ pub(super) struct Work<'a> {
     pub(super) places: Vec<Place>,
     /// For each vertex, the target length of the edges around it.
     pub(super) sizes: Vec<f64>,
-    /// For each vertex, the number of edges that flips aim at.
+    /// For each vertex, its target valence. Flips change the number of edges at the vertex towards this number.
     pub(super) valences: Vec<u8>,
-    /// For each vertex, whether it possibly lies off the original surface, because a split or a collapse placed it and
-    /// it has not moved since.
+    /// For each vertex, whether the vertex can lie off the original surface: a split or a collapse placed the vertex,
+    /// and it has not moved since.
     pub(super) is_off: Vec<bool>,
     /// For each edge that is a part of a line, its location on a chain (a line between two corners).
     pub(super) tracks: Vec<Option<Track>>,
@@ -83,8 +83,8 @@ impl<'a> Work<'a> {
         self.mesh.position(a).distance(self.mesh.position(b)) / size
     }
 
-    /// Returns the line that contains the edge of `h`, if there is one, and whether `h` runs in the direction of this
-    /// line.
+    /// Returns the line that contains the edge of `h`, and whether `h` runs in the direction of this line. Returns
+    /// `None` if no line contains the edge.
     pub(super) fn track_of(&self, h: HalfEdgeId) -> Option<Track> {
         let track = self.tracks[h.edge().index()]?;
         Some(Track {

@@ -63,20 +63,23 @@ impl Taken {
 /// lie between two lines.
 pub(super) struct Appearance {
     taken: Vec<Taken>,
-    /// The names of all columns of vertices and corners, in their original order, which is restored at the end.
+    /// The names of all columns of vertices and corners, in the original order of the columns. This order is restored
+    /// at the end.
     order: Vec<(Domain, String)>,
     /// The number of components of all columns together. The components of normals come last.
     n: usize,
     /// The number of components of the columns that are not normals. Only these columns affect the positions of
     /// vertices.
     n_placing: usize,
-    /// For each half-edge with a face: the index of the wedge to which its corner belongs.
+    /// For each half-edge with a face: the index of the wedge (a group of face corners at a vertex) to which its corner
+    /// belongs.
     wedges: Vec<u32>,
     /// For each wedge: a third of the area of its triangles.
     areas: Vec<f64>,
-    /// For each wedge: the integral of the sum of the squared linear functions of all attributes except normals.
+    /// For each wedge: an integral over the triangles of the wedge. On each triangle, every component of an attribute
+    /// is a linear function. The integrand is the sum of the squares of these functions, except those of normals.
     placing: Vec<Quadric>,
-    /// For each wedge: the integral of the sum of the squared linear functions of normals.
+    /// For each wedge: the same integral as in `placing`, but for normals.
     normals: Vec<Quadric>,
     /// For each wedge and each component of the attributes: the integral of the linear functions of this component over
     /// the triangles of the wedge. The first three numbers are the integral of the gradient, and the fourth is the
@@ -89,10 +92,12 @@ pub(super) struct Appearance {
     bases: Vec<f64>,
 }
 
-/// The indices of two wedges that an edge joins: one at the first end and one at the second end of the edge.
+/// The indices of two wedges (groups of face corners at a vertex) that an edge joins: one at the first end and one at
+/// the second end of the edge.
 pub(super) type Pair = [u32; 2];
 
-/// The corners of the faces around an edge before its collapse, with their wedges.
+/// For each face around an edge before its collapse, the corners of the face and their wedges (groups of face corners
+/// at a vertex).
 pub(super) struct Around(Vec<(FaceId, [(VertexId, u32); 3])>);
 
 impl Appearance {
@@ -175,9 +180,9 @@ impl Appearance {
         Some(this)
     }
 
-    /// Adds the linear functions on the triangles of a wedge to `fits`. `first` is the first corner of the wedge.
-    /// Returns the area of the wedge, the integral of the squared functions of all attributes except normals, and the
-    /// same integral for normals.
+    /// Adds the linear functions of the attributes on the triangles of a wedge (a group of face corners at a vertex) to
+    /// `fits`. `first` is the first corner of the wedge. Returns the area of the wedge, the integral of the squared
+    /// functions of all attributes except normals, and the same integral for normals.
     fn measure(
         &self,
         mesh: &Mesh,
@@ -223,8 +228,8 @@ impl Appearance {
         &self.values[first..first + self.n]
     }
 
-    /// Returns, for each side of an edge, the two wedges that the edge joins. If the edge is not on a line, both sides
-    /// have the same two wedges, and the pair is returned only once.
+    /// Returns, for each side of an edge, the two wedges (groups of face corners at a vertex) that the edge joins. If
+    /// the edge is not on a line, both sides have the same two wedges, and the pair is returned only once.
     pub(super) fn pairs(&self, mesh: &Mesh, e: EdgeId, is_line: bool) -> [Option<Pair>; 2] {
         let [h, twin] = e.half_edges();
         let at = |h: HalfEdgeId| self.wedges[h.index()];
@@ -293,7 +298,8 @@ impl Appearance {
         if error > 0.0 { error } else { 0.0 }
     }
 
-    /// Interpolates between the values of two wedges. `t` is the weight of the second wedge, from 0 to 1.
+    /// Interpolates between the values of two wedges (groups of face corners at a vertex). `t` is the weight of the
+    /// second wedge, from 0 to 1.
     pub(super) fn mixed(&self, pair: Pair, t: f64) -> Vec<f64> {
         let [a, b] = pair.map(|wedge| self.values_of(wedge));
         let mix = |(a, b): (&f64, &f64)| {
@@ -371,8 +377,8 @@ impl Appearance {
         Around(faces)
     }
 
-    /// Whether a collapse would turn a triangle over in the texture. `merged` lists the pairs of wedges that become one
-    /// wedge, with their new values.
+    /// Whether a collapse would turn a triangle over in the texture. `merged` lists the pairs of wedges (groups of face
+    /// corners at a vertex) that become one wedge, with the values of this wedge.
     pub(super) fn turns(&self, around: &Around, merged: &[(Pair, Vec<f64>)]) -> bool {
         let new = |wedge: u32| {
             let merged = merged.iter().find(|(pair, _)| pair.contains(&wedge));
@@ -394,7 +400,8 @@ impl Appearance {
         })
     }
 
-    /// Updates the wedges after a collapse that leaves the vertex `v`. `around` has the faces before the collapse.
+    /// Updates the wedges (groups of face corners at a vertex) after a collapse from which the vertex `v` remains.
+    /// `around` has the faces before the collapse.
     pub(super) fn merge(
         &mut self,
         mesh: &Mesh,
@@ -438,8 +445,8 @@ impl Appearance {
         }
     }
 
-    /// Puts the stored values back into the mesh. Between the call of [`take`](Self::take) and this call, elements can
-    /// be removed from the mesh, but must not be added or renumbered.
+    /// Puts the stored values back into the mesh. Between the call of [`take`](Self::take) and this call, the caller
+    /// may remove elements from the mesh, but must not add or renumber elements.
     pub(super) fn put_back(mut self, mesh: &mut Mesh) {
         for taken in std::mem::take(&mut self.taken) {
             let mut column = taken.column;
@@ -468,8 +475,8 @@ impl Appearance {
     }
 }
 
-/// Returns the weight by which the values of a column are multiplied: a power of two, for positions in scaled
-/// coordinates.
+/// Returns the weight by which the values of a column are multiplied: a power of two. `place` returns the scaled
+/// position of a vertex; the weight fits these scaled positions.
 fn weight(mesh: &Mesh, domain: Domain, column: &Column, place: impl Fn(VertexId) -> DVec3) -> f64 {
     if column.rule == Rule::Normal {
         return inverse_power_of_two(1.0 / NORMAL);
@@ -501,7 +508,8 @@ fn weight(mesh: &Mesh, domain: Domain, column: &Column, place: impl Fn(VertexId)
     inverse_power_of_two(range / OTHER)
 }
 
-/// Returns, for each corner, the index of its wedge. Also returns the first corner of each wedge.
+/// Returns, for each corner, the index of its wedge (a group of face corners at a vertex). Also returns the first
+/// corner of each wedge.
 fn wedges(mesh: &Mesh, lines: &[bool]) -> (Vec<u32>, Vec<HalfEdgeId>) {
     const NONE: u32 = u32::MAX;
     let mut wedges = vec![NONE; mesh.n_half_edges()];

@@ -37,8 +37,8 @@ impl Collapser<'_> {
                 let next = self.mesh.next(h);
                 let is_beside = [self.mesh.origin(next), self.mesh.target(next)].contains(&other);
                 let triangle = self.triangle(h);
-                // A triangle beside the edge has both ends as corners. Such a triangle is listed only once,
-                // because the collapse removes the triangle.
+                // A triangle beside the edge has both ends as corners, so the loop visits the triangle twice. It is
+                // listed once as an old triangle, and never as a new one, because the collapse removes it.
                 if !is_beside || v == a {
                     old.push((triangle, self.errors[f.index()]));
                 }
@@ -61,7 +61,7 @@ impl Collapser<'_> {
     }
 
     /// If `e` is a boundary edge, returns three positions: the end of `e` that the collapse removes, and the two ends
-    /// of the boundary edge that replaces the boundary at this end.
+    /// of a new edge. The new edge replaces the two boundary edges at the removed end.
     fn cut(&self, e: EdgeId, target: &Target) -> Option<(DVec3, [DVec3; 2])> {
         let h = e
             .half_edges()
@@ -95,9 +95,9 @@ struct Patch {
 const SLACK: f64 = 1e-9;
 
 impl Patch {
-    /// Returns, for each new triangle, a bound on its distance to the original surface. Returns `None` if there is no
-    /// bound: the method needs old and new triangles that, projected along their mean normal, cover the same region
-    /// once.
+    /// Returns, for each new triangle, a bound on its distance to the original surface. Returns `None` if the method
+    /// gives no bound. For a bound, the projections of the old and of the new triangles along the mean normal must
+    /// cover the same region exactly once.
     fn bounds(&self) -> Option<Vec<f64>> {
         let twice_area = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a);
         let sum: DVec3 = self
@@ -128,7 +128,8 @@ impl Patch {
             return None;
         }
         // Seen along the projection, a point between the old and the new boundary is covered by either the old or the
-        // new triangles only. Its distance from the other triangles is at most its distance from their boundary.
+        // new triangles only. The distance of such a point from the triangles that do not cover the point is at most
+        // its distance from the boundary of these triangles.
         let beyond = self.cut.map_or(0.0, |(removed, [p, q])| {
             let largest = self
                 .old

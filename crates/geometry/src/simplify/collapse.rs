@@ -77,13 +77,13 @@ pub(super) struct Collapser<'a> {
     pub(super) lines: Vec<bool>,
     states: Vec<State>,
     queue: Queue,
-    /// The tree of the boxes of the faces, if collapses that cause intersections are refused.
+    /// The tree of the boxes of the faces. `None` if collapses that cause intersections are allowed.
     contacts: Option<Contacts>,
     pub(super) options: &'a Options<'a>,
 }
 
-/// The faces around an edge before its collapse, and the pairs of wedges that the collapse merges, with their new
-/// values.
+/// The faces around an edge before its collapse, and the pairs of wedges (groups of face corners at a vertex) that the
+/// collapse merges, with their new values.
 pub(super) type Values = (Around, Vec<(Pair, Vec<f64>)>);
 
 /// The data that is computed for an allowed collapse before the mesh changes.
@@ -347,8 +347,7 @@ impl<'a> Collapser<'a> {
             },
         };
         self.marks[v.index()].changed = self.queue.pass();
-        // After this collapse, edges at the vertex that were blocked can possibly be collapsed, so they are queued
-        // again.
+        // After this collapse, blocked edges at the vertex can possibly be collapsed, so these edges are queued again.
         for e in self.mesh.vertex_half_edges(v).map(HalfEdgeId::edge) {
             let state = &mut self.states[e.index()];
             if *state != State::Queued {

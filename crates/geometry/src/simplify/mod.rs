@@ -14,9 +14,9 @@
 //! a division by the area or by its square root, the largest distance was 0.3 %. With a division by the square root of
 //! the area, the mean distance was 5 % smaller than with a division by the area itself.
 //!
-//! A small part of the cost is the squared distance to the centers of the original triangles instead of their planes.
-//! This part prevents thin triangles, similar to Trettner, Kobbelt, "Fast and Robust QEM Simplification of Large Meshes
-//! Using Probabilistic Quadrics", 2020.
+//! A small part of the cost is the squared distance from the new vertex to the centers of the original triangles that
+//! the vertex represents. This part prevents thin triangles, similar to Trettner, Kobbelt, "Fast and Robust QEM
+//! Simplification of Large Meshes Using Probabilistic Quadrics", 2020.
 //!
 //! Errors of interpolated attributes, such as texture coordinates, normals and colors, are also a part of the cost; see
 //! `appearance.rs`.
@@ -57,7 +57,8 @@ pub struct Options<'a> {
     /// distance: the true distance of the result is usually between a third of the limit and the limit.
     pub error: Option<f64>,
     /// Additional edges that are preserved as lines. Boundaries, seams, tagged edges and creases are always preserved.
-    /// Edges between faces with different tags, materials or other whole numbers are also always preserved.
+    /// An edge is also always preserved if a tag, the material or another whole-number attribute differs between its
+    /// two faces.
     pub features: &'a [EdgeId],
     /// Vertices that keep their positions.
     pub pinned: &'a [VertexId],
@@ -85,7 +86,7 @@ pub enum Blocked {
     Error,
     /// The collapse would merge preserved lines, or move a pinned vertex or the end of a preserved line.
     Lines,
-    /// The two ends of the edge have different tags, whole numbers or sharpness.
+    /// The two ends of the edge differ in a tag, in a whole-number attribute or in sharpness.
     Labels,
     /// A triangle would turn over or become degenerate, on the surface or in a texture.
     Turned,
@@ -136,8 +137,8 @@ pub enum SimplifyError {
 ///
 /// The topology is preserved: the Euler characteristic, the boundary loops and the graph that the lines form do not
 /// change. No collapse turns a triangle by more than 78° on the surface, or turns a triangle over in the texture. The
-/// vertices that remain can move. These vertices keep their positions: pinned vertices, the ends and meeting points of
-/// lines, and vertices on a line at which the attributes of the edges of the line change.
+/// vertices that remain can move, with these exceptions: pinned vertices, the ends and meeting points of lines, and
+/// vertices on a line at which the attributes of the edges of the line change.
 ///
 /// Errors of interpolated attributes of vertices and corners, including normals, are a part of the cost of a collapse.
 /// A vertex to which an edge is collapsed gets new values. If the edge is on a line, or if one of its ends keeps its

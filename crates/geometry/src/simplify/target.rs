@@ -11,12 +11,12 @@ use super::appearance::Pair;
 use super::collapse::{Collapser, Values};
 use super::quadric::Quadric;
 
-/// A vertex represents some of the original triangles. This is the weight, in the cost of a collapse, of the squared
-/// distance from the vertex to the centers of these triangles. The squared distance to their planes has the weight 1.
-/// If this weight were 0, triangles would become thin where the surface is flat or curved in one direction only. As an
-/// example, a torus of 1,000,000 triangles was reduced to a tenth. With the weight 1e-6, one percent of the triangles
-/// have an angle below 9°. With the weight 2e-5, one percent of the triangles have an angle below 15°. The distance
-/// between the original and the simplified surface is the same for both weights.
+/// The weight of one term in the cost of a collapse: the squared distance from the vertex to the centers of the
+/// original triangles that the vertex represents. The squared distance to the planes of these triangles has the
+/// weight 1. If `ROUNDNESS` were 0, triangles would become thin where the surface is flat or curved in one direction
+/// only. As an example, a torus of 1,000,000 triangles was reduced to a tenth. With the weight 1e-6, one percent of the
+/// triangles have an angle below 9°. With the weight 2e-5, one percent of the triangles have an angle below 15°. The
+/// distance between the original and the simplified surface is the same for both weights.
 const ROUNDNESS: f64 = 2e-5;
 
 /// The weight that is used instead of [`ROUNDNESS`] when the new position of a vertex is chosen. This weight is so
@@ -39,10 +39,10 @@ pub(super) struct Target {
     /// The cost of the collapse: the sum of these terms, divided by the square root of the area of the original
     /// triangles that the vertex represents:
     ///
-    /// - the integral of the squared distance from the point to the planes of these triangles;
+    /// - the integral of the squared distance from the vertex to the planes of these triangles;
     /// - the integral of the squared error of the values of the vertex;
     /// - the [error of the line](Collapser::line_error), if the edge is on a line;
-    /// - [`ROUNDNESS`] times the integral of the squared distance to the centers of these triangles.
+    /// - [`ROUNDNESS`] times the integral of the squared distance from the vertex to the centers of these triangles.
     pub(super) cost: f64,
 }
 
@@ -175,7 +175,8 @@ impl Collapser<'_> {
         self.nodes[v.index()].point
     }
 
-    /// Checks whether the labels, the lines and the directions of the triangles allow the collapse of an edge.
+    /// Checks whether the labels (tags and whole numbers) of the ends, the lines, and the directions of the triangles
+    /// allow the collapse of an edge.
     pub(super) fn check(&self, e: EdgeId, target: &Target) -> Result<(), Blocked> {
         let [a, b] = self.mesh.edge_vertices(e);
         if self.labels_differ(a, b) {
@@ -194,7 +195,7 @@ impl Collapser<'_> {
         Ok(())
     }
 
-    /// Whether two vertices have different tags, whole numbers or sharpness.
+    /// Whether two vertices differ in a tag, in a whole-number attribute or in sharpness.
     fn labels_differ(&self, a: VertexId, b: VertexId) -> bool {
         let differ = |column: &Column| !column.values.are_equal(a.index(), b.index());
         let sharpness = self.mesh.get(VERTEX_SHARPNESS);

@@ -8,7 +8,7 @@
 //!
 //! Here x are positions of vertices, and a, c and n are areas, centers and normals of faces. The length s is the mean
 //! distance between the centers of adjacent faces. The number t = sin(angle / 2) comes from the parameter `angle` of
-//! the method. It is half the distance between the ends of two unit normals that enclose this angle.
+//! the method. The number t is half the distance between the ends of two unit normals that enclose this angle.
 
 use mesh::{DVec3, Domain, FaceId, Mesh, VertexId, parallel};
 use progress::{Cancelled, Meter, Progress};

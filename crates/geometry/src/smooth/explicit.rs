@@ -7,8 +7,8 @@ use super::{Role, SmoothError, Smoother, Weights};
 use crate::Laplacian;
 use crate::sparse::SymmetricMatrix;
 
-/// Returns the factor μ of the second, growing step of a Taubin pass. This factor is negative and satisfies 1 /
-/// factor + 1 / μ = `pass_band`.
+/// Returns the factor μ of the second step of a Taubin pass, in which the mesh grows. This factor is negative and
+/// satisfies 1 / factor + 1 / μ = `pass_band`.
 pub(super) fn growing_factor(factor: f64, pass_band: f64) -> f64 {
     factor / (pass_band * factor - 1.0)
 }

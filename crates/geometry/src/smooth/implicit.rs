@@ -45,7 +45,7 @@ pub(super) fn step(
     )
 }
 
-/// Solves the equations for the vertices with the given role, and moves these vertices. All other vertices stay in
+/// Solves the equations for the vertices with the given [`Role`], and moves these vertices. All other vertices stay in
 /// place.
 fn solve(
     smoother: &Smoother,

@@ -8,8 +8,8 @@
 //! | [`Method::Denoise`] | filter the normals of the faces, then fit the vertices | `denoise.rs` |
 //!
 //! The result is identical bit for bit for any number of threads. The implicit method uses the solver of
-//! [`sparse`](crate::sparse), whose results do not depend on the number of threads. In all other methods, one thread
-//! computes each new position, and uses only positions from the previous iteration.
+//! [`sparse`](crate::sparse), whose results do not depend on the number of threads. In all other methods, each new
+//! position is computed by a single thread, from positions of the previous iteration only.
 
 mod denoise;
 mod explicit;
@@ -44,7 +44,7 @@ pub enum Method {
         /// `factor` and `pass_band`.
         factor: f64,
         /// The pass band: the frequency below which the filter removes nothing, from 0 to 1. The frequencies of a mesh
-        /// are between 0 and 2.
+        /// are the eigenvalues of its normalized Laplacian, which are between 0 and 2.
         pass_band: f64,
     },
     /// Solves (M + time L) x' = M x for the new positions x', where x are the old positions, L is the
@@ -68,7 +68,8 @@ pub enum Method {
 }
 
 impl Method {
-    /// Whether the method is stable. A method is stable if no frequency above the pass band grows from pass to pass.
+    /// Whether the method is stable. A method is stable if no pass increases the amplitude of a frequency above the
+    /// pass band.
     ///
     /// A Taubin pass multiplies the amplitude of the frequency k by (1 - factor k)(1 - μ k). At the highest frequency,
     /// k = 2, the absolute value of this product must be at most 1.
@@ -118,8 +119,8 @@ pub struct Smoothing<'a> {
     pub is_free: &'a [bool],
     /// How boundary vertices move.
     pub boundary: Boundary,
-    /// Whether the volume of the mesh is preserved. If it is preserved, all free vertices are moved by the same
-    /// distance along their normals after smoothing. The mesh must then be closed.
+    /// Whether the volume of the mesh is preserved. If true, the mesh must be closed, and all free vertices are moved
+    /// by the same distance along their normals after smoothing.
     pub keep_volume: bool,
 }
 
@@ -129,7 +130,7 @@ pub enum SmoothError {
     /// The volume cannot be preserved, because the volume of a mesh with a boundary is not defined.
     #[error("the volume can be preserved only if the mesh is closed, but the mesh has a boundary")]
     NotClosed,
-    /// To restore the volume, all free vertices are moved along their normals. No distance of this movement gave the
+    /// To restore the volume, all free vertices are moved along their normals. No length of this movement restored the
     /// old volume.
     #[error(
         "the volume was {}, and moving the free vertices along their normals gives {} at best; smooth less, or do \

@@ -22,7 +22,8 @@ use front::{Front, Update};
 
 /// The largest number of entries of a factor. This number of entries takes 16 GiB.
 const MAX_ENTRIES: u64 = 1 << 31;
-/// The largest residual with which a solution is accepted, relative to the size of the terms of the equations.
+/// The largest residual with which a solution is accepted, relative to the size of the terms: the largest sum of the
+/// absolute terms of one equation.
 const MAX_RESIDUAL: f64 = 1e-9;
 /// The refinement of a solution stops when its relative residual is at most this number, when the residual hardly
 /// decreases, or after [`REFINEMENTS`] steps.

@@ -56,7 +56,7 @@ struct Quotient {
     next_merged: Vec<u32>,
     degree: Vec<u32>,
     buckets: Buckets,
-    /// The eliminated variables, in order.
+    /// The eliminated variables, in the order of their elimination.
     pivots: Vec<u32>,
     /// For each element, the total weight of those of its members that are not members of the newest element, plus 2³²
     /// times `stamp`.
@@ -145,8 +145,8 @@ impl Quotient {
     }
 
     /// Eliminates a variable with the lowest degree. Also eliminates those of its neighbors that then have no neighbors
-    /// outside the new element. `remaining` is the number of rows that are not eliminated. Returns the number of
-    /// eliminated rows.
+    /// outside the new element (the clique that replaces the variable). `remaining` is the number of rows that are not
+    /// eliminated. Returns the number of eliminated rows.
     fn eliminate(&mut self, remaining: usize) -> usize {
         let p = self.buckets.lowest();
         self.buckets.remove(p, self.degree[p as usize]);
@@ -288,7 +288,6 @@ impl Quotient {
                 .all(|&k| self.mark[k as usize] == self.stamp)
     }
 
-    /// Merges the variable `i` into `into`.
     fn merge(&mut self, i: u32, into: u32) {
         let weight = std::mem::take(&mut self.weight[i as usize]);
         if self.weight[into as usize] > 0 {

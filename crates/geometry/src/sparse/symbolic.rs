@@ -137,7 +137,7 @@ fn postorder(parent: &[u32]) -> Vec<u32> {
     }
     let mut post = Vec::with_capacity(n);
     while let Some(j) = roots.last().copied() {
-        // A column is added to the result when all of its children were taken from its list.
+        // A column is added to the result when its list of children is empty.
         let child = first[j as usize];
         if child == NONE {
             post.push(j);

@@ -27,7 +27,7 @@ const MANY_CORNERS: usize = 64;
 /// The number of triangles that are copied between two progress reports.
 const PART: usize = 1 << 18;
 
-/// The number of triangles between two progress reports.
+/// The number of new triangles between two progress reports, while faces are divided into triangles.
 const REPORT: usize = 16_384;
 
 /// Appends the triangles of a face. A face with at most four corners is divided into a fan of triangles. A face with
@@ -170,7 +170,7 @@ struct Subtree<'a> {
     keys: &'a mut [Key],
     nodes: &'a mut [Node],
     slabs: &'a mut [Slab],
-    /// Empty if the nodes have no oriented boxes.
+    /// The oriented boxes of the nodes. The list is empty if the nodes have no oriented boxes.
     oriented: &'a mut [Oriented],
     /// The position of the first key in the list of all keys.
     first: usize,
@@ -333,7 +333,7 @@ impl Origin {
     }
 }
 
-/// Converts an array index. A mesh has fewer than 2³² half-edges, and fewer triangles than half-edges.
+/// Converts an array index to 32 bits. A mesh has fewer than 2³² half-edges, and fewer triangles than half-edges.
 fn number(i: usize) -> u32 {
     u32::try_from(i).expect("fewer than 2^32 triangles")
 }

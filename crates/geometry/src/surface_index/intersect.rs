@@ -113,7 +113,8 @@ fn intersect(s: &[DVec3; 3], t: &[DVec3; 3]) -> bool {
                 let i = common.iter().position(|c| !c).unwrap_or(0);
                 [t[i], t[(i + 1) % 3], t[(i + 2) % 3]]
             };
-            // If two corners of one triangle are at the same position, both count as corners.
+            // If two corners of `s` are at the same position, both can count as common corners. However, `has_area(s)`
+            // is then false.
             let [p, a, b] = apex(s, in_t);
             let [q, ..] = apex(t, in_s);
             orient3d(p, a, b, q) == Equal && has_area(s) && has_area(t) && {

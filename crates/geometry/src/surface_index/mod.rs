@@ -146,15 +146,16 @@ impl SurfaceIndex {
         self.origins.get(i as usize).map(|origin| origin.face)
     }
 
-    /// Returns the smallest and the largest corner of the bounding box of all triangles.
+    /// Returns two corners of the bounding box of all triangles: the corner with the smallest coordinates and the
+    /// corner with the largest coordinates.
     pub fn bounds(&self) -> [DVec3; 2] {
         [self.nodes[0].min, self.nodes[0].max]
     }
 
-    /// Visits the tree from the root. `enters` decides, from the smallest and the largest corner of a box, whether the
-    /// box is visited. Boxes inside a rejected box are skipped. If a visited box contains no smaller boxes, `found` is
-    /// called with the index of each of its triangles. These can include triangles whose own bounding boxes `enters`
-    /// would reject.
+    /// Visits the tree from the root. `enters` decides whether a box is visited; its arguments are the corners of the
+    /// box with the smallest and with the largest coordinates. Boxes inside a rejected box are skipped. If a visited
+    /// box contains no smaller boxes, `found` is called with the index of each of its triangles. These can include
+    /// triangles whose own bounding boxes `enters` would reject.
     pub fn visit_boxes(
         &self,
         enters: &mut dyn FnMut(DVec3, DVec3) -> bool,
@@ -192,8 +193,8 @@ impl SurfaceIndex {
 }
 
 impl Triangle {
-    /// Returns the barycentric coordinates of the point of the triangle that is nearest to `p`: weights of the three
-    /// corners that are not negative and add up to 1, up to rounding. The weight of a corner is exactly 0 if the
+    /// Returns the barycentric coordinates of the point nearest to `p` on the triangle. They are the weights of the
+    /// three corners, are not negative, and add up to 1, up to rounding. The weight of a corner is exactly 0 if the
     /// nearest point was found on the side opposite this corner. In a zero-area triangle, at most two of the weights
     /// differ from 0: the point lies on one of the sides.
     pub fn barycentric(&self, p: DVec3) -> [f64; 3] {

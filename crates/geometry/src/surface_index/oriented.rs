@@ -14,10 +14,10 @@ use mesh::DVec3;
 use super::SurfaceIndex;
 
 /// The largest number of triangles of a node that gets an oriented box. In a larger node, the triangles usually have
-/// different directions, so that an oriented box would not be smaller than the normal box.
+/// different directions, so that an oriented box would not be smaller than the axis-aligned box.
 const MOST: usize = 512;
 
-/// A triangle is thin if its longest side is at least this number of times as long as its height.
+/// A triangle is thin if its longest side is at least this number of times as long as the height over this side.
 const THIN: f64 = 16.0;
 
 /// A surface has oriented boxes if at least one in this number of its triangles is thin.

@@ -35,9 +35,9 @@ impl SurfaceIndex {
     /// meet triangles that are parallel to it. A ray whose direction is zero, or whose origin or direction is not
     /// finite, meets nothing.
     ///
-    /// Sources: Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", 2013, for the shear that makes the ray
-    /// parallel to an axis. The signs of areas are computed exactly, and an area of zero gets the sign that it would
-    /// have after an infinitely small movement of the ray.
+    /// A shear makes the ray parallel to an axis: Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", 2013.
+    /// The signs of areas are computed exactly, and an area of zero gets the sign that it would have after an
+    /// infinitely small movement of the ray.
     pub fn ray(&self, origin: DVec3, direction: DVec3) -> Option<RayHit> {
         let mut first: Option<RayHit> = None;
         self.visit_ray(origin, direction, &mut |hit| {
@@ -188,8 +188,8 @@ impl Ray {
 
     fn meets(&self, t: &[DVec3; 3], triangle: u32) -> Option<RayHit> {
         let [x, y, z] = self.axes;
-        // A corner that several triangles share is rounded in the same way in all of them, so a closed surface is still
-        // closed after the translation.
+        // This translation rounds a corner in the same way in all triangles that share the corner, so a closed surface
+        // is still closed afterwards.
         let moved = t.map(|p| p - self.origin);
         let flat = moved.map(|p| DVec2::new(p[x], p[y]) - self.shear * p[z]);
         let turn = |i: usize| side_of_origin(flat[(i + 1) % 3], flat[(i + 2) % 3]);

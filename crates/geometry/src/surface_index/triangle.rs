@@ -97,9 +97,9 @@ pub fn triangle_distance(s: &[DVec3; 3], t: &[DVec3; 3]) -> f64 {
     corners.chain(pairs).fold(f64::INFINITY, f64::min)
 }
 
-/// Returns the barycentric coordinates of the point of a triangle that is nearest to `p`. The point is found with the
-/// same Voronoi regions as in [`nearest_on_triangle`]. If the point lies on a side or at a corner, the weights of all
-/// other corners are exactly 0.
+/// Returns the barycentric coordinates of the point nearest to `p` on a triangle. The point is found with the same
+/// Voronoi regions as in [`nearest_on_triangle`]. If the point lies at a corner, the weights of the two other corners
+/// are exactly 0. If the point lies on a side, the weight of the corner opposite this side is exactly 0.
 pub(super) fn nearest_weights(p: DVec3, &[a, b, c]: &[DVec3; 3]) -> [f64; 3] {
     let (ab, ac) = (b - a, c - a);
     if ab.cross(ac) == DVec3::ZERO {

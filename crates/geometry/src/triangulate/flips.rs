@@ -17,9 +17,9 @@ use mesh::DVec2;
 use super::sort::sort_unless;
 use super::{Triangle, with_sorted_corners};
 
-/// The largest number of flips, divided by the number of corners of the polygon. Without this limit, the number of
-/// flips can grow with the square of the number of corners, for example in a long, bent corridor. Polygons with at most
-/// 4096 corners never reach the limit.
+/// The largest number of flips is this number times the number of corners of the polygon. Without this limit, the
+/// number of flips can grow with the square of the number of corners, for example in a long, bent corridor. Polygons
+/// with at most 4096 corners never reach the limit.
 const MAX_FLIPS: usize = 1024;
 /// The number of diagonals that are examined between two checks for cancellation.
 const CHECK: usize = 1 << 16;

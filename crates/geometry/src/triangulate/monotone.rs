@@ -56,8 +56,8 @@ pub(super) fn triangulate(
 
 struct Polygon<'a> {
     points: &'a [[f64; 2]],
-    /// The corners in the order in which the horizontal line reaches them, from top to bottom. Of corners at the same
-    /// height, the left one comes first.
+    /// The corners from top to bottom, which is the order in which the horizontal sweep line reaches them. Of corners
+    /// at the same height, the left one comes first.
     order: Vec<u32>,
     /// For each corner, its index in `order`.
     rank: Vec<u32>,
@@ -91,8 +91,8 @@ impl<'a> Polygon<'a> {
     /// sorted by their second corner, and an inner diagonal comes before an outer one.
     fn diagonals(&self, is_cancelled: &dyn Fn() -> bool) -> Option<Vec<[u32; 2]>> {
         let n = u32::try_from(self.points.len()).expect("corners fit 32 bits");
-        // The sides of the polygon that the horizontal line meets now and that have the inside of the polygon on their
-        // right.
+        // The sides of the polygon that the horizontal sweep line meets now and that have the inside of the polygon on
+        // their right.
         let mut sides: BTreeSet<Side> = BTreeSet::new();
         // For each side in `sides`, its helper: the last corner so far whose nearest side to the left is this side. The
         // index in `helpers` is the first corner of the side.
@@ -188,8 +188,8 @@ impl<'a> Polygon<'a> {
     }
 }
 
-/// A side of the polygon that the horizontal line meets. The same type is used to search for the side to the left of a
-/// corner: then `upper` is the corner, and `lower` is one of the two corners next to it.
+/// A side of the polygon that the horizontal sweep line meets. The same type is used to search for the side to the left
+/// of a corner: then `upper` is the corner, and `lower` is one of the two corners next to it.
 #[derive(Clone, Copy)]
 struct Side {
     upper: DVec2,
@@ -253,7 +253,7 @@ mod tests {
         [radius * libm::cos(angle), radius * libm::sin(angle)]
     }
 
-    /// Returns the next number of a sequence, from 0 to 1, exclusive.
+    /// Returns the next number of a sequence. All numbers are from 0 to 1.
     fn next(state: &mut u64) -> f64 {
         *state = state
             .wrapping_mul(6_364_136_223_846_793_005)
@@ -261,7 +261,7 @@ mod tests {
         (*state >> 32) as f64 / f64::from(u32::MAX)
     }
 
-    /// A zigzag of this width whose corners are far apart: the worst case for ear clipping.
+    /// A zigzag band with `n` corners that are far apart: the worst case for ear clipping.
     fn comb(n: u32) -> Vec<[f64; 2]> {
         let upper = |i: u32| if i.is_multiple_of(2) { 0.0 } else { 100.0 };
         let there = (0..n / 2).map(|i| [f64::from(i), upper(i)]);

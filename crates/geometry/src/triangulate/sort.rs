@@ -7,7 +7,7 @@ use std::cmp::Ordering;
 const BLOCK: usize = 1 << 16;
 
 /// Sorts a list. If the list has more than 65,536 elements, `is_cancelled` is called many times. If `is_cancelled`
-/// returns `true`, the function returns `None`, and the list has the same elements in any order.
+/// returns `true`, the function returns `None`, and the list has the same elements in an unspecified order.
 pub(super) fn sort_unless<T: Copy>(
     is_cancelled: &dyn Fn() -> bool,
     list: &mut Vec<T>,

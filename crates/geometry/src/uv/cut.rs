@@ -186,7 +186,7 @@ pub(super) fn chart(
     Ok(Err((part, failure)))
 }
 
-/// Checks a map of a part into the plane: no triangle must be mirrored or overlap another triangle, and the stretch
+/// Checks a map of a part into the plane: triangles must neither be mirrored nor overlap each other, and the stretch
 /// must be within the limits.
 fn check(
     part: &Part,

@@ -34,7 +34,7 @@ pub(super) fn dissolve(
     let mut order: Vec<usize> = (0..charts.len()).collect();
     order.sort_by(|&a, &b| areas[a].total_cmp(&areas[b]).then(a.cmp(&b)));
     let mut charts: Vec<Option<Chart>> = charts.into_iter().map(Some).collect();
-    // The work that can still be done, in comparisons of normals.
+    // The work that can still be done, counted in comparisons of normals.
     let mut left = FLATTEN * (4 * surface.areas.len() + 20_000);
     for c in order {
         if left == 0 {
@@ -43,7 +43,7 @@ pub(super) fn dissolve(
         let Some(faces) = charts[c].as_ref().map(|c| c.part.faces.clone()) else {
             continue;
         };
-        // The charts that would exceed the limits with the faces that are nearest to them.
+        // The charts that would exceed the limits if they got the faces that are nearest to them.
         let mut refused = BTreeSet::from([number(c), u32::MAX]);
         loop {
             let grown = grow(surface, &faces, &chart_of, &charts, &refused, progress)?;

@@ -127,8 +127,8 @@ fn conformal(
 ) -> Result<Vec<DVec2>, SolveError> {
     let n = part.points.len();
     let start = project(part);
-    // The equations have exactly one solution if the positions of two vertices are fixed. These are the two extreme
-    // vertices of the projection, along the longer side of its bounding box.
+    // The equations have exactly one solution if the positions of two vertices are fixed. The two fixed vertices are
+    // the two ends of the projection along the longer side of the bounding box of the projection.
     let (low, high) = start
         .iter()
         .fold((DVec2::MAX, DVec2::MIN), |(low, high), &p| {

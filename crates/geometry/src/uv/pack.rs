@@ -205,8 +205,8 @@ fn generate(input: &[MeshInput], page: Page, progress: &dyn Progress) -> Result<
     };
     let listen = |report: uvunwrap::Progress| {
         let done = report.done as u64;
-        // The total number of packing attempts is not always known in advance. If it is not, one more attempt is
-        // assumed.
+        // The total number of packing attempts is not always known in advance. If the number is unknown, one more
+        // attempt is assumed.
         let total = report.total.map_or(done + 1, |total| total as u64);
         progress.advance("pack charts", done.min(total), total)
     };

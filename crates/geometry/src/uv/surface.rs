@@ -57,12 +57,10 @@ impl<'a> Surface<'a> {
         surface
     }
 
-    /// Returns the triangles of a face.
     pub(super) fn triangles_of(&self, f: u32) -> &[[HalfEdgeId; 3]] {
         &self.triangles[self.starts[f as usize]..self.starts[f as usize + 1]]
     }
 
-    /// Returns the half-edges of a face.
     pub(super) fn half_edges(&self, f: u32) -> impl Iterator<Item = HalfEdgeId> + '_ {
         self.mesh.face_half_edges(FaceId::new(f as usize))
     }
@@ -81,14 +79,13 @@ impl<'a> Surface<'a> {
             .filter_map(|h| Some((h, self.across(h)?)))
     }
 
-    /// Returns the length of an edge.
     pub(super) fn length(&self, h: HalfEdgeId) -> f64 {
         let [a, b] = [h, self.mesh.next(h)].map(|h| self.positions[self.mesh.origin(h).index()]);
         a.distance(b)
     }
 }
 
-/// Whether the area of a triangle does not count as zero.
+/// Whether the area of a triangle counts as nonzero.
 pub(super) fn is_solid([a, b, c]: [DVec3; 3]) -> bool {
     let sides = [a - b, b - c, c - a].map(DVec3::length_squared);
     let longest = sides[0].max(sides[1]).max(sides[2]);

@@ -62,8 +62,8 @@ pub(super) fn parsed(text: &str) -> Result<Xml<'_>, Fault> {
 }
 
 /// Refuses text for which the XML parser would take too much time or memory. The parser allocates an entry for each `<`
-/// and `=`, compares all attributes of an element with each other, and copies the list of all namespaces for each
-/// element that declares a namespace.
+/// and `=`, and compares all attributes of an element with each other. For each element that declares a namespace, the
+/// parser copies the list of all namespaces.
 fn check_size(text: &str) -> Result<(), Fault> {
     const MAX_ATTRIBUTES: usize = 200;
     const MAX_NAMESPACES: usize = 50;
@@ -294,7 +294,7 @@ fn place(node: Node) -> TextPosition {
     place_at(node.document().input_text(), node.range().start)
 }
 
-/// Creates an error at the beginning of an element.
+/// Creates an error whose position is the beginning of an element.
 pub(super) fn error_at(node: Node, message: impl Into<String>) -> Fault {
     let what = format!("<{}>: {}", node.tag_name().name(), message.into());
     place(node).error(what)
@@ -388,7 +388,7 @@ fn word_place(node: Node, word: &str) -> TextPosition {
     }
 }
 
-/// Creates an error at the position of word `k`. Words are counted from 0 over the texts of all `lists`.
+/// Creates an error whose position is that of word `k`. Words are counted from 0 over the texts of all `lists`.
 pub(super) fn word_error(lists: &[Node], mut k: usize, message: String) -> Fault {
     for &list in lists {
         for word in words(list) {

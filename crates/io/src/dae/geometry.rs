@@ -48,7 +48,7 @@ pub(super) struct Geometries<'a, 'd> {
     sources: BTreeMap<(u32, usize), Rc<Vectors>>,
 }
 
-/// What the vectors of an input mean.
+/// What the vectors of an `<input>` element mean.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Normal,
@@ -58,12 +58,12 @@ enum Kind {
 
 struct Input<'a> {
     kind: Kind,
-    /// The position, among the indices of a corner, of the index for this input.
+    /// Each corner has several indices. `offset` is the position, counted from 0, of the index for this input.
     offset: usize,
     source: Node<'a>,
 }
 
-/// The inputs of a list of polygons.
+/// The `<input>` elements of a list of polygons.
 struct Inputs<'a> {
     /// The number of indices per corner.
     stride: usize,
@@ -226,8 +226,8 @@ impl<'a, 'd> Geometries<'a, 'd> {
         for &input in &of_vertices {
             add(input, vertex)?;
         }
-        // The inputs of the vertices are read again for each list of polygons. Therefore, their cost is taken from the
-        // memory budget for each list.
+        // The inputs of the vertices are read again for each list of polygons. Therefore, their cost is subtracted from
+        // the memory budget once for each list.
         self.document.take(list, cost::NUMBER * of_vertices.len())?;
         Ok(Inputs {
             stride,
@@ -312,7 +312,8 @@ impl<'a, 'd> Geometries<'a, 'd> {
 }
 
 impl Columns {
-    /// Adds the columns to `polygons`. Corners without a value get zero, or white for colors.
+    /// Adds the attributes to `polygons`. If an attribute has no value for a corner, the corner gets zero or, for
+    /// colors, white.
     fn finish(mut self, polygons: &mut Polygons) {
         let n = polygons.corners.len();
         if !self.normals.is_empty() {

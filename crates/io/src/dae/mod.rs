@@ -1,4 +1,4 @@
-//! Reads COLLADA 1.4 and 1.5 (`.dae`). These files cannot be written.
+//! Reads COLLADA 1.4 and 1.5 (`.dae`). The program does not write COLLADA files.
 //!
 //! ```text
 //! visual_scene --- node --- node --- instance_geometry --- geometry --- mesh --- polylist --- source
@@ -27,8 +27,8 @@
 //! scene, each of its geometries becomes an object. A file can refer to other files, of which only images are read.
 //!
 //! Document type declarations are refused, so that entities cannot expand. A file can instantiate the same content
-//! several times, but the total memory for its content is limited to 64 times the size of the file, or to 16 MiB if
-//! that is more.
+//! several times. The total memory for this content is limited to 64 times the size of the file. The limit is never
+//! less than 16 MiB.
 
 mod cost;
 mod document;
@@ -68,7 +68,7 @@ pub(crate) fn read(
     })
 }
 
-/// Returns the objects that reading the file would give, with the numbers of their elements.
+/// Returns the objects that reading the file would give, with their element counts.
 ///
 /// # Errors
 ///

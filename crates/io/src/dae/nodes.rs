@@ -185,8 +185,8 @@ impl<'a, 'd> Walk<'a, 'd> {
                 );
                 continue;
             };
-            // The name of the object is stored several times, so the length of the name is also taken from the memory
-            // budget.
+            // The name of the object is stored several times, so the length of the name is also subtracted from the
+            // memory budget.
             let names = name(node).len() + name(geometry).len();
             self.document.take(instance, cost::OBJECT + 8 * names)?;
             let materials = self.bound_materials(instance)?;

@@ -1,4 +1,4 @@
-//! Reads how the indices of a list form polygons. They form triangles, polygons with declared numbers of corners,
+//! Reads how the indices of a list form polygons. The indices form triangles, polygons with declared corner counts,
 //! strips or fans.
 
 use super::document::{

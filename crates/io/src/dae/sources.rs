@@ -41,7 +41,7 @@ impl Vectors {
 ///
 /// # Errors
 ///
-/// Returns an error if the source is invalid or has fewer than `least` components.
+/// Returns an error if the source is invalid or its vectors have fewer than `least` components.
 pub(super) fn vectors(
     document: &Document,
     source: Node,

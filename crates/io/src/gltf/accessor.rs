@@ -14,8 +14,8 @@ use super::views::{Reader, Rows};
 use crate::fault::Fault;
 use mesh::parallel;
 
-/// An accessor without a buffer view is allowed to have this number of elements even in a tiny file. All elements of
-/// such an accessor are zero, unless sparse values replace them.
+/// An accessor without a buffer view is allowed to have up to this number of elements even in a tiny file. All elements
+/// of such an accessor are zero, unless sparse values replace them.
 const MIN_ZEROS: u64 = 1 << 16;
 impl Reader<'_> {
     /// The number of elements of an accessor.
@@ -64,7 +64,8 @@ impl Reader<'_> {
         Err(Fault::json(format!("{here}/componentType"), message))
     }
 
-    /// Reads the elements of an accessor of this type. Returns their numbers in one list, rounded to 32 bits.
+    /// Reads the elements of an accessor of this type. Returns the components of all elements in one list, rounded to
+    /// 32 bits.
     ///
     /// # Errors
     ///
@@ -211,7 +212,8 @@ impl Reader<'_> {
             ComponentType::U8 | ComponentType::U16 => {
                 self.elements(index, 1, component, 0, |bytes| whole(bytes, component))
             }
-            // Because the component type is known at compile time here, the compiler turns the loop into a copy.
+            // Because the component type is known at compile time here, the compiler replaces the loop by a copy of
+            // memory.
             ComponentType::U32 => self.elements(index, 1, component, 0, |bytes| {
                 whole(bytes, ComponentType::U32)
             }),
@@ -312,8 +314,8 @@ impl Reader<'_> {
         };
         let n = sparse.count.0;
         // Sparse values need no additional memory, but the reader applies them again each time the accessor is read.
-        // Therefore, the size of the sparse values is taken from the memory budget each time, to limit the time for
-        // reading.
+        // Therefore, the size of the sparse values is subtracted from the memory budget each time, to limit the time
+        // for reading.
         self.budget.spend(n.saturating_mul(size as u64), &here)?;
         let (indices, values) = (&sparse.indices, &sparse.values);
         let (at, view) = (format!("{here}/indices"), indices.buffer_view.value());

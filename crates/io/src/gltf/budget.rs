@@ -10,17 +10,17 @@ const BUDGET_FACTOR: u64 = 64;
 /// The smallest memory budget of a file, in bytes.
 const MIN_BUDGET: u64 = 1 << 24;
 
-/// A byte of a buffer with compressed views increases the memory budget of the file this many times as much as a byte
-/// of uncompressed data. Compressed data needs a larger budget, because it gives a larger mesh than uncompressed data
-/// of the same size. On average, a triangle with its vertices takes two bytes in a compressed view, and at least twenty
-/// bytes in an uncompressed view.
+/// A byte of a buffer increases the memory budget of the file. If the buffer has compressed views, the increase is
+/// multiplied by this factor. Compressed data needs a larger budget, because it gives a larger mesh than uncompressed
+/// data of the same size. On average, a triangle with its vertices takes two bytes in a compressed view, and at least
+/// twenty bytes in an uncompressed view.
 const COMPRESSED: u64 = 4;
 
 /// The memory that can still be used, in bytes.
 #[derive(Default)]
 pub(super) struct Budget {
     left: Cell<u64>,
-    /// The number of bytes that is left for decoded views.
+    /// The number of bytes that is left for the decoded data of compressed views.
     inflation: Cell<u64>,
 }
 
@@ -56,7 +56,7 @@ impl Budget {
         bytes <= self.left.get()
     }
 
-    /// Takes bytes from the memory budget. The budget limits memory even if many parts of a file refer to the same
+    /// Subtracts bytes from the memory budget. The budget limits memory even if many parts of a file refer to the same
     /// bytes. `pointer` is the JSON pointer of the part that needs the memory.
     ///
     /// # Errors
@@ -74,10 +74,10 @@ impl Budget {
         Ok(())
     }
 
-    /// Takes the decoded size of a compressed view from the budget, and returns it as a `usize`. The decoded sizes of
-    /// all views together have a limit of their own, because a stream of zeros can be a thousand times smaller than its
-    /// decoded data. Real files do not consist of zeros, so they do not reach this limit. `pointer` is the JSON pointer
-    /// of the part that needs the memory.
+    /// Subtracts the decoded size of a compressed view from the budget, and returns this size as a `usize`. The decoded
+    /// sizes of all views together have a limit of their own, because a stream of zeros can be a thousand times smaller
+    /// than its decoded data. Real files do not consist of zeros, so they do not reach this limit. `pointer` is the
+    /// JSON pointer of the part that needs the memory.
     ///
     /// # Errors
     ///

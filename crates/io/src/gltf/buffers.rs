@@ -98,8 +98,8 @@ pub(super) fn container(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Fault> {
 
 /// Loads the bytes of all buffers. `binary` is the binary chunk of a GLB file. The chunk is not copied. When a file
 /// next to the document is read for the first time, the memory budget grows with the number of bytes read. If another
-/// buffer refers to a file that was read before, the length of this buffer is taken from the budget. Buffers that are
-/// marked in `fallbacks` are not read and stay empty.
+/// buffer refers to a file that was read before, the length of this buffer is subtracted from the budget. Buffers that
+/// are marked in `fallbacks` are not read and stay empty.
 ///
 /// # Errors
 ///

@@ -17,7 +17,7 @@ use super::deformers::Deformers;
 use super::views::Reader;
 use crate::fault::Fault;
 
-/// The sum of the weights of a vertex is accepted as 1 if it differs from 1 by at most this tolerance times the number
+/// The weights of a vertex count as normalized if their sum differs from 1 by at most this tolerance times the number
 /// of weights. The Khronos validator uses the same tolerance.
 pub(super) const WEIGHT_TOLERANCE: f64 = 2e-7;
 
@@ -211,12 +211,12 @@ pub(super) fn morphs(
 /// The normals or tangents of a mesh, and the morph targets that change them.
 pub(super) struct Directions {
     semantic: Semantic,
-    /// Returns the accessor with the changes that a morph target makes to these directions.
+    /// Returns the accessor with the changes that a morph target makes to the normals or tangents.
     changes: fn(&MorphTarget) -> Option<&Index<Accessor>>,
-    /// Returns the name of the attribute that stores the directions changed by a morph target.
+    /// Returns the name of the attribute that stores the normals or tangents changed by a morph target.
     name: fn(usize) -> String,
     rule: Rule,
-    /// The indices of the morph targets that change these directions, in ascending order.
+    /// The indices of the morph targets that change the normals or tangents, in ascending order.
     targets: Vec<usize>,
 }
 
@@ -245,8 +245,8 @@ impl Directions {
         tangents.of(primitives)
     }
 
-    /// Finds the morph targets that change these directions. The changes of a primitive are ignored if the primitive
-    /// does not have these directions itself.
+    /// Finds the morph targets that change the directions (normals or tangents). The changes of a primitive are ignored
+    /// if the primitive itself has no such directions.
     fn of(mut self, primitives: &[Primitive]) -> Self {
         let semantic = Checked::Valid(self.semantic.clone());
         let primitives = primitives.iter();
@@ -258,15 +258,15 @@ impl Directions {
         self
     }
 
-    /// Returns the names of the attributes with the changed directions.
+    /// Returns the names of the attributes with the changed normals or tangents.
     pub(super) fn names(&self) -> impl Iterator<Item = String> {
         self.targets.iter().map(|&t| (self.name)(t))
     }
 
-    /// Reads the directions that result if a morph target has the weight 1, into one column of `n` values for each
-    /// target. `own` contains the unchanged directions of the primitive. Each direction has three or more numbers, of
-    /// which morph targets change the first three. If the primitive has no directions, the columns are zero. `here` is
-    /// the location of the primitive, for errors.
+    /// Reads the directions (normals or tangents) that result if a morph target has the weight 1, into one column of
+    /// `n` values for each target. `own` contains the unchanged directions of the primitive. Each direction has three
+    /// or more numbers, of which morph targets change the first three. If the primitive has no directions, the columns
+    /// are zero. `here` is the location of the primitive, for errors.
     ///
     /// # Errors
     ///

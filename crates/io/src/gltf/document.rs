@@ -78,8 +78,8 @@ impl Document {
         check_version(json)?;
         check_extensions(json, notes)?;
         let views: Vec<View> = pieces(json, "bufferViews", budget)?;
-        // The reader stores additional data for each buffer view. The memory of this data is also taken from the memory
-        // budget of the file.
+        // The reader stores additional data for each buffer view. The size of this data is also subtracted from the
+        // memory budget of the file.
         let more = views.len() * size_of::<(Option<Compressed>, OnceCell<Vec<u8>>)>();
         budget.spend(more as u64, "/bufferViews")?;
         let compressed = meshopt::compressed(list(json, "bufferViews")?)?;
@@ -252,8 +252,8 @@ fn check_rig(document: &Document) -> Result<(), Fault> {
     Ok(())
 }
 
-/// Returns the parts of the document that are stored unchanged: the asset without the members that the writer sets, the
-/// name and the extras of the scene, and the extras of the document.
+/// Returns the parts of the document that are stored unchanged: the copyright and the extras of `asset`, the name and
+/// the extras of the scene, and the extras of the document.
 fn kept(json: &Value) -> BTreeMap<String, String> {
     let only = |json: Option<&Value>, keys: &[&str]| -> Json {
         let members = json.and_then(Value::as_object).into_iter().flatten();
@@ -367,7 +367,7 @@ fn pieces<T: DeserializeOwned>(json: &Value, key: &str, budget: &Budget) -> Resu
     };
     let list = list(json, key)?;
     budget.spend((list.len() * size_of::<T>()) as u64, &format!("/{key}"))?;
-    // Exactly this capacity is allocated, because exactly this size was taken from the memory budget.
+    // Exactly this capacity is allocated, because exactly this size was subtracted from the memory budget.
     let mut pieces = Vec::with_capacity(list.len());
     for numbered in list.iter().enumerate() {
         pieces.push(piece(numbered)?);

@@ -99,8 +99,8 @@ fn arrays(reader: &Reader, compressed: &Compressed) -> Result<Vec<(usize, Vec<u8
             wanted.push((accessor, name, *id, kind.multiplicity(), component));
         }
     }
-    // The memory that the decoder allocates depends on the counts that the file declares. This memory is taken from the
-    // memory budget before the decoder starts, so wrong counts cause an error.
+    // The memory that the decoder allocates depends on the counts that the file declares. The size of this memory is
+    // subtracted from the memory budget before the decoder starts. Therefore, counts that are too high cause an error.
     let size: usize = wanted
         .iter()
         .map(|(.., n, component)| n * component.size())

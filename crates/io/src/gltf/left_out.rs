@@ -12,8 +12,8 @@ use super::morph_values::is_changeable;
 use super::surface::MaterialJson;
 use crate::note::Notes;
 
-/// Adds notes for the content of a document that is left out. Only content that can be counted without the buffers is
-/// counted.
+/// Adds notes for the content of a document that is left out. Only content that can be counted without reading the
+/// buffers is counted.
 pub(super) fn note_left_out(json: &Value, document: &Document, notes: &mut Notes) {
     let used = Used::of(document);
     for (code, flags, what) in [

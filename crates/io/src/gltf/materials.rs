@@ -252,6 +252,7 @@ fn unit(x: f64) -> f64 {
 )]
 pub(super) fn rounded(x: f64) -> f64 {
     let x = (x as f32).clamp(f32::MIN, f32::MAX);
-    // The shortest decimal form of the 32-bit number is parsed as a 64-bit number. So 0.8, for example, stays 0.8.
+    // The shortest decimal form of the 32-bit number is parsed as a 64-bit number. So 0.8, for example, stays 0.8 and
+    // does not become 0.800000011920929.
     x.to_string().parse().unwrap_or(f64::from(x))
 }

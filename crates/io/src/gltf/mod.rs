@@ -75,8 +75,8 @@
 //! - each vertex has at most four joints, or at most as many as in the file that was read,
 //! - normals are normalized, and colors are clamped to 0 to 1,
 //! - the following content is lost: isolated vertices, empty meshes, unused materials, embedded images other than PNG
-//!   and JPEG, vertex tangents, tangents without normals, integers, tags, sets of texture coordinates after a gap in
-//!   their numbering, and attributes of edges and faces (except `material`).
+//!   and JPEG, vertex tangents, tangents without normals, integer attributes, tags, sets of texture coordinates after a
+//!   gap in their numbering, and attributes of edges and faces (except `material`).
 //!
 //! If the [`WriteOptions`](crate::WriteOptions) request it, the module `quantize` quantizes arrays, and the module
 //! `compress` compresses them.
@@ -85,8 +85,8 @@
 //! a [`Note`](crate::Note).
 //!
 //! A file can use the same content several times, such as a mesh that several nodes reference. However, the memory for
-//! all content together is limited to 64 times the size of the file (more if the content is compressed), or to 16 MiB
-//! if that is more.
+//! all content together is limited to 64 times the size of the file, or more if the content is compressed. The limit is
+//! never less than 16 MiB.
 //!
 //! Each part of the JSON is deserialized separately into the types of `gltf_json`. Therefore, an error is reported with
 //! the JSON pointer of the part in which it occurs. Errors in parts that are not read are ignored.

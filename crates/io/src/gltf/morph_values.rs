@@ -140,7 +140,7 @@ impl<'a> ValueChanges<'a> {
             let is_color = *semantic == Semantic::Colors(0);
             let values = match accessor {
                 Some(accessor) if is_color => {
-                    // Changes with three numbers do not change alpha.
+                    // If the change of a color has only three numbers, alpha does not change.
                     let kinds = &[Type::Vec3, Type::Vec4];
                     let changes = reader.vectors(accessor, &at, kinds, 0.0, DVec4::from_array)?;
                     DVec4::wrap(changes)

@@ -321,8 +321,8 @@ fn first_name<'a>(names: [&'a Option<String>; 2], otherwise: &'a str) -> &'a str
         .map_or(otherwise, |name| name)
 }
 
-/// Takes the minimum size of an object from the memory budget. The size includes the memory of its name, which is
-/// stored several times.
+/// Subtracts the minimum size of an object from the memory budget. The size includes the memory of the object name,
+/// which is stored several times.
 fn spend(name: &str, node: usize, budget: &Budget) -> Result<(), Fault> {
     let bytes = Budget::OBJECT + 8 * name.len() as u64;
     budget.spend(bytes, &format!("/nodes/{node}"))

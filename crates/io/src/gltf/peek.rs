@@ -30,8 +30,8 @@ use crate::images::note_missing;
 use crate::note::Notes;
 use crate::peek::{PeekGeometry, PeekMesh, PeekObject};
 
-/// Returns the objects of a glTF file with the numbers of their elements, and notes on content that is left out. Only
-/// the JSON of the file is used.
+/// Returns the objects of a glTF file with their element counts, and notes on content that is left out. Only the JSON
+/// of the file is used.
 ///
 /// # Errors
 ///

@@ -72,7 +72,7 @@ impl<'a> PreparedObject<'a> {
         losses.add(None, "mesh", is_empty, reason);
         let bounds = bounds(mesh, &split).map_err(|v| {
             let message = format!(
-                "the position {} of {v} exceeds the range of the 32-bit numbers of glTF",
+                "the position {} of the vertex {v} exceeds the range of the 32-bit floats of glTF",
                 mesh.position(v)
             );
             Unwritable::object(&object.name, message)

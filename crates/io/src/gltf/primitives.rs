@@ -22,9 +22,9 @@ use crate::fault::Fault;
 use crate::note::Notes;
 use mesh::parallel;
 
-/// If a primitive lacks an attribute that another primitive of the mesh has, default values are stored for it. For each
-/// such attribute, this number of bytes is taken from the memory budget, in addition to the bytes of the default
-/// values. This charge limits the time for files with many primitives and attributes.
+/// If a primitive lacks an attribute that another primitive of the mesh has, default values are stored for this
+/// attribute. For each such attribute, this number of bytes is subtracted from the memory budget, in addition to the
+/// bytes of the default values. This charge limits the time for files with many primitives and attributes.
 const MISSING_ATTRIBUTE_CHARGE: u64 = 16;
 
 /// All primitives of a mesh. A vertex on a seam is stored once for each side of the seam, as in glTF.
@@ -290,7 +290,7 @@ impl Triangles {
     }
 
     /// Returns how many attributes of earlier primitives the current primitive lacks. The current primitive has `n`
-    /// vertices with the attributes `own`. The missing values will be set to zero; their memory is taken from the
+    /// vertices with the attributes `own`. The missing values will be set to zero. Their size is subtracted from the
     /// memory budget.
     ///
     /// # Errors

@@ -92,7 +92,8 @@ impl<'a> Quantizer<'a> {
         let name = &prepared.object.name;
         if !prepared.deformation.is_none() {
             // Meshes with joints or morph targets are not quantized. A skinned mesh ignores the transform of its node,
-            // so a grid node would have no effect, and the deltas of morph targets would need the same grid.
+            // so a grid node would have no effect. In a mesh with morph targets, the deltas would need the same grid as
+            // the positions.
             let reason = "the object has joints or morph targets".to_owned();
             let what = (name.clone(), "positions".to_owned(), reason);
             self.report.unquantized.push(what);
@@ -390,7 +391,7 @@ fn fractions(prepared: &PreparedObject, stream: &Stream, bits: Bits) -> (Integer
 }
 
 /// Maps a point of the unit sphere to the unfolded octahedron and rounds it there. The first two numbers of the result
-/// are its coordinates, and the third number is the integer that represents 1.
+/// are the coordinates of the rounded point. The third number is the integer that represents 1.
 ///
 /// Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", 2014, section 3.3.
 fn octahedral(v: DVec3, bits: Bits) -> [i16; 3] {
@@ -410,9 +411,9 @@ fn octahedral(v: DVec3, bits: Bits) -> [i16; 3] {
 }
 
 /// Returns an upper bound for the factor by which a map stretches lengths. The exact factor is the square root of the
-/// largest eigenvalue of M^T M, where M is the matrix of the map. For each column of M^T M, the absolute values are
-/// added; no eigenvalue exceeds the largest of these sums. The bound is exact if M scales along each axis and then
-/// rotates.
+/// largest eigenvalue of M^T M, where M is the matrix of the map. In each column of M^T M, the absolute values of the
+/// entries are added. No eigenvalue exceeds the largest of these sums. The bound is exact if M scales along each axis
+/// and then rotates.
 fn stretch(map: &DAffine3) -> f64 {
     let m = map.matrix3;
     let square = m.transpose() * m;

@@ -146,7 +146,7 @@ impl<'a, 'r> RigReader<'a, 'r> {
             extras: json.extras.as_ref().map(ToString::to_string),
             ..Animation::default()
         };
-        // For each sampler that is read, its index in the animation.
+        // For each sampler of the file that is read, its index in `animation`.
         let mut samplers: BTreeMap<usize, usize> = BTreeMap::new();
         for channel in &json.channels {
             let property = match channel.target.path.as_str() {

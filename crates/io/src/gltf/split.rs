@@ -12,7 +12,8 @@ use mesh::parallel::{self, BLOCK};
 
 /// The maximum number of comparisons for a corner. A corner is compared with the other corners around its vertex,
 /// beginning with the latest one. This limit keeps the time for a vertex with a million corners linear. If the corners
-/// of a vertex have more distinct combinations of values, equal corners can become different vertices.
+/// of a vertex have more distinct combinations of values than this maximum, equal corners can become different
+/// vertices.
 const MAX_COMPARED: usize = 64;
 
 /// The glTF vertices. Without reordering, they are in the order of the vertices of the mesh.
@@ -87,8 +88,8 @@ pub(super) fn note_changed(stream: &Stream, mesh: &Mesh, split: &Split, losses: 
     losses.add(stream.domain, &stream.column.name, changed, stream.change());
 }
 
-/// Splits the vertices of a mesh that has no removed elements. Isolated vertices are left out. If the reader made
-/// copies of a vertex, the copies are merged with it again, unless their values differ.
+/// Splits the vertices of a mesh. The arrays of the mesh must have no gaps from removed elements. Isolated vertices are
+/// left out. If the reader made copies of a vertex, the copies are merged with it again, unless their values differ.
 pub(super) fn split(mesh: &Mesh, streams: &[Stream]) -> Split {
     let file = FileVertices::of(mesh);
     // If there are no copies, all corners of a vertex have the same values of vertex attributes, so only corner

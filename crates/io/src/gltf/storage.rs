@@ -8,7 +8,8 @@ use mesh::{
 use super::names::custom_semantic;
 use crate::Storage;
 
-/// Returns how much of an attribute a file stores. `has` says whether the mesh has another attribute.
+/// Returns how much of an attribute a file stores. `has` returns whether the mesh has an attribute with a given domain
+/// and name.
 pub(crate) fn storage(
     domain: Domain,
     name: &str,
@@ -17,7 +18,7 @@ pub(crate) fn storage(
 ) -> Storage {
     use Storage::{Kept, Lost, Partial};
     let kept_if = |is_kept| if is_kept { Kept } else { Lost };
-    // Corner attributes take precedence over vertex attributes.
+    // A corner attribute takes precedence over a vertex attribute of the same name.
     let is_hidden = domain == Domain::Vertex && has(Domain::Corner, name);
     let has_normals = || has(Domain::Corner, "normal") || has(Domain::Vertex, "normal");
     match (domain, name, values) {
@@ -66,7 +67,8 @@ pub(crate) fn storage(
     }
 }
 
-/// Whether a mesh has these texture coordinates and all sets before them. `has` says whether the mesh has an attribute.
+/// Whether a mesh has these texture coordinates and all sets before them. `has` returns whether the mesh has an
+/// attribute with a given domain and name.
 fn has_uvs(name: &str, has: &dyn Fn(Domain, &str) -> bool) -> bool {
     let lower = 0..uv_set(name).unwrap_or_default();
     let name_of = |set| match set {

@@ -62,7 +62,7 @@ pub(super) fn streams<'a>(
     for domain in [Domain::Corner, Domain::Vertex] {
         for column in mesh.attributes().of(domain) {
             if let Some(stream) = stream(domain, column, n_uvs)
-                // Corner attributes take precedence over vertex attributes.
+                // A corner attribute takes precedence over a vertex attribute of the same name.
                 && streams.iter().all(|other| other.semantic != stream.semantic)
             {
                 streams.push(stream);
@@ -95,7 +95,7 @@ pub(super) fn streams<'a>(
         let is_material = domain == Domain::Face && column.name == mesh::MATERIAL.name;
         is_deformer(domain, column)
             || is_mark(domain, column)
-            // If a morph target is not written, the loss that is reported for the target also covers the other
+            // If a morph target is not written, only one loss is reported for the target. This loss includes the other
             // attributes of the target, such as its normals.
             || normals.is_some() && morph_normal_of(&column.name).is_some()
             || tangents.is_some() && morph_tangent_of(&column.name).is_some()

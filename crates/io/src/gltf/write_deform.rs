@@ -150,7 +150,7 @@ impl<'a> Deformation<'a> {
     }
 
     /// Compares the joints, weights and deltas that are written for two vertices of the mesh. The reader merges the
-    /// vertices only if these are equal.
+    /// vertices only if all of these data are equal.
     pub(super) fn compare(&self, a: usize, b: usize) -> Ordering {
         let row = |v: usize| 4 * v * self.sets..4 * (v + 1) * self.sets;
         let by_joints = self.joints[row(a)].cmp(&self.joints[row(b)]);
@@ -214,8 +214,9 @@ impl Bound {
     }
 }
 
-/// Returns the morph targets of an object. The number of morph targets is the number of weights that the graph stores
-/// in the label of the object. If the mesh has more targets than that, the number of its targets is used.
+/// Returns the morph targets of an object. The graph stores the weights of the morph targets in the label of the
+/// object. The number of targets in the result is the number of these weights or, if that is larger, the number of
+/// targets in the mesh.
 fn morphs<'a>(
     object: &Object,
     mesh: &'a Mesh,

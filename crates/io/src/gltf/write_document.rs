@@ -147,7 +147,8 @@ impl<'a> Writer<'a> {
             };
             for (key, value) in members {
                 match (&mut part[&key], value) {
-                    // If the part of the document already has extras, the provenance is added to them.
+                    // The extras of `asset` can already contain the provenance. Further extras are then added, and the
+                    // provenance is kept.
                     (Value::Object(extras), Value::Object(more)) => extras.extend(more),
                     (place, value) => *place = value,
                 }

@@ -18,8 +18,8 @@ use crate::loss::Losses;
 /// The materials, textures, samplers and images of a document, without duplicates.
 #[derive(Default)]
 pub(super) struct MaterialWriter {
-    /// For each element of `materials`, the material of the scene from which it was made. Textures that were dropped
-    /// are missing there.
+    /// For each element of `materials`, the material of the scene from which it was made. This material does not
+    /// contain the textures that were dropped.
     known: Vec<Material>,
     pub(super) materials: Vec<MaterialJson>,
     pub(super) textures: Vec<TextureJson>,
@@ -115,7 +115,7 @@ impl MaterialWriter {
         let pbr = PbrJson {
             base_color_factor: (base_color != plain.base_color).then_some(base_color),
             base_color_texture: texture(&material.base_color_texture),
-            // The factor is always written, because its default in glTF is 1.
+            // The metallic factor is always written, because its default in glTF is 1.
             metallic_factor: Some(metallic),
             roughness_factor: Some(roughness),
             metallic_roughness_texture: texture(&material.metallic_roughness_texture),

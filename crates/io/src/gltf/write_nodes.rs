@@ -130,7 +130,7 @@ fn write_placement(node: &Node, json: &mut Value) -> Result<(), Unwritable> {
     }
     let name = node.name.as_deref().unwrap_or_default();
     let message = format!(
-        "the transform of the node \"{name}\" exceeds the range of the 32-bit numbers of glTF"
+        "the transform of the node \"{name}\" exceeds the range of the 32-bit floats of glTF"
     );
     Err(Unwritable::scene(message))
 }

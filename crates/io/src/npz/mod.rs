@@ -1,4 +1,4 @@
-//! Writes NPZ files, which contain the arrays of a mesh for `NumPy`. These files cannot be read.
+//! Writes NPZ files, which contain the arrays of a mesh for `NumPy`. The program does not read NPZ files.
 //!
 //! | array | shape | content |
 //! | --- | --- | --- |

@@ -19,7 +19,7 @@ use crate::save::Block;
 use crate::writing::NOT_FINITE;
 use mesh::parallel;
 
-/// The number of vertices, values or faces in a block.
+/// The text is written in blocks. This is the number of vertices, values or faces in a block.
 const BLOCK: usize = 8192;
 
 /// A mesh, and the data that are needed to write the mesh.
@@ -34,7 +34,7 @@ pub(super) struct MeshBody<'a> {
     vertices: FileVertices,
 }
 
-/// The source of normals.
+/// The normals to write: those of the vertices or those of the corners.
 #[derive(Clone, Copy)]
 enum Normals<'a> {
     Vertices(&'a [DVec3]),

@@ -25,13 +25,13 @@ pub(super) enum Index {
 /// The range of valid indices.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Limits {
-    /// Only a part of the file is parsed. Indices have no limit, because the numbers of elements in the other parts are
-    /// not known yet.
+    /// Only a part of the file is parsed. Indices have no limit, because the element counts of the other parts are not
+    /// known yet.
     Part,
     /// The whole file is parsed, but the elements that later lines define are not known yet. A positive index can refer
     /// to an element in a later line, so only negative indices are checked.
     Start,
-    /// The whole file is parsed, and the numbers of elements that it defines are known.
+    /// The whole file is parsed, and it is known how many elements the file defines.
     Whole(Counts),
 }
 

@@ -19,8 +19,8 @@ pub(super) struct ObjFile {
     pub(super) positions: Vec<DVec3>,
     /// One color for each position, or empty. A vertex without a color is white.
     pub(super) colors: Vec<DVec4>,
-    /// The values of `#MRGB` comments of `ZBrush`, one 32-bit number each. The bytes of each number are the mask, red,
-    /// green and blue, from the highest to the lowest byte.
+    /// The values of `#MRGB` comments of `ZBrush`. Each value is a 32-bit number whose bytes are the mask, red, green
+    /// and blue, from the highest to the lowest byte.
     pub(super) mrgb_colors: Vec<u32>,
     pub(super) uvs: Vec<DVec2>,
     pub(super) normals: Vec<DVec3>,
@@ -36,7 +36,8 @@ pub(super) struct ObjFile {
     /// The runs of consecutive faces with the same groups, object, material and smoothing group. A run ends before the
     /// first face of the next run. If the list is not empty, the first run begins with face 0.
     pub(super) runs: Vec<Run>,
-    /// The sets of groups that runs refer to. Each set contains indices into `group_names`. Set 0 is empty.
+    /// The sets of groups that the runs of faces refer to. Each set contains indices into `group_names`. Set 0 is
+    /// empty.
     pub(super) group_sets: Vec<Vec<u32>>,
     pub(super) group_names: Vec<String>,
     pub(super) object_names: Vec<String>,

@@ -1,4 +1,4 @@
-//! Joins the parts of an OBJ file in the order of the file.
+//! Joins the parts of an OBJ file, which were parsed in parallel, in the order of the file.
 
 use std::collections::BTreeMap;
 
@@ -158,7 +158,8 @@ fn ends<'a>(pieces: impl Iterator<Item = &'a mut Vec<u32>>, corners: &[usize]) -
 
 // ---- Names and runs ----------------------------------------------------------------------------
 
-/// Joins the runs of faces and the names that they refer to, in the order of the file.
+/// Joins the runs (consecutive faces with the same groups, object, material and smoothing group) and the names that the
+/// runs refer to.
 fn states(parts: &[Part], file: &mut ObjFile) {
     let (mut groups, mut objects, mut materials) =
         (Names::default(), Names::default(), Names::default());

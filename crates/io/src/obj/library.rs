@@ -121,7 +121,7 @@ impl Library {
     }
 
     /// Returns the index of a material. Objects share equal materials. If a different material in the library already
-    /// has the name of this material, this material is renamed.
+    /// has the same name, the new material is renamed.
     fn index_of(&mut self, material: &Material, losses: &mut Losses) -> usize {
         let mut base = fit_line(&material.name).into_owned();
         if base.is_empty() || base.as_bytes() == NO_MATERIAL {

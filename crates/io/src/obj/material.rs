@@ -21,8 +21,8 @@ const MAX_NAMES: usize = 512;
 /// The largest length of a path in bytes.
 const MAX_PATH_BYTES: usize = 1024;
 
-/// Reads the materials of an OBJ file. The materials of its libraries come first, in order. They are followed by a
-/// default material for each material name that the OBJ file uses but no library defines.
+/// Reads the materials of an OBJ file. The materials of the libraries come first, in the order of the libraries. Then
+/// follows a default material for each material name that the OBJ file uses but no library defines.
 ///
 /// # Errors
 ///
@@ -170,7 +170,7 @@ fn without_broken_lines(text: &str, notes: &mut Notes) -> String {
 fn check_line(line: &str) -> Result<(), String> {
     let mut words = line.split_whitespace();
     let is_color = matches!(words.next(), Some("Ka" | "Kd" | "Ks" | "Ke"));
-    // Without this check, `tobj` 4.0.5 panics on such a line.
+    // Without this check, `tobj` 4.0.5 panics on a color with fewer than 3 numbers.
     if is_color && words.count() < 3 {
         return Err("expected 3 numbers".to_owned());
     }
@@ -190,7 +190,8 @@ impl Ignored {
         picture
     }
 
-    /// Returns the texture of a declaration without its multiplier.
+    /// Returns the texture of a declaration. If the declaration has a multiplier (the option `-bm`), the multiplier is
+    /// left out.
     fn plain(&mut self, text: Option<String>) -> Option<Texture> {
         let picture = self.picture(text)?;
         self.0 += usize::from(picture.multiplier.is_some());

@@ -1,4 +1,4 @@
-//! The content of a part of an OBJ file, before it is joined with the other parts.
+//! The content of a part of an OBJ file. The parts of a file are parsed in parallel and then joined.
 
 use std::collections::BTreeMap;
 
@@ -15,8 +15,8 @@ pub(super) struct Part {
     pub(super) positions: Vec<DVec3>,
     /// One color for each position, or empty.
     pub(super) colors: Vec<DVec4>,
-    /// The values of `#MRGB` comments, one 32-bit number each. The bytes of each number are the mask, red, green and
-    /// blue, from the highest to the lowest byte.
+    /// The values of `#MRGB` comments. Each value is a 32-bit number whose bytes are the mask, red, green and blue,
+    /// from the highest to the lowest byte.
     pub(super) mrgb_colors: Vec<u32>,
     pub(super) uvs: Vec<DVec2>,
     pub(super) normals: Vec<DVec3>,
@@ -101,7 +101,7 @@ impl Part {
         }
     }
 
-    /// Removes all face corners whose index is `n` or higher. The columns are positions, texture coordinates and
+    /// Keeps the first `n` face corners and removes the others. The columns are positions, texture coordinates and
     /// normals. `had` has a flag for each column: whether the column had values before the removed corners were added.
     /// If not, the column becomes empty.
     pub(super) fn truncate_corners(&mut self, n: usize, had: [bool; 3]) {

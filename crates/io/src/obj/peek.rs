@@ -18,8 +18,8 @@ use crate::polygons::OBJECT_TAG;
 use crate::text::{Cursor, TextPosition, name};
 use mesh::parallel;
 
-/// Returns the numbers of elements and the materials of an OBJ file. Also returns notes on statements, images and
-/// material libraries that are left out. Numbers and indices are not checked, so some invalid files cause no error.
+/// Returns the element counts and the materials of an OBJ file. Also returns notes on statements, images and material
+/// libraries that are left out. Numbers and indices are not checked, so some invalid files cause no error.
 ///
 /// # Errors
 ///
@@ -51,7 +51,7 @@ pub(crate) fn peek(
     let tag = |name: &String| format!("{OBJECT_TAG}{name}");
     let objects = all.objects.list.iter().map(tag);
     let groups = all.groups.list.iter().map(|name| match name.as_str() {
-        // The attributes `material` and `smoothing` already have these names, so the reader renames a group with such a
+        // The names `material` and `smoothing` belong to other attributes, so the reader renames a group with such a
         // name.
         "material" | "smoothing" => format!("{name} group"),
         _ => name.clone(),
@@ -65,7 +65,7 @@ pub(crate) fn peek(
         .with_attributes(attributes.collect()))
 }
 
-/// The numbers of elements in a part of the text.
+/// The element counts of a part of the text.
 #[derive(Debug, Default, PartialEq)]
 struct Counts {
     mesh: PeekMesh,

@@ -9,7 +9,7 @@ pub(super) struct Picture {
     pub(super) texture: Texture,
     /// The value of the option `-bm`.
     pub(super) multiplier: Option<f64>,
-    /// The number of other options.
+    /// The number of options other than `-bm`.
     pub(super) n_options: usize,
 }
 

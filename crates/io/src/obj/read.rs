@@ -186,7 +186,7 @@ fn set_tags(polygons: &mut Polygons, file: &ObjFile, notes: &mut Notes) {
     let n = objects + file.group_names.len();
     let n_columns = n.min(most_tags(n_faces));
     let what = format!(
-        "groups and objects left out: a mesh with this number of faces can have tags for at most {n_columns} groups and objects"
+        "groups and objects left out: each of them becomes a face tag, and a mesh with this number of faces can have at most {n_columns} of these tags"
     );
     notes.left_out("too-many-names", n - n_columns, None, what);
     let mut columns: Vec<Vec<bool>> = vec![vec![false; n_faces]; n_columns];
@@ -218,7 +218,7 @@ fn set_tags(polygons: &mut Polygons, file: &ObjFile, notes: &mut Notes) {
                 values: Values::Tag(known),
                 ..
             }) => {
-                // If a group has the same name as the tag of an object, both become one tag.
+                // If a group has the same name as the tag of an object, the group and the object become one tag.
                 for (mark, known) in marks.iter_mut().zip(known) {
                     *mark |= known;
                 }

@@ -18,7 +18,7 @@ pub(super) struct FaceState<'a> {
     pub(super) smoothing: i32,
 }
 
-/// The state at the end of the text written so far: the numbers of defined elements, the material and the smoothing
+/// The state at the end of the text written so far: the counts of defined elements, the material and the smoothing
 /// group. At this point of the text, no groups are set.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct TextState {

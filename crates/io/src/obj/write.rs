@@ -88,7 +88,7 @@ pub(crate) fn write(
 
 /// The geometry of an object, if OBJ can store it.
 enum Shape<'a> {
-    /// A mesh without removed elements.
+    /// A mesh whose arrays have no gaps from removed elements.
     Mesh(Box<Cow<'a, Mesh>>),
     Polylines(&'a [Vec<DVec3>]),
 }
@@ -105,7 +105,7 @@ impl<'a> Shape<'a> {
 
 /// Adds the blocks of text for polylines.
 fn polylines<'a>(lines: &'a [Vec<DVec3>], before: &mut TextState, blocks: &mut Vec<Block<'a>>) {
-    /// The number of polylines in a block.
+    /// The text is written in blocks. This is the number of polylines in a block.
     const BLOCK: usize = 1024;
     for lines in lines.chunks(BLOCK) {
         blocks.push(Box::new(move |out| {

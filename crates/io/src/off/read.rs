@@ -332,8 +332,8 @@ fn note_left_out(small: usize, first: Option<usize>, cursor: &mut Cursor, notes:
 
 // ---- Counts ------------------------------------------------------------------------------------
 
-/// Returns the numbers of elements of an OFF file, and the attributes that its faces can have. Adds notes on faces and
-/// lines that are left out. Numbers and vertex indices are not checked.
+/// Returns the element counts of an OFF file, and the attributes that its faces can have. Adds notes on faces and lines
+/// that are left out. Numbers and vertex indices are not checked.
 ///
 /// # Errors
 ///

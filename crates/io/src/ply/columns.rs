@@ -61,7 +61,7 @@ impl Kind {
     }
 }
 
-/// Where the numbers of a column are stored.
+/// Where the components of the values of a column are stored.
 #[derive(Clone, Copy)]
 pub(super) enum Source<'a> {
     /// The numbers are in consecutive scalar properties. The field is the index of the first property.
@@ -109,7 +109,8 @@ pub(super) fn numbers<const N: usize, V: Value>(
     properties: [usize; N],
     make: impl Fn([f64; N]) -> V + Sync,
 ) -> Vec<V> {
-    /// The number of rows that are decoded at a time. The numbers of this many rows fit in the first-level cache.
+    /// The number of rows that are decoded at a time. The values of this many rows fit in the first-level cache of the
+    /// processor.
     const PIECE: usize = 256;
     let mut out = zeroed(table.rows);
     parallel::fill(&mut out, |first, out| {
@@ -179,8 +180,8 @@ type Lists = (Vec<u32>, Vec<u32>);
 ///
 /// # Errors
 ///
-/// Returns the row and the item of the first value that is not a vertex index, or `None` if there are more values than
-/// a 32-bit number can count.
+/// Returns the row and the item of the first value that is not a vertex index. Returns `None` if there are more values
+/// than a 32-bit number can count.
 pub(super) fn indices(
     table: &Table,
     property: usize,

@@ -1,5 +1,5 @@
 //! Parses the header of a PLY file, which declares the elements of the file. An element is a table, such as `vertex` or
-//! `face`. It has a number of rows, and its columns are called properties.
+//! `face`. The columns of this table are called properties.
 
 use std::fmt;
 

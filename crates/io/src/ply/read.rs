@@ -271,7 +271,7 @@ impl Reader<'_, '_> {
         self.insert(domain, COLOR.name, rule, Values::Vec4(colors));
     }
 
-    /// Adds each property that is not yet used as an attribute with the name of the property. Lists are left out.
+    /// For each property that is not used yet, adds an attribute with the name of the property. Lists are left out.
     fn plain(&mut self, domain: Domain, place: usize, used: &[bool]) {
         let table = &self.tables[place];
         let element = &self.header.elements[place];

@@ -271,7 +271,8 @@ impl<'a> Element<'a> {
         }
     }
 
-    /// Adds the blocks of the rows. `element` maps the index of a row to the index of an element of the mesh.
+    /// Divides the rows into blocks, and adds the functions that write these blocks. `element` maps the index of a row
+    /// to the index of an element of the mesh.
     fn add_blocks<'b>(
         &'b self,
         blocks: &mut Vec<Block<'b>>,

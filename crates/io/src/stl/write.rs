@@ -28,7 +28,7 @@ pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<SingleFile,
     let large = |&v: &VertexId| !mesh.position(v).as_vec3().is_finite();
     if let Some(v) = mesh.vertices().find(large) {
         let message = format!(
-            "the position {} of {v} exceeds the range of the 32-bit numbers of STL",
+            "the position {} of the vertex {v} exceeds the range of the 32-bit floats of STL",
             mesh.position(v)
         );
         return Err(Unwritable::object(&joined.name, message));

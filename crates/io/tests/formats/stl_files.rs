@@ -282,7 +282,7 @@ fn positions_outside_of_the_32_bit_range_are_refused() {
     assert!(
         error
             .to_string()
-            .contains("exceeds the range of the 32-bit numbers of STL"),
+            .contains("exceeds the range of the 32-bit floats of STL"),
         "{error}"
     );
 }

@@ -10,8 +10,8 @@
 //! values are the normals themselves, not their differences from the normals of the mesh. Like all normals, they follow
 //! the rule [`Rule::Normal`](crate::Rule::Normal).
 //!
-//! The attribute `morph_tangent:t` has the tangents of the corners when morph target t has the weight 1, with the rule
-//! and the signs of [`CORNER_TANGENT`](crate::CORNER_TANGENT).
+//! The attribute `morph_tangent:t` has the tangents of the corners when morph target t has the weight 1. Its rule, and
+//! the sign in the fourth number of each value, are the same as in [`CORNER_TANGENT`](crate::CORNER_TANGENT).
 //!
 //! The attribute `morph_uv:t` has the changes that morph target t makes to the attribute `uv` if the weight of the
 //! target is 1. In the same way, `morph_uv1:t` belongs to `uv1`, and `morph_color:t` to `color`. Like `morph:t`, these
@@ -54,13 +54,14 @@ pub fn morph_value_name(changed: &str, target: usize) -> String {
     format!("{MORPH_VALUE}{changed}:{target}")
 }
 
-/// Returns the joint whose weights the attribute with this name stores; `None` if the name is not that of a joint.
+/// Returns the joint whose weights the attribute with this name stores; `None` if this attribute does not store joint
+/// weights.
 pub fn joint_of(name: &str) -> Option<usize> {
     number(name.strip_prefix(JOINT)?)
 }
 
-/// Returns the morph target whose deltas the attribute with this name stores; `None` if the name is not that of a
-/// morph target.
+/// Returns the morph target whose deltas the attribute with this name stores; `None` if this attribute does not store
+/// deltas.
 pub fn morph_of(name: &str) -> Option<usize> {
     number(name.strip_prefix(MORPH)?)
 }

@@ -10,7 +10,7 @@ use crate::{Connectivity, FaceId, HalfEdgeId, VertexId};
 
 /// The edges, numbered in the order of their first sides.
 pub(super) struct Edges {
-    /// For each block of corners, the number of edges whose first side is in it.
+    /// For each block of corners, the number of edges whose first side starts at a corner of the block.
     counts: Vec<usize>,
     pub(super) half_edge_of_corner: Vec<HalfEdgeId>,
 }

@@ -4,8 +4,8 @@
 //! vertex is b, the side of c runs from a to b. The twin of c is a corner whose side runs from b to a. The corners are
 //! bucketed by vertex. Around each vertex, outgoing sides are then paired with incoming sides. The pairs also show
 //! whether the faces around the vertex form one fan. In a fan, all faces are connected through edges at the vertex.
-//! Edges are numbered in the order in which the polygons first use them. The first half of an edge lies on the polygon
-//! that first used it.
+//! Edges are numbered in the order in which the polygons first use them. The first half-edge of an edge lies on the
+//! polygon that first used this edge.
 //!
 //! ```text
 //!    polygons --> buckets --> star, pair ----------------> assemble --> mesh
@@ -18,16 +18,16 @@
 //!
 //! - Two polygons that share an edge have a consistent orientation if their sides run along the edge in opposite
 //!   directions. Polygons that are connected through edges with exactly two sides form a part, and each part is treated
-//!   separately. If all neighbors in a part can be made consistent, the polygons of the part form two groups. The first
-//!   group has the same orientation as the first polygon of the part, and the second group the opposite orientation.
-//!   The smaller group is reversed. If both groups have the same size, the second group is reversed. If the part cannot
-//!   be made consistent, none of its polygons is reversed. The first corner of a reversed polygon stays the first.
+//!   separately. If the polygons of a part can get a consistent orientation, they form two groups. The first group has
+//!   the same orientation as the first polygon of the part, and the second group the opposite orientation. The smaller
+//!   group is reversed. If both groups have the same size, the second group is reversed. If a part cannot get a
+//!   consistent orientation, none of its polygons is reversed. The first corner of a reversed polygon stays the first.
 //! - Two kinds of edges between vertices a and b are not manifold: edges with more than two sides, and edges with two
 //!   sides that run in the same direction even after polygons have been reversed. On such an edge, the k-th side from a
 //!   to b is paired with the k-th side from b to a. The sides are counted in the order of the corners. Unpaired sides
 //!   become boundary edges.
 //! - If the faces around a vertex form several fans, the fan that contains the first corner at the vertex keeps the
-//!   vertex. Each other fan gets a copy of the vertex, appended after all other vertices.
+//!   vertex. Each other fan gets a copy of the vertex. The copies come after all other vertices.
 //! - A polygon that has fewer than three corners, or that contains a vertex twice, is dropped.
 
 mod assemble;
@@ -56,7 +56,9 @@ pub use report::{BuildReport, Elements, Repair};
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum BuildError {
     /// A polygon refers to a vertex that does not exist.
-    #[error("face {face} refers to vertex {vertex}, but there are {n_vertices} vertices")]
+    #[error(
+        "face {face} refers to vertex {vertex}, but there are {n_vertices} vertices, numbered from 0"
+    )]
     NoSuchVertex {
         /// The index of the polygon.
         face: usize,
@@ -104,8 +106,8 @@ pub enum NonManifold {
     /// and vertices until the mesh is a manifold. The [`BuildReport`] lists all of these repairs.
     #[default]
     Split,
-    /// Like [`Split`](Self::Split), but every polygon keeps its orientation: if two neighbors run along their common
-    /// edge in the same direction, each of them gets a copy of the edge of its own, so they are no longer connected
+    /// Like [`Split`](Self::Split), but every polygon keeps its orientation. If two neighbors run along their common
+    /// edge in the same direction, the edge is split: each neighbor gets its own copy, and they are no longer connected
     /// there.
     SplitAsGiven,
     /// Reverse polygons where that makes the orientation consistent, and return an error if the result
@@ -123,8 +125,8 @@ pub struct BuildOutput {
     /// The repairs that made the mesh a manifold.
     pub report: BuildReport,
     /// For each corner of the input, its half-edge, which leaves the vertex of the corner and belongs to the face of
-    /// its polygon. `NONE` if the polygon was dropped. On a reversed polygon, this half-edge runs along the side before
-    /// the corner; see [`edges_of_sides`](Self::edges_of_sides).
+    /// its polygon. `NONE` if the polygon was dropped. On a reversed polygon, this half-edge runs along the side that
+    /// ends at the corner in the input; see [`edges_of_sides`](Self::edges_of_sides).
     pub half_edge_of_corner: Vec<HalfEdgeId>,
     /// For each polygon of the input, its face; `NONE` if the polygon was dropped.
     pub face_of_polygon: Vec<FaceId>,
@@ -204,7 +206,7 @@ pub fn build(
     corners: &[u32],
     non_manifold: NonManifold,
 ) -> Result<BuildOutput, BuildError> {
-    // The largest total size of the arrays that exist at the same time, not counting the input.
+    // The argument is the peak size of all arrays together, in bytes, without the input.
     crate::require_memory(32 * corners.len() + 16 * positions.len());
     let degenerate = check(&positions, offsets, corners)?;
     if degenerate.is_empty() {

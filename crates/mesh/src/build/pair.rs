@@ -17,13 +17,13 @@ pub(super) struct PairedSides {
     pub(super) twin: Vec<u32>,
     /// For each vertex, the outgoing half-edge that the mesh will store for it.
     pub(super) outgoing: Vec<Outgoing>,
-    /// The vertices whose faces form more than one fan, in order. The `outgoing` of such a vertex can belong to any of
-    /// its fans.
+    /// The vertices whose faces form more than one fan, in ascending order. The `outgoing` of such a vertex can belong
+    /// to any of its fans.
     pub(super) pinched: Vec<u32>,
     /// The edges with more than two sides, or with two sides that run in the same direction, ordered by their
     /// vertices.
     pub(super) non_manifold_edges: Vec<[VertexId; 2]>,
-    /// Whether any edge has exactly two sides, and both run in the same direction.
+    /// Whether the polygons have an edge with exactly two sides that both run in the same direction.
     pub(super) has_inconsistent_edge: bool,
 }
 

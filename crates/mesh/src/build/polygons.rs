@@ -16,7 +16,7 @@ pub(super) const NONE: u32 = u32::MAX;
 pub(super) struct Polygons<'a> {
     pub(super) offsets: &'a [u32],
     pub(super) corners: &'a [u32],
-    /// For each corner, its polygon; `None` if all polygons are triangles.
+    /// For each corner, its polygon. `None` if all polygons are triangles: then corner c belongs to triangle c / 3.
     face_of_corner: Option<Vec<u32>>,
 }
 
@@ -89,7 +89,7 @@ fn faces_of_corners(offsets: &[u32]) -> Vec<u32> {
         .enumerate()
         .for_each(|(block, (faces, firsts))| {
             // The loop visits the polygons from last to first. For each polygon, the slots of its corners are split off
-            // the end of the slice that is not filled yet.
+            // the end of the unfilled slice.
             let mut unfilled = faces;
             for (i, first) in firsts.iter().enumerate().rev() {
                 let Some(of_polygon) = unfilled.split_off_mut((first - firsts[0]) as usize..)
@@ -166,7 +166,8 @@ pub(super) fn check(
     offsets: &[u32],
     corners: &[u32],
 ) -> Result<Vec<usize>, BuildError> {
-    // Ids are below 2^32 - 1. Each corner can need a separate edge and a separate copy of its vertex.
+    // In the worst case, each corner needs a separate edge and a separate copy of its vertex. Even then, all ids must
+    // be below 2^32 - 1.
     to_u32(positions.len().saturating_add(corners.len()), "vertices")?;
     to_u32(corners.len().saturating_mul(2), "half-edges")?;
     let is_valid = offsets.first() == Some(&0)

@@ -10,8 +10,8 @@ pub struct BuildReport {
     /// The edges that had more than two sides, or two sides that ran in the same direction. Each edge is a pair of
     /// vertices, the lower one first.
     pub split_edges: Vec<[VertexId; 2]>,
-    /// The vertices that joined several fans. Each entry is such a vertex and one of its copies; each fan except the
-    /// first got a copy.
+    /// The vertices that joined several fans. Each entry is a pair: such a vertex, and one of its copies. Each fan
+    /// except the first got a separate copy of the vertex.
     pub split_vertices: Vec<(VertexId, VertexId)>,
     /// The indices, in ascending order, of the polygons that were reversed to make their orientation consistent with
     /// that of their neighbors.
@@ -20,7 +20,7 @@ pub struct BuildReport {
     /// its first polygon. The polygons of these parts are not reversed. Edges along which two polygons
     /// run in the same direction are split.
     pub unorientable: Vec<usize>,
-    /// Indices of polygons that were dropped, in order.
+    /// The indices, in ascending order, of the polygons that were dropped.
     pub dropped_faces: Vec<usize>,
 }
 

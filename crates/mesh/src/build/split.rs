@@ -11,9 +11,9 @@ use super::polygons::{Polygons, to_u32};
 use super::star::Star;
 use crate::VertexId;
 
-/// The vertices after the split of those whose faces form several fans.
+/// The result of [`split_vertices`].
 pub(super) struct Split<'a> {
-    /// For each corner, its vertex.
+    /// For each corner, its vertex after the split.
     pub(super) origins: Cow<'a, [u32]>,
     /// Pairs of a vertex that was split and its copy.
     pub(super) copies: Vec<(VertexId, VertexId)>,
@@ -24,7 +24,7 @@ pub(super) struct Split<'a> {
 ///
 /// # Errors
 ///
-/// Returns an error if there would be too many vertices afterwards.
+/// Returns an error if, with the copies, there would be more vertices than ids.
 pub(super) fn split_vertices<'a>(
     positions: &mut Vec<DVec3>,
     polygons: &Polygons<'a>,

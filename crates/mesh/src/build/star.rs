@@ -80,7 +80,7 @@ pub(super) struct Fan {
 }
 
 impl Star {
-    /// Sets the corners, which must be all corners at one vertex in order.
+    /// Sets the corners, which must be all corners at one vertex, in ascending order.
     pub(super) fn set(&mut self, polygons: &Polygons, corners: &[u32]) {
         self.before.clear();
         self.from.clear();

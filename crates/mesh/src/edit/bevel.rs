@@ -15,23 +15,24 @@ impl Mesh {
     /// ```
     ///
     /// `v` dies. The n edges of `v` keep their ids and end at the cuts. The new elements are n vertices, the n edges
-    /// from each new vertex to the next, and the face, whose first corner is the first new vertex. The new vertices and
+    /// from each new vertex to the next, and one face, whose first corner is the first new vertex. The new vertices and
     /// edges are in clockwise order, starting at the first edge of [`vertex_half_edges`](Self::vertex_half_edges). The
-    /// numbers of vertices, edges and faces grow by n - 1, n and 1. A face gains as many corners as it has at v.
+    /// numbers of vertices, edges and faces grow by n - 1, n and 1. A face that has k corners at v gains k corners.
     ///
     /// At a cut, vertex attributes are interpolated between v and the other end of the edge. Corner attributes are
-    /// interpolated within their face, separately on each side of a seam. Attributes that are
-    /// not interpolated are copied from v. The new face has the values of the face to the left of the first
-    /// edge. At each cut, the corner of the new face has the values of the corner in the face to the left of the cut
+    /// interpolated within their face, separately on each side of a seam. Attributes that are not interpolated are
+    /// copied from v. The new face has the values of the face to the left of the first edge. At each cut, the corner of
+    /// the new face has the same values as another corner at this cut: the corner in the face to the left of the cut
     /// edge, as seen from v. New edges have zero values.
     ///
     /// Returns the new face.
     ///
     /// # Errors
     ///
-    /// Returns [`EditError::BoundaryVertex`] if `v` is on the boundary, [`EditError::FewEdges`] if it has
-    /// fewer than three edges, [`EditError::OutsideEdge`] if `fraction` is not strictly between 0 and 1,
-    /// [`EditError::NoSuchVertex`], or [`EditError::Full`]. The mesh is unchanged.
+    /// Returns [`EditError::BoundaryVertex`] if `v` is on the boundary, [`EditError::FewEdges`] if it has fewer than
+    /// three edges, and [`EditError::OutsideEdge`] if `fraction` is not strictly between 0 and 1. Returns
+    /// [`EditError::NoSuchVertex`] if `v` does not exist, and [`EditError::Full`] if there are not enough ids for the
+    /// new elements. After an error, the mesh is unchanged.
     ///
     /// # Examples
     ///
@@ -78,24 +79,24 @@ impl Mesh {
     /// ```
     ///
     /// `e` and its ends a, b die. The n other edges at a and b keep their ids and end at the cuts. The new elements are
-    /// n vertices, the n edges from each new vertex to the next, and the face, whose first corner is the first new
-    /// vertex. The new vertices and edges are in clockwise order around e. The cuts at a (the origin of the first half
-    /// of e) come first, starting with the edge after e. The cuts at b follow. The numbers of vertices, edges and faces
-    /// grow by n - 2, n - 1 and 1. The faces beside e keep their number of corners. Any other face gains as many
-    /// corners as it has at a and b.
+    /// n vertices, the n edges from each new vertex to the next, and one face, whose first corner is the first new
+    /// vertex. The new vertices and edges are in clockwise order around e. The cuts at a (the origin of the first
+    /// half-edge of e) come first, starting with the edge after e. The cuts at b follow. The numbers of vertices, edges
+    /// and faces grow by n - 2, n - 1 and 1. The faces beside e keep their number of corners. Any other face that has k
+    /// corners at a and b together gains k corners.
     ///
-    /// Attributes are set as in [`bevel_vertex`](Self::bevel_vertex). The new face has the values of the face
-    /// to the left of the first half of e.
+    /// Attributes are set as in [`bevel_vertex`](Self::bevel_vertex). The new face has the values of the face to the
+    /// left of the first half-edge of e.
     ///
     /// Returns the new face.
     ///
     /// # Errors
     ///
-    /// Returns [`EditError::Boundary`] if `e` is on the boundary, [`EditError::BoundaryVertex`] if one of its
-    /// ends is on the boundary, [`EditError::FewEdges`] if an end has fewer than three edges,
-    /// [`EditError::DuplicateEdge`] if another edge joins the ends, [`EditError::OutsideEdge`] if `fraction`
-    /// is not strictly between 0 and 1, [`EditError::NoSuchEdge`], or [`EditError::Full`]. The mesh is
-    /// unchanged.
+    /// Returns [`EditError::Boundary`] if `e` is on the boundary, [`EditError::BoundaryVertex`] if one of its ends is
+    /// on the boundary, [`EditError::FewEdges`] if an end has fewer than three edges, [`EditError::DuplicateEdge`] if
+    /// another edge joins the ends, and [`EditError::OutsideEdge`] if `fraction` is not strictly between 0 and 1.
+    /// Returns [`EditError::NoSuchEdge`] if `e` does not exist, and [`EditError::Full`] if there are not enough ids for
+    /// the new elements. After an error, the mesh is unchanged.
     pub fn bevel_edge(&mut self, e: EdgeId, fraction: f64) -> Result<FaceId, EditError> {
         self.bevel_edge_with(e, |_| fraction)
     }

@@ -13,25 +13,27 @@ impl Mesh {
     ///
     /// If the holes belong to one component of the mesh, this component gets a handle. If they belong to two
     /// components, these become one. Let n be the number of edges of the longer loop, and m that of the shorter loop.
-    /// The band has n new edges and n faces: m quads, and n - m triangles spread evenly between them. One side of each
-    /// triangle is an edge of the longer loop. Choose `h` and `g` so that they face each other; otherwise the band is
-    /// twisted.
+    /// The band has n new edges and n faces: m quads, and n - m triangles that are spread evenly between the quads. One
+    /// side of each triangle is an edge of the longer loop. Choose `h` and `g` so that they face each other; otherwise
+    /// the band is twisted.
     ///
     /// All existing ids stay the same. New edges and faces are numbered along the longer loop (that of `h` if both have
-    /// the same length). The first face is f. The first new edge is a-d, or b-c if the loop of `g` is longer than the
-    /// loop of `h`. A new face gets the values of the old face that shares its edge of the longer loop. Each new corner
-    /// lies on one of the two loops. If the face of the corner has an edge of this loop, the corner gets its values
-    /// from the other side of this edge, from the existing corner at the same vertex. A triangle has no edge of the
-    /// shorter loop, so its corner at the shorter loop uses the edge of the last quad before the triangle. New edges
-    /// have zero attribute values.
+    /// the same length). The first face lies between `h` and `g`. The first new edge joins the origin of `h` to the
+    /// target of `g`, or, if the loop of `g` is longer, the origin of `g` to the target of `h`. A new face gets the
+    /// values of the old face that shares its edge of the longer loop. Each new corner lies on one of the two loops. If
+    /// the face of the corner has an edge of this loop, the corner gets the values of the existing corner at the same
+    /// vertex on the other side of this edge. A triangle has no edge of the shorter loop, so its corner at the shorter
+    /// loop gets its values in this way from the edge of the last quad before the triangle. New edges have zero
+    /// attribute values.
     ///
     /// Returns the new faces.
     ///
     /// # Errors
     ///
-    /// Returns [`EditError::NotBoundary`] if `h` or `g` has a face, [`EditError::SameLoop`] if they lie on
-    /// the same loop, [`EditError::DuplicateEdge`] if two vertices that would be joined already share an
-    /// edge, [`EditError::NoSuchHalfEdge`], or [`EditError::Full`]. The mesh is unchanged.
+    /// Returns [`EditError::NotBoundary`] if `h` or `g` has a face, [`EditError::SameLoop`] if they lie on the same
+    /// loop, and [`EditError::DuplicateEdge`] if two vertices that would be joined already share an edge or are the
+    /// same vertex. Returns [`EditError::NoSuchHalfEdge`] if `h` or `g` does not exist, and [`EditError::Full`] if
+    /// there are not enough ids for the new elements. After an error, the mesh is unchanged.
     ///
     /// # Examples
     ///

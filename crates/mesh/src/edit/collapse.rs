@@ -27,8 +27,9 @@ impl Mesh {
     /// separately on each side of a seam. Other faces can also have corners at the ends of `e`. For each attribute,
     /// such a corner is compared with the corners of the faces beside `e` at the same end. If its old value is equal to
     /// that of one of these corners, it gets the new value of that corner. Otherwise, it keeps its old value. When two
-    /// edges become one, the remaining edge gets the larger of their floating-point values, so that creases are
-    /// preserved. A tag is set if either edge had it. Attributes of other types keep the value of the remaining edge.
+    /// edges become one, the remaining edge gets the larger of the two values of each floating-point attribute, so that
+    /// creases are preserved. A tag is set if either edge had this tag. Attributes of other types keep the value of the
+    /// remaining edge.
     ///
     /// A collapse is refused if it would change the topology of the surface or make two elements coincide. The test is
     /// the link condition of Dey, Edelsbrunner, Guha and Nekhayev ("Topology preserving edge contraction", 1999),
@@ -42,11 +43,11 @@ impl Mesh {
     ///
     /// - [`EditError::JoinsBoundaries`] if both ends are on the boundary, but `e` is not.
     /// - [`EditError::Link`] if the ends have a common neighbor that is not a corner of a triangle beside `e`, because
-    ///   two edges would join this neighbor to v. This error is also returned if `e` is a side of a hole with three
-    ///   edges.
+    ///   two edges would join this neighbor to the merged vertex. This error is also returned if `e` is a side of a
+    ///   hole with three edges.
     /// - [`EditError::DuplicateEdge`] if a second edge joins the ends.
-    /// - [`EditError::VisitsTwice`] if a face that is not beside `e` has both ends as corners, because this
-    ///   face would contain v twice.
+    /// - [`EditError::VisitsTwice`] if a face that is not beside `e` has both ends as corners, because this face would
+    ///   contain the merged vertex twice.
     /// - [`EditError::Vanishes`] if no faces would be left, as for the edges of a single triangle. This error is also
     ///   returned if the only faces left at the merged vertex would be two faces back to back, as for a tetrahedron.
     /// - [`EditError::SameFace`] if one face is on both sides of `e`, or if two edges would become one edge with the
@@ -54,7 +55,7 @@ impl Mesh {
     ///   cases a collapse would be possible, but it is not implemented, because such edges are rare.
     /// - [`EditError::NoSuchEdge`].
     ///
-    /// The mesh is unchanged.
+    /// After an error, the mesh is unchanged.
     ///
     /// # Examples
     ///
@@ -70,8 +71,8 @@ impl Mesh {
         self.collapse_edge_at(e, 0.5)
     }
 
-    /// Collapses an edge like [`collapse_edge`](Self::collapse_edge), to the point at `t` on the edge. `t` is 0
-    /// at the origin of the first half of the edge, and 1 at its target.
+    /// Collapses an edge like [`collapse_edge`](Self::collapse_edge), to the point at `t` on the edge. `t` is 0 at the
+    /// origin of the first half-edge of the edge, and 1 at the target of this half-edge.
     ///
     /// # Errors
     ///
@@ -87,8 +88,8 @@ impl Mesh {
     }
 
     /// Collapses an edge like [`collapse_edge`](Self::collapse_edge), to any point. The attributes are interpolated at
-    /// the point on the edge that is nearest to the given point. If both ends of the edge have the same position, they
-    /// are interpolated at the middle of the edge.
+    /// the point on the edge that is nearest to the given point. If both ends of the edge have the same position, the
+    /// attributes are interpolated at the middle of the edge.
     ///
     /// # Errors
     ///
@@ -125,8 +126,9 @@ impl Mesh {
         self.kill(e);
         self.kill(removed);
         // If a face beside e was a triangle, it now has only two edges. Of these two edges, the one that ends at the
-        // removed vertex is removed. On the side of the first half of e, the edge at b comes after e and the edge at a
-        // before it. On the side of the second half, the edge at a comes after e and the edge at b before it.
+        // removed vertex is removed. Around the face of the first half-edge of e, the edge at b comes after e, and the
+        // edge at a comes before e. Around the face of the second half-edge, the edge at a comes after e, and the edge
+        // at b comes before e.
         for (i, h) in sides.into_iter().enumerate().filter(|&(i, _)| vanishes[i]) {
             let after = self.next(h);
             if (removed == b) == (i == 0) {
@@ -160,7 +162,7 @@ impl Mesh {
             self.is_beside_triangle(h)
                 .then(|| self.target(self.next(h)))
         });
-        // The neighbors of b other than a, and the faces around b.
+        // The neighbors of b, except a, and the faces around b.
         let (mut vertices, mut faces) = (SmallIdSet::new(), SmallIdSet::new());
         let mut h = self.next(ab);
         while h != ba {
@@ -248,7 +250,7 @@ impl Mesh {
     }
 
     /// Requires that the merged vertex would have only two edges and two faces. Returns whether these two faces would
-    /// lie back to back. They would if every vertex of one of the faces had only two edges.
+    /// lie back to back. This is the case if every vertex of one of the faces would have only two edges.
     fn would_fold(&self, e: EdgeId, apexes: [Option<VertexId>; 2]) -> bool {
         let [ab, ba] = e.half_edges();
         // Finds one of the two faces. A face beside e remains after the collapse if it is not a triangle. If both faces

@@ -31,17 +31,17 @@ impl Mesh {
     /// inverse.
     ///
     /// An edge cannot be cut if neither of its ends would be split. The cut would then be a hole with two edges (a
-    /// slit). A slit cannot be opened, and a list of polygons cannot represent it.
-    /// [`slits`](Self::slits) lists these edges.
+    /// slit). A slit cannot be opened, and a list of polygons cannot represent it. The function [`slits`](Self::slits)
+    /// lists the edges that cannot be cut for this reason.
     ///
     /// Returns the new edges. Each new edge is the other side of the cut along the edge at the same index of `edges`.
     ///
     /// # Errors
     ///
-    /// Returns [`EditError::Boundary`] if an edge is on the boundary, [`EditError::DuplicateEdge`] with
-    /// the ends of an edge that would be a slit, [`EditError::EdgeListedTwice`],
-    /// [`EditError::NoElements`], [`EditError::NoSuchEdge`], or [`EditError::Full`]. The mesh is
-    /// unchanged.
+    /// Returns [`EditError::Boundary`] if an edge is on the boundary, and [`EditError::DuplicateEdge`], with the ends
+    /// of the edge, if an edge would become a slit. Returns [`EditError::EdgeListedTwice`] or [`EditError::NoSuchEdge`]
+    /// if an edge is listed twice or does not exist, [`EditError::NoElements`] if the list is empty, and
+    /// [`EditError::Full`] if there are not enough ids for the new elements. After an error, the mesh is unchanged.
     ///
     /// # Examples
     ///
@@ -132,8 +132,8 @@ impl Mesh {
         edges
     }
 
-    /// Returns the outgoing half-edges of `v`, clockwise from the boundary. If `v` is inside the mesh, they start at an
-    /// edge that will be cut.
+    /// Returns the outgoing half-edges of `v`, clockwise from the boundary. If `v` is inside the mesh, the list starts
+    /// at an edge that will be cut.
     fn fan_from_gap(&self, v: VertexId, is_cut: impl Fn(HalfEdgeId) -> bool) -> Vec<HalfEdgeId> {
         let mut fan: Vec<HalfEdgeId> = self.vertex_half_edges(v).collect();
         if !self.is_boundary_vertex(v) {
@@ -143,18 +143,19 @@ impl Mesh {
         fan
     }
 
-    /// Adds a copy of each edge, which gets the face of the second half of the edge. The caller must set the `next` of
-    /// the halves without a face.
+    /// Adds a copy of each edge. The copy gets the face of the second half-edge of the edge. The caller must set the
+    /// `next` of the half-edges without a face.
     fn duplicate_edges(&mut self, edges: &[EdgeId]) -> Vec<EdgeId> {
-        // The half-edges before the second halves are found while the mesh is complete. `prev` is then fast, even in a
-        // face with many corners.
+        // The half-edges before the second half-edges are found while the mesh is complete. `prev` is then fast, even
+        // in a face with many corners.
         let second_halves = edges.iter().map(|e| e.half_edges()[1]);
         let before: Vec<HalfEdgeId> = second_halves.map(|h| self.prev(h)).collect();
         let pairs = edges.iter().zip(before);
         pairs.map(|(&e, h)| self.duplicate_edge(e, h)).collect()
     }
 
-    /// Adds a copy of `e` that gets the face of the second half of `e`. `before` was the half-edge before that half.
+    /// Adds a copy of `e` that gets the face of the second half-edge of `e`. `before` was the half-edge before that
+    /// half-edge.
     fn duplicate_edge(&mut self, e: EdgeId, before: HalfEdgeId) -> EdgeId {
         let [_, old] = e.half_edges();
         let (after, face) = (self.next(old), self.face(old));

@@ -75,9 +75,10 @@ impl Mesh {
     /// # Errors
     ///
     /// Returns [`EditError::Pinch`] if both ends of a diagonal are at the same vertex, which the face contains twice.
-    /// Returns [`EditError::NoCut`], with the ends of the first diagonal in the list, if two diagonals cross or are
-    /// equal, or if a diagonal joins neighboring corners. Also returns [`EditError::NoSuchFace`] or
-    /// [`EditError::Full`]. The mesh is unchanged.
+    /// Returns [`EditError::NoCut`] if any two diagonals cross or are equal, or if a diagonal joins neighboring
+    /// corners. This error always names the ends of the first diagonal in the list. Returns [`EditError::NoSuchFace`]
+    /// if the face does not exist, and [`EditError::Full`] if there are not enough ids for the new elements. After an
+    /// error, the mesh is unchanged.
     ///
     /// # Panics
     ///

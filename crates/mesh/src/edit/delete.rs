@@ -12,14 +12,14 @@ impl Mesh {
     ///    +-----+-----+-----+          +-----+     +-----+
     /// ```
     ///
-    /// As with [`delete_faces`](Self::delete_faces), edges that have no face left are deleted too. Vertices are
-    /// not deleted; a vertex without other edges becomes isolated. Other ids and attribute values do not change.
-    /// [`dissolve_edge`](Self::dissolve_edge) merges the faces instead.
+    /// As with [`delete_faces`](Self::delete_faces), edges that have no face left are deleted too. Vertices are not
+    /// deleted; a vertex that loses all of its edges becomes isolated. The ids and attribute values of the remaining
+    /// elements do not change. [`dissolve_edge`](Self::dissolve_edge) merges the faces instead.
     ///
     /// # Errors
     ///
-    /// Returns [`EditError::Pinch`] if the faces left around a vertex would not form one fan, or
-    /// [`EditError::NoSuchEdge`]. The mesh is unchanged.
+    /// Returns [`EditError::Pinch`] if the faces left around a vertex would not form one fan, and
+    /// [`EditError::NoSuchEdge`] if `e` does not exist. After an error, the mesh is unchanged.
     pub fn delete_edge(&mut self, e: EdgeId) -> Result<(), EditError> {
         self.check_edge(e)?;
         self.delete_faces(&sorted_unique(self.edge_faces(e).into_iter().flatten()))
@@ -35,15 +35,15 @@ impl Mesh {
     ///    +-----+-----+          +-----+-----+
     /// ```
     ///
-    /// As with [`delete_faces`](Self::delete_faces), edges that have no face left are deleted too. Other vertices
-    /// are not deleted; a vertex without other edges becomes isolated. Other ids and attribute values do not
-    /// change. `v` can be an isolated vertex. [`dissolve_vertex`](Self::dissolve_vertex) merges the faces
-    /// instead.
+    /// As with [`delete_faces`](Self::delete_faces), edges that have no face left are deleted too. Other vertices are
+    /// not deleted; a vertex that loses all of its edges becomes isolated. The ids and attribute values of the
+    /// remaining elements do not change. `v` can be an isolated vertex. [`dissolve_vertex`](Self::dissolve_vertex)
+    /// merges the faces instead.
     ///
     /// # Errors
     ///
-    /// Returns [`EditError::Pinch`] if the faces left around another vertex would not form one fan, or
-    /// [`EditError::NoSuchVertex`]. The mesh is unchanged.
+    /// Returns [`EditError::Pinch`] if the faces left around another vertex would not form one fan, and
+    /// [`EditError::NoSuchVertex`] if `v` does not exist. After an error, the mesh is unchanged.
     pub fn delete_vertex(&mut self, v: VertexId) -> Result<(), EditError> {
         self.check_vertex(v)?;
         self.delete_faces(&sorted_unique(self.vertex_faces(v)))?;

@@ -19,7 +19,7 @@ impl Mesh {
     ///
     /// Returns [`EditError::Pinch`] if the remaining faces around a vertex would not form one fan. This error occurs if
     /// the vertex is on the boundary of the mesh, but neither of the two edges of `f` at the vertex is a boundary edge.
-    /// Also returns [`EditError::NoSuchFace`]. The mesh is unchanged.
+    /// Returns [`EditError::NoSuchFace`] if `f` does not exist. After an error, the mesh is unchanged.
     pub fn delete_face(&mut self, f: FaceId) -> Result<(), EditError> {
         self.delete_faces(&[f])
     }
@@ -35,14 +35,16 @@ impl Mesh {
     /// ```
     ///
     /// Only the final mesh is checked: a list of faces can be accepted even if the deletion of one of its faces alone
-    /// would be refused. Edges that have no other face are deleted too. Vertices are not deleted; a vertex without
-    /// other edges becomes isolated. Other ids and attribute values do not change. An empty list changes nothing. Takes
-    /// time proportional to the number of listed faces plus the number of edges at their corners.
+    /// would be refused. Edges that have no other face are deleted too. Vertices are not deleted; a vertex that loses
+    /// all of its edges becomes isolated. The ids and attribute values of the remaining elements do not change. An
+    /// empty list changes nothing. This function takes time proportional to the number of listed faces plus the number
+    /// of edges at their corners.
     ///
     /// # Errors
     ///
-    /// Returns [`EditError::Pinch`] with the lowest vertex around which the remaining faces would not form
-    /// one fan, [`EditError::FaceListedTwice`], or [`EditError::NoSuchFace`]. The mesh is unchanged.
+    /// Returns [`EditError::Pinch`] if the remaining faces around a vertex would not form one fan; the error names the
+    /// lowest such vertex. Returns [`EditError::FaceListedTwice`] or [`EditError::NoSuchFace`] if a face is listed
+    /// twice or does not exist. After an error, the mesh is unchanged.
     ///
     /// # Examples
     ///

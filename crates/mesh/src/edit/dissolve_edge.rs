@@ -11,9 +11,9 @@ impl Mesh {
     ///    +-----a-----+          +-----a-----+
     /// ```
     ///
-    /// The face with the lower id remains and keeps its values; `e` and the other face die. V stays the same, E
-    /// and F shrink by one, and V - E + F stays the same. All other ids and values stay the same. This edit is
-    /// the inverse of [`split_face`](Self::split_face).
+    /// The face with the lower id remains and keeps its values; `e` and the other face die. One edge and one face are
+    /// removed, so the Euler characteristic V - E + F stays the same. All other ids and values stay the same. This edit
+    /// is the inverse of [`split_face`](Self::split_face).
     ///
     /// Returns the remaining face.
     ///
@@ -22,8 +22,8 @@ impl Mesh {
     /// Returns [`EditError::Boundary`] if `e` has a face on only one side; [`EditError::SameFace`] if the same face is
     /// on both sides; [`EditError::FewEdges`] if an end of `e` has only two edges (remove that vertex first, with
     /// [`dissolve_vertex`](Self::dissolve_vertex)); [`EditError::RepeatedVertex`] if the faces have another vertex in
-    /// common; [`EditError::Seam`] if corner attributes differ across `e`; or [`EditError::NoSuchEdge`]. The mesh is
-    /// unchanged.
+    /// common; or [`EditError::Seam`] if corner attributes differ across `e`. Returns [`EditError::NoSuchEdge`] if `e`
+    /// does not exist. After an error, the mesh is unchanged.
     ///
     /// # Examples
     ///
@@ -44,7 +44,7 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// Returns the errors of [`dissolve_edge`](Self::dissolve_edge), but [`EditError::Seam`] only for
+    /// Returns the errors of [`dissolve_edge`](Self::dissolve_edge). [`EditError::Seam`] is returned only if `seams` is
     /// [`Seams::Refuse`].
     pub fn dissolve_edge_with(&mut self, e: EdgeId, seams: Seams) -> Result<FaceId, EditError> {
         self.check_edge(e)?;
@@ -55,7 +55,7 @@ impl Mesh {
         if f == g {
             return Err(EditError::SameFace(e));
         }
-        // f is the remaining face, and ab is the half of e on f.
+        // f is the remaining face, and ab is the half-edge of e on f.
         let ([ab, ba], [f, g]) = if f < g {
             (sides, [f, g])
         } else {
@@ -77,7 +77,7 @@ impl Mesh {
 
         self.drop_columns_by_rule();
         // At b, the half-edge that stores the corner of f remains. At a, the half-edge that stores the corner of the
-        // removed face g remains. It gets the values of the corner of f.
+        // removed face g remains. This half-edge gets the values of the corner of f at a.
         self.copy_values(ab, after_a);
         let moved: Vec<HalfEdgeId> = self.face_half_edges(g).collect();
         for h in moved {

@@ -24,10 +24,9 @@ impl Mesh {
     /// ```
     ///
     /// Of the merged faces, the one with the lowest id remains and keeps its values; the others die. If two edges
-    /// become one, the edge with the lower id remains and keeps its values. `v` and its other edges die.
-    /// V - E + F stays the same. All other ids and values stay the same. This edit
-    /// is the inverse of [`poke_face`](Self::poke_face), and of [`split_edge`](Self::split_edge) if the split
-    /// cut no triangles.
+    /// become one, the edge with the lower id remains and keeps its values. `v` and its other edges die. The Euler
+    /// characteristic V - E + F stays the same. All other ids and values stay the same. This edit is the inverse of
+    /// [`poke_face`](Self::poke_face), and of [`split_edge`](Self::split_edge) if the split cut no triangles.
     ///
     /// Returns the merged face. If `v` has two edges, returns the face beside these edges. If there are two such
     /// faces, returns the one with the lower id.
@@ -45,7 +44,7 @@ impl Mesh {
     ///   the two sides of the edge.
     /// - [`EditError::NoSuchVertex`].
     ///
-    /// The mesh is unchanged.
+    /// After an error, the mesh is unchanged.
     ///
     /// # Examples
     ///
@@ -61,14 +60,14 @@ impl Mesh {
     }
 
     /// Removes a vertex like [`dissolve_vertex`](Self::dissolve_vertex); `seams` decides what happens if corner
-    /// attributes differ across an edge at `v` (a seam). With [`Seams::Drop`], the vertex is removed, and the corner at
-    /// the other end of this edge keeps one of its two values. It is the value in the face that follows the edge
-    /// counter-clockwise around `v`.
+    /// attributes differ across an edge at `v` (a seam). With [`Seams::Drop`], the vertex is removed. At the other end
+    /// of this edge, two corners with different values become one corner. This corner keeps the value of the face that
+    /// follows the edge counter-clockwise around `v`.
     ///
     /// # Errors
     ///
-    /// Returns the errors of [`dissolve_vertex`](Self::dissolve_vertex), but [`EditError::Seam`] only for
-    /// [`Seams::Refuse`].
+    /// Returns the errors of [`dissolve_vertex`](Self::dissolve_vertex). [`EditError::Seam`] is returned only if
+    /// `seams` is [`Seams::Refuse`].
     pub fn dissolve_vertex_with(&mut self, v: VertexId, seams: Seams) -> Result<FaceId, EditError> {
         self.check_vertex(v)?;
         let spokes: Vec<HalfEdgeId> = self.vertex_half_edges(v).collect();
@@ -87,7 +86,7 @@ impl Mesh {
         if first_repeated(&faces).is_some() {
             return Err(EditError::RepeatedVertex(v));
         }
-        // On the boundary, the first and the last spoke become one edge.
+        // If `v` is on the boundary, its first and its last spoke (outgoing half-edge) become one edge.
         let on_boundary = self.is_boundary_vertex(v);
         let last = spokes.len() - 1;
         let inner = if on_boundary {
@@ -164,7 +163,7 @@ impl Mesh {
     }
 
     /// Returns the spoke (one of several outgoing half-edges of a vertex) whose face has the most corners. Walks around
-    /// the faces of all spokes at the same time, and stops when at most one walk is not complete.
+    /// the faces of all spokes at the same time, and stops when all walks, or all walks except one, are complete.
     fn spoke_of_largest_face(&self, spokes: &[HalfEdgeId]) -> HalfEdgeId {
         let with_face = spokes.iter().filter(|&&h| self.face(h).is_some());
         let mut walks: Vec<(HalfEdgeId, HalfEdgeId)> = with_face.map(|&h| (h, h)).collect();
@@ -183,8 +182,8 @@ impl Mesh {
     }
 
     /// Returns a vertex that the merged face would contain twice. `rim` has the half-edges around all faces except the
-    /// face of the spoke `large`. To save time, this function does not walk around that face, because it has the most
-    /// corners.
+    /// face of the spoke `large`. To save time, this function does not walk around the face of `large`, because this
+    /// face has the most corners.
     fn repeated_after_merge(
         &self,
         spokes: &[HalfEdgeId],

@@ -20,32 +20,33 @@ impl Mesh {
     /// ```
     ///
     /// The rim consists of the half-edges h of `faces` whose twin has no face, or has a face that is not listed in
-    /// `faces`. If the rim has n half-edges, V, E and F grow by n, 2n and n.
+    /// `faces`. If the rim has n half-edges, the numbers of vertices, edges and faces grow by n, 2n and n.
     ///
-    /// **Ids.** The faces keep their ids and the order of their corners, so that the same faces can be extruded again.
-    /// The edges and vertices inside the faces keep their ids too. The vertices and edges of the rim stay in place with
-    /// the rest of the mesh, and the moved faces get new vertices and edges. The new elements are numbered in the order
-    /// of the half-edges h: in order of `faces`, and counter-clockwise from the first half-edge of each face. Each
-    /// half-edge h of the rim, from v to w, adds the vertex v', the edges v'-w' and v-v' in this order, and the side
-    /// face. The half-edge that the side face stores is h.
+    /// **Ids.** The extruded faces keep their ids and the order of their corners, so that the same faces can be
+    /// extruded again. The edges and vertices inside the faces keep their ids too. The vertices and edges of the rim
+    /// stay in place with the rest of the mesh, and the moved faces get new vertices and edges. The new elements are
+    /// numbered in the order of the half-edges h: in order of `faces`, and counter-clockwise from the first half-edge
+    /// of each face. Let h be a half-edge of the rim from v to w, and v' and w' the copies of v and w. Then h adds the
+    /// vertex v', the edges v'-w' and v-v' in this order, and a side face, which stores h as its half-edge.
     ///
     /// If faces meet only at a vertex, each of their fans gets a separate copy of the vertex. If all faces of an open
     /// sheet are extruded, the sheet becomes a box without a bottom, because no face remains where the sheet was. If
     /// all faces of a closed component are extruded, there is no rim, and the component only moves. If two edges of the
     /// rim are parallel (they join the same two vertices), their copies are parallel too.
     ///
-    /// **Attributes.** The copies of the vertices and edges of the rim have the values of the originals; the edges v-v'
-    /// have zero values. A side face has the values of the face f at its rim edge. The corners of the side face at v
-    /// and v' both have the values that the corner of f had at v, so that there is no seam between f and the side face.
-    /// Normals do not change.
+    /// **Attributes.** The copies of the vertices and edges of the rim have the values of the originals. The new edges
+    /// that join a vertex v to its copy v' have zero values. A side face has the values of the extruded face f that
+    /// shares an edge with it. The corners of the side face at v and v' both have the values that f had at its corner
+    /// at v, so that there is no seam between f and the side face. Normals do not change.
     ///
-    /// Returns the side faces, in the order of their half-edges h.
+    /// Returns the side faces, in the order of the half-edges of the rim.
     ///
     /// # Errors
     ///
-    /// Returns [`EditError::NoElements`] if `faces` is empty, [`EditError::FaceListedTwice`],
-    /// [`EditError::NoSuchFace`], [`EditError::BadNumber`] if a moved coordinate would not be finite,
-    /// or [`EditError::Full`]. The mesh is unchanged.
+    /// Returns [`EditError::NoElements`] if `faces` is empty, and [`EditError::FaceListedTwice`] or
+    /// [`EditError::NoSuchFace`] if a face is listed twice or does not exist. Returns [`EditError::BadNumber`] if a
+    /// moved coordinate would not be finite, and [`EditError::Full`] if there are not enough ids for the new elements.
+    /// After an error, the mesh is unchanged.
     ///
     /// # Examples
     ///

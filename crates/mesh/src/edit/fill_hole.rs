@@ -29,9 +29,9 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// Returns [`EditError::NotBoundary`] if `h` has a face, [`EditError::ShortLoop`] if the hole has two
-    /// edges (use [`stitch_edges`](Self::stitch_edges) instead), [`EditError::Pinch`] if the hole contains a
-    /// vertex twice, or [`EditError::NoSuchHalfEdge`]. The mesh is unchanged.
+    /// Returns [`EditError::NotBoundary`] if `h` has a face, [`EditError::ShortLoop`] if the hole has two edges (use
+    /// [`stitch_edges`](Self::stitch_edges) instead), or [`EditError::Pinch`] if the hole contains a vertex twice.
+    /// Returns [`EditError::NoSuchHalfEdge`] if `h` does not exist. After an error, the mesh is unchanged.
     ///
     /// # Examples
     ///
@@ -56,8 +56,8 @@ impl Mesh {
     }
 
     /// Fills a hole with triangles, by cutting off ears. `h` is a half-edge of the hole: it has no face. Each number in
-    /// `ears` is the index of a vertex on the rim, counted from the origin of `h`. This vertex is cut off by a triangle
-    /// whose other two corners are the current neighbors of the vertex on the rim.
+    /// `ears` is the index of a vertex on the rim; the origin of `h` has the index 0. This vertex is cut off by a
+    /// triangle whose other two corners are the current neighbors of the vertex on the rim.
     ///
     /// ```text
     ///    +-----+-----+          +-----+-----+
@@ -75,8 +75,8 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// Returns [`EditError::Full`], and the errors of [`fill_hole`](Self::fill_hole). The mesh is
-    /// unchanged.
+    /// Returns the errors of [`fill_hole`](Self::fill_hole), and [`EditError::Full`] if there are not enough ids for
+    /// the new elements. After an error, the mesh is unchanged.
     ///
     /// # Panics
     ///

@@ -20,24 +20,26 @@ impl Mesh {
     ///    + ------------- +              + ------------- +
     /// ```
     ///
-    /// V, E and F grow by n, 2n and n, where f has n corners. The inner face keeps the id of `f`, and its first corner
-    /// is the copy of the first corner of `f`. Existing vertices and edges do not move. As in
-    /// [`extrude_faces`](Self::extrude_faces), the new elements are numbered in the order of the half-edges h of `f`,
-    /// counter-clockwise from the first. Each h, from v to w, adds the vertex v', the edges v'-w' and v-v' in this
-    /// order, and the face (v, w, w', v'). The half-edge that this face stores is h.
+    /// If `f` has n corners, the numbers of vertices, edges and faces grow by n, 2n and n. The inner face keeps the id
+    /// of `f`, and its first corner is the copy of the first corner of `f`. Existing vertices and edges do not move. As
+    /// in [`extrude_faces`](Self::extrude_faces), the new elements are numbered in the order of the half-edges h of
+    /// `f`, counter-clockwise from the first. Let h run from v to w, and let v' and w' be the copies of v and w. Then h
+    /// adds the vertex v', the edges v'-w' and v-v' in this order, and the face (v, w, w', v'), which stores h as its
+    /// half-edge.
     ///
     /// Each new vertex, and each corner at a new vertex, gets values that are interpolated with t = `fraction`. At t =
     /// 0, they are the values at the outer corner; at t = 1, the mean of the values at all corners of the face.
     /// Attributes that are not interpolated are copied from the outer corner. Inner edges have the values of the outer
-    /// edges, the edges v-v' have zero values, and the faces of the ring have the values of `f`.
+    /// edges, the edges between outer and inner vertices have zero values, and the faces of the ring have the values of
+    /// `f`.
     ///
-    /// Returns the faces of the ring, in the order of the half-edges h.
+    /// Returns the faces of the ring, in the order of the half-edges of `f`.
     ///
     /// # Errors
     ///
-    /// Returns [`EditError::BadNumber`] if `fraction` is not strictly between 0 and 1,
-    /// [`EditError::SameFace`] if `f` lies on both sides of one of its edges, [`EditError::NoSuchFace`], or
-    /// [`EditError::Full`]. The mesh is unchanged.
+    /// Returns [`EditError::BadNumber`] if `fraction` is not strictly between 0 and 1, and [`EditError::SameFace`] if
+    /// `f` lies on both sides of one of its edges. Returns [`EditError::NoSuchFace`] if `f` does not exist, and
+    /// [`EditError::Full`] if there are not enough ids for the new elements. After an error, the mesh is unchanged.
     ///
     /// # Examples
     ///

@@ -30,7 +30,7 @@ use glam::DVec3;
 
 use crate::{EdgeId, Element, FaceId, HalfEdgeId, Id, Mesh, VertexId};
 
-/// Why an edit was refused. The mesh is unchanged.
+/// Why an edit was refused. A refused edit leaves the mesh unchanged.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum EditError {
     /// The vertex does not exist, or is dead.
@@ -257,7 +257,8 @@ impl Mesh {
         copy
     }
 
-    /// Adds an edge between two corners of a face. Each half gets the values of the corner that it leaves.
+    /// Adds an edge between two corners of a face. Each half-edge of the new edge gets the values of the old corner
+    /// from which it starts.
     fn push_diagonal(&mut self, x: HalfEdgeId, y: HalfEdgeId) -> [HalfEdgeId; 2] {
         let halves = self.push_edge(self.origin(x), self.origin(y)).half_edges();
         self.copy_values(x, halves[0]);

@@ -16,10 +16,10 @@ impl Mesh {
     ///    a-----b          a-----b
     /// ```
     ///
-    /// A face with n corners becomes n triangles: V, E and F grow by 1, n and n - 1, and V - E + F stays the
-    /// same. Let a be the first corner, at [`face_half_edge`](Self::face_half_edge). The triangle (a, b, m)
-    /// keeps the id of `f`. The new elements are the edges m-a, m-b, ... and the faces (b, c, m), ... in the
-    /// order of the corners. The first half of a new edge starts at m.
+    /// A face with n corners becomes n triangles: the numbers of vertices, edges and faces grow by 1, n and n - 1. Let
+    /// a be the first corner, from which [`face_half_edge`](Self::face_half_edge) starts. The triangle (a, b, m) keeps
+    /// the id of `f`. The new elements are the edges m-a, m-b, ... and the faces (b, c, m), ... in the order of the
+    /// corners. The first half-edge of each new edge starts at m.
     ///
     /// Interpolated vertex attributes at m are the mean of the attributes of the corners; other vertex
     /// attributes are zero. The corners at m get the mean of the corner values of the face; the other corners
@@ -30,8 +30,9 @@ impl Mesh {
     /// # Errors
     ///
     /// Returns [`EditError::VisitsTwice`] if the face contains a vertex twice (this vertex would be joined to m twice),
-    /// [`EditError::NoSuchFace`], [`EditError::BadNumber`] if the mean of the corners is not finite, or
-    /// [`EditError::Full`]. The mesh is unchanged.
+    /// and [`EditError::BadNumber`] if the mean of the corners is not finite. Returns [`EditError::NoSuchFace`] if `f`
+    /// does not exist, and [`EditError::Full`] if there are not enough ids for the new elements. After an error, the
+    /// mesh is unchanged.
     ///
     /// # Examples
     ///
@@ -48,7 +49,7 @@ impl Mesh {
     }
 
     /// Pokes a face like [`poke_face`](Self::poke_face), with the vertex at `position`, in scene units. As in
-    /// `poke_face`, the attributes at the new vertex are the means over the corners. They do not depend on `position`.
+    /// `poke_face`, the attributes at the new vertex are the means over the corners, and do not depend on `position`.
     ///
     /// # Errors
     ///

@@ -16,9 +16,9 @@ impl Mesh {
     ///  a --- h -> b         a <- h --- b
     /// ```
     ///
-    /// All ids stay the same. The first corner of a face stays the first; the other corners follow in
-    /// reverse order. Values of corners stay with their vertex and face. Normals (columns of
-    /// [`Rule::Normal`]) of the vertices and corners are negated. Other components do not change.
+    /// All ids stay the same. The first corner of a face stays the first; the other corners follow in reverse order.
+    /// Values of corners stay with their vertex and face. Normals (columns of [`Rule::Normal`]) of the vertices and
+    /// corners are negated. Components that are not listed do not change.
     ///
     /// To reverse the whole mesh, use [`reverse`](Self::reverse), which is faster.
     ///
@@ -27,8 +27,9 @@ impl Mesh {
     /// # Errors
     ///
     /// Returns [`EditError::PartOfComponent`] if a listed face shares an edge with a face that is not listed; the error
-    /// contains the listed face. Also returns [`EditError::FaceListedTwice`], [`EditError::NoElements`] for an empty
-    /// list, or [`EditError::NoSuchFace`]. The mesh is unchanged.
+    /// contains the listed face. Returns [`EditError::FaceListedTwice`] or [`EditError::NoSuchFace`] if a face is
+    /// listed twice or does not exist, and [`EditError::NoElements`] for an empty list. After an error, the mesh is
+    /// unchanged.
     pub fn reverse_faces(&mut self, faces: &[FaceId]) -> Result<(), EditError> {
         let mut is_listed = Marks::default();
         for &f in faces {

@@ -14,9 +14,10 @@ impl Mesh {
     /// ```
     ///
     /// `e` keeps its id and becomes a-m. The new elements are, in this order, the edges m-b, m-c (on the side of the
-    /// first half of `e`) and m-d, and the faces at b: (m, b, c) and (b, m, d). f and g become the triangles at a. A
-    /// side without a face gets no new edge. A face with more than three corners is not cut: it gains m as a corner.
-    /// Inside a triangle mesh, V, E and F grow by 1, 3 and 2; on its boundary by 1, 2 and 1. V - E + F stays the same.
+    /// first half-edge of `e`) and m-d, and the faces at b: (m, b, c) and (b, m, d). f and g become the triangles at a.
+    /// A side without a face gets no new edge. A face with more than three corners is not cut: it gains m as a corner.
+    /// Inside a triangle mesh, the numbers of vertices, edges and faces grow by 1, 3 and 2; on its boundary by 1, 2
+    /// and 1.
     ///
     /// Vertex attributes at m are interpolated between a and b. Corner attributes at m are interpolated within their
     /// face, separately on each side of a seam. m-b has the edge values of `e`. Each new face has the values of the
@@ -28,8 +29,9 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// Returns [`EditError::OutsideEdge`] if `t` is not strictly between 0 and 1,
-    /// [`EditError::NoSuchEdge`], or [`EditError::Full`]. The mesh is unchanged.
+    /// Returns [`EditError::OutsideEdge`] if `t` is not strictly between 0 and 1, [`EditError::NoSuchEdge`] if `e` does
+    /// not exist, and [`EditError::Full`] if there are not enough ids for the new elements. After an error, the mesh is
+    /// unchanged.
     ///
     /// # Examples
     ///
@@ -63,7 +65,7 @@ impl Mesh {
     /// Splits `e`, which runs from a to b, by a vertex m. Unlike [`split_edge`](Self::split_edge), this edit does not
     /// cut the faces beside `e`: m becomes an additional corner of these faces, even of triangles.
     ///
-    /// Returns the new edge m-b, whose first half starts at m.
+    /// Returns the new edge m-b, whose first half-edge starts at m.
     ///
     /// # Errors
     ///
@@ -81,7 +83,7 @@ impl Mesh {
         let m = self.push_vertex((1.0 - t) * self.position(a) + t * self.position(b));
         self.mix_values(a, b, t, m);
 
-        // The new edge m-b, whose halves lie on the faces of e.
+        // The new edge m-b, whose half-edges lie on the faces of e.
         let new = self.push_edge(m, b);
         self.copy_values(e, new);
         let [mb, bm] = new.half_edges();

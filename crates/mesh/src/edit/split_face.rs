@@ -12,18 +12,19 @@ impl Mesh {
     ///    a-----+           a/--f-+         g is new and has x and the half-edge b-a
     /// ```
     ///
-    /// `x` and `y` are half-edges of the face and denote the corners at their origins. The new edge runs from
-    /// the origin of `x` to the origin of `y`. The first half of the new edge and `y` are on the old face; the
-    /// second half and `x` are on the new face. Each corner at an end of the new edge has the values of the old
-    /// corner at this end. The new face has the values of the old face, and the new edge has zero values.
+    /// `x` and `y` are half-edges of the face and denote the corners at their origins. The new edge runs from the
+    /// origin of `x` to the origin of `y`. The first half-edge of the new edge and `y` are on the old face; the second
+    /// half-edge of the new edge and `x` are on the new face. Each corner at an end of the new edge has the values of
+    /// the old corner at this end. The new face has the values of the old face, and the new edge has zero values.
     ///
     /// Returns the new edge.
     ///
     /// # Errors
     ///
     /// Returns [`EditError::WrongCorner`] if `x` has no face or `y` is not on the same face; [`EditError::Adjacent`] if
-    /// the corners are the same, adjacent, or at the same vertex; [`EditError::DuplicateEdge`] if the vertices share an
-    /// edge outside the face; [`EditError::NoSuchHalfEdge`]; or [`EditError::Full`]. The mesh is unchanged.
+    /// the corners are the same, adjacent, or at the same vertex; or [`EditError::DuplicateEdge`] if the vertices share
+    /// an edge outside the face. Returns [`EditError::NoSuchHalfEdge`] if `x` or `y` does not exist, and
+    /// [`EditError::Full`] if there are not enough ids for the new elements. After an error, the mesh is unchanged.
     ///
     /// # Examples
     ///
@@ -68,9 +69,10 @@ impl Mesh {
     /// # Errors
     ///
     /// Returns [`EditError::DuplicateEdge`] if the vertices share an edge; [`EditError::NoCut`] if no face has both
-    /// vertices as corners, or if `v` is `w`; [`EditError::SeveralCuts`] if several faces have both vertices as
-    /// corners, or if one face contains one of the vertices twice; [`EditError::NoSuchVertex`]; or [`EditError::Full`].
-    /// The mesh is unchanged.
+    /// vertices as corners, or if `v` is `w`; or [`EditError::SeveralCuts`] if several faces have both vertices as
+    /// corners or if one face contains one of the vertices twice. Returns [`EditError::NoSuchVertex`] if a vertex does
+    /// not exist, and [`EditError::Full`] if there are not enough ids for the new elements. After an error, the mesh is
+    /// unchanged.
     ///
     /// [`split_face`]: Self::split_face
     pub fn connect_vertices(&mut self, v: VertexId, w: VertexId) -> Result<EdgeId, EditError> {

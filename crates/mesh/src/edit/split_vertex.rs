@@ -18,14 +18,14 @@ impl Mesh {
     /// ```
     ///
     /// `x` and `y` denote the corners at their origin: `x` denotes the corner in f, and `y` the corner in g. The new
-    /// edge runs from v to w. The first half of the new edge is on f, the second half is on g, and both faces gain a
-    /// corner. f or g can be a hole; then the new edge is on the boundary. V and E grow by 1. All existing ids stay the
-    /// same.
+    /// edge runs from v to w. The first half-edge of the new edge is on f, the second half-edge is on g, and both faces
+    /// gain a corner. f or g can be a hole; then the new edge is on the boundary. The mesh gains one vertex and one
+    /// edge. All existing ids stay the same.
     ///
     /// [`split_face`](Self::split_face) is the corresponding edit for faces. To undo the split, collapse the new edge
-    /// to the old position with [`collapse_edge_to`](Self::collapse_edge_to). This collapse can be refused only if two
-    /// edges joined v to the same vertex or a face contains v twice. To undo a collapse that removed triangles, call
-    /// `split_vertex`, then `split_face`.
+    /// to the old position with [`collapse_edge_to`](Self::collapse_edge_to). This collapse can be refused only if,
+    /// before the split, two edges joined v to the same vertex or a face contained v twice. To undo a collapse that
+    /// removed triangles, call `split_vertex`, then `split_face`.
     ///
     /// The new vertex is at `position` and has the attributes of v. On each side of the new edge, the two corners at
     /// its ends have the values of the old corner. The new edge has zero values.
@@ -35,8 +35,9 @@ impl Mesh {
     /// # Errors
     ///
     /// Returns [`EditError::WrongCorner`] if `y` does not leave the origin of `x`, [`EditError::Adjacent`] if `x` is
-    /// `y`, [`EditError::VisitsTwice`] if both corners belong to the same face, [`EditError::BadNumber`] if a
-    /// coordinate is not finite, [`EditError::NoSuchHalfEdge`], or [`EditError::Full`]. The mesh is unchanged.
+    /// `y`, [`EditError::VisitsTwice`] if both corners belong to the same face, and [`EditError::BadNumber`] if a
+    /// coordinate is not finite. Returns [`EditError::NoSuchHalfEdge`] if `x` or `y` does not exist, and
+    /// [`EditError::Full`] if there are not enough ids for the new elements. After an error, the mesh is unchanged.
     ///
     /// # Examples
     ///

@@ -6,8 +6,8 @@ use crate::{EdgeId, EditError, HalfEdgeId, Mesh, VertexId};
 /// target of the other.
 type Pair = [HalfEdgeId; 2];
 
-/// Returns the half-edge with a face that is replaced when the edges of a pair are merged. It belongs to the edge with
-/// the higher id.
+/// When the edges of a pair are merged, one half-edge with a face is replaced. Returns this half-edge, which belongs to
+/// the edge with the higher id.
 fn replaced([h, g]: Pair) -> HalfEdgeId {
     h.max(g).twin()
 }
@@ -23,12 +23,12 @@ impl Mesh {
     ///       /   \                   /   \
     /// ```
     ///
-    /// a and a' become one vertex, and so do b and b'. The two vertices of one of these pairs can already be the same
-    /// vertex. In each pair, the vertex with the lower id remains and keeps its position and values; the other vertex
-    /// dies. The edge with the lower id remains, keeps its values and gets both faces; the other edge dies. Corners
-    /// keep their values, so different UVs form a seam. If the stitch would leave a hole with only two edges, these two
-    /// edges are stitched too, because a list of polygons cannot represent such a hole. To close a whole cut, stitch
-    /// its pairs of edges one after the other, starting at an end of the cut.
+    /// The ends a and a' in the picture become one vertex, and b and b' become one vertex. The two vertices of one of
+    /// these pairs can already be the same vertex. In each pair, the vertex with the lower id remains and keeps its
+    /// position and values; the other vertex dies. The edge with the lower id remains, keeps its values and gets both
+    /// faces; the other edge dies. Corners keep their values, so different UVs form a seam. If the stitch would leave a
+    /// hole with only two edges, these two edges are stitched too, because a list of polygons cannot represent such a
+    /// hole. To close a whole cut, stitch its pairs of edges one after the other, starting at an end of the cut.
     ///
     /// The order of `h` and `g` does not matter. The orientation of the faces always matches, because both
     /// half-edges have the surface on their right.
@@ -37,11 +37,12 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// Returns [`EditError::NotBoundary`] if `h` or `g` has a face, [`EditError::EdgeListedTwice`] if `h` is `g`, or
-    /// [`EditError::NoSuchHalfEdge`]. Returns [`EditError::SameFace`] if the same face is beside both edges of a pair
-    /// that would be stitched. For two vertices that would be merged, returns [`EditError::SelfLoop`] if they share an
-    /// edge, and [`EditError::VisitsTwice`] if they share a face. Returns [`EditError::DuplicateEdge`] if both are
-    /// joined to a third vertex by edges that would not be stitched. The mesh is unchanged.
+    /// Returns [`EditError::NotBoundary`] if `h` or `g` has a face, [`EditError::EdgeListedTwice`] if `h` is `g`, and
+    /// [`EditError::NoSuchHalfEdge`] if `h` or `g` does not exist. Returns [`EditError::SameFace`] if the same face is
+    /// beside both edges of a pair that would be stitched. For two vertices that would be merged, returns
+    /// [`EditError::SelfLoop`] if they share an edge, and [`EditError::VisitsTwice`] if they share a face. Returns
+    /// [`EditError::DuplicateEdge`] if both of these vertices are joined to a third vertex by edges that would not be
+    /// stitched. After an error, the mesh is unchanged.
     ///
     /// # Examples
     ///
@@ -151,7 +152,7 @@ impl Mesh {
     }
 
     /// Merges the edges of two half-edges without faces. The edge with the lower id remains. `before` was the half-edge
-    /// before the half that is replaced.
+    /// before the half-edge that is replaced.
     fn merge_edges(&mut self, pair: Pair, before: HalfEdgeId) -> EdgeId {
         let (kept, old) = (pair[0].min(pair[1]), replaced(pair));
         // If another half-edge has already replaced `before` in the face, `next` leads to that half-edge.

@@ -90,6 +90,6 @@ fn missing<S: Select>(mesh: &Mesh, name: &str) -> OpError {
         known => known.join(", "),
     };
     refused(format!(
-        "no attribute of {word} is named \"{name}\"; attributes of {word} with numbers: {known}"
+        "no attribute of {word} is named \"{name}\"; numeric attributes of {word}: {known}"
     ))
 }

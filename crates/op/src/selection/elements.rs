@@ -10,9 +10,9 @@ use crate::{Context, OpError};
 
 /// A selection of vertices, edges or faces.
 ///
-/// If a selection exists for only one kind of element, a recipe can omit the outer name (`Vertices`, `Edges` or
-/// `Faces`). For example, `Sharp(above: 30)` is short for `Edges(Sharp(above: 30))`. `Boundary` exists for all three
-/// kinds, so its outer name is required, as in `Edges(Boundary)`.
+/// Some selections, such as `Sharp`, exist for only one kind of element. For such a selection, a recipe can omit the
+/// outer name (`Vertices`, `Edges` or `Faces`). For example, `Sharp(above: 30)` is short for `Edges(Sharp(above: 30))`.
+/// `Boundary` exists for vertices, edges and faces, so its outer name is required, as in `Edges(Boundary)`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields, remote = "Self")]
 #[schemars(!remote, extend("x-shorthand" = true))]

@@ -81,6 +81,7 @@ impl Select for FaceSelection {
             Self::Material(name) => {
                 let Some(place) = cx.materials.iter().position(|m| m == name) else {
                     let known = cx.materials.join(", ");
+                    let known = if known.is_empty() { "none" } else { &known };
                     let message = format!("no material is named \"{name}\"; materials: {known}");
                     return Err(OpError::refused(Refusal::Missing, message));
                 };

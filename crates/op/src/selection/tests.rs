@@ -123,7 +123,7 @@ fn wrong_attributes_are_refused_with_help() {
     for (text, expected) in [
         (
             "Where(attribute: \"walls\", below: 2)",
-            "no attribute of vertices is named \"walls\"; attributes of vertices with numbers: flow, wall",
+            "no attribute of vertices is named \"walls\"; numeric attributes of vertices: flow, wall",
         ),
         (
             "Where(attribute: \"kind\", below: 2)",

@@ -44,7 +44,7 @@ Methods of a scene act on all of its objects, or on those that `on` names:
 >>> scene["box"].n_faces, scene["ball"].n_faces, scene["ball"].attributes["gap"].shape
 (6, 80, (42,))
 
-The steps that made a mesh or a scene are a recipe. The program `meshwright` runs recipes, too:
+`recipe()` returns the steps that made a mesh or a scene. The program `meshwright` runs recipes, too:
 
 >>> print(scene["ball"].recipe())
 (

@@ -104,7 +104,7 @@ def batch(
     upload: str | None = None,
     progress: bool | Progress | None = None,
 ) -> Report:
-    """Runs one recipe on many files, with many parameter sets, or both; several runs at the same time.
+    """Runs one recipe on many files, with many parameter sets, or with both. Several runs take place at the same time.
 
     >>> mw.batch("clean.ron", "models/*.obj")                                     # doctest: +SKIP
     Report(12 ok, 1 failed)
@@ -117,14 +117,14 @@ def batch(
     content. The engine and the number of parts can differ from those of the earlier call. A file that fails is a row of
     the report, and does not stop the batch.
 
-    :param recipe: The recipe, or the path of its file. For inputs, it needs a parameter of type Path, which receives the
-        input.
+    :param recipe: The recipe, or the path of its file. With `inputs`, the recipe needs a parameter of type Path, which
+        receives the path of the input.
     :param inputs: Files, or patterns: ``*`` and ``?`` match within one folder, ``**`` any number of folders. Addresses such
         as ``s3://bucket/*.obj`` need fsspec, and are copied to the folder ``inputs`` in `out` first.
     :param sets: Parameter sets: ``[{"levels": 1}, {"levels": 2}]``. The recipe runs with each set, for each input if there
         are inputs. The outputs of a set are in a folder in `out` that is named after the number of the set, from 1.
     :param engine: "local" uses the processors of this machine; "dask" starts a local cluster of Dask, and a client of Dask
-        uses its cluster; "ray" uses Ray. The workers of a cluster need this package, and the same folders. Each task
+        uses its cluster; "ray" uses Ray. The workers of a cluster need this package, and access to the same folders. Each task
         states its estimated memory: to Ray as ``memory``, and to Dask as the resource ``MEMORY`` if workers have it.
     :param out: The folder for outputs, and for the state of the batch.
     :param values: Values of the other parameters of the recipe.
@@ -136,7 +136,7 @@ def batch(
     :param report: A file for the report: .json, .jsonl or .csv.
     :param budget: The memory budget for meshes of a process, such as "2GiB". Defaults to 8 GiB.
     :param upload: An address such as ``s3://bucket/clean``, to which outputs are copied at the end.
-    :param progress: Called with ``"batch"``, ``"files"``, the number of finished files and the total number of files;
+    :param progress: A callable that receives ``"batch"``, ``"files"``, the number of finished files and the total number of files;
         or `True` for a bar of tqdm. Each file is counted once for each parameter set. On a cluster, the callable is
         called when a part is done. An exception cancels the batch.
     """

@@ -112,7 +112,7 @@ class Attributes(Mapping[str, NDArray[Any]]):
     def __getitem__(self, key: str | tuple[Domain, str]) -> NDArray[Any]:
         domain, name = key if isinstance(key, tuple) else (self.domain(key), key)
         if (domain, name) not in self._kinds:
-            raise KeyError(f'no attribute of a {domain} is named "{name}"')
+            raise KeyError(f'no {domain} attribute is named "{name}"')
         if (domain, name) not in self._values:
             self._values[domain, name] = view(self._mesh._core.attribute(domain, name))
         return self._values[domain, name]
@@ -148,9 +148,9 @@ class Mesh(MeshConversions, MeshOperations):
     >>> m.loop_subdivide(levels=2).n_faces
     16
 
-    Every operation on one mesh is a method, such as :meth:`smooth`. If a method has one of these parameters,
+    Every operation on one mesh is a method, such as :meth:`smooth`. Many methods have some of these parameters:
 
-    - a parameter such as `faces` is a word such as ``"Boundary"``, or a value of :mod:`meshwright.sel`;
+    - a selection, such as the parameter `faces`, is a word such as ``"Boundary"``, or a value of :mod:`meshwright.sel`;
     - `id` is any text. A different text gives different random choices, for example of ``sel.Random``. Defaults to the
       name of the operation;
     - `progress` is `True` for a bar of tqdm, or a callable. It is called with the operation, the task, the number of
@@ -323,7 +323,7 @@ class Mesh(MeshConversions, MeshOperations):
         array([0, 1, 2, 3, 4, 5], dtype=uint32)
 
         :param selection: A word such as ``"Boundary"``, or a value of :mod:`meshwright.sel`.
-        :param domain: vertex, edge or face. If omitted, the only domain that has such a selection.
+        :param domain: vertex, edge or face. Required only if the selection is valid for several of them.
         """
         kinds = [d for d in ("Vertex", "Edge", "Face") if domain in (None, d.lower())]
         schema = {"anyOf": [{"$ref": f"#/$defs/{kind}Selection"} for kind in kinds]}
@@ -349,7 +349,7 @@ class Mesh(MeshConversions, MeshOperations):
             or flags, which make a tag.
         :param domain: vertex, corner, edge or face. If omitted, the only domain that has as many elements as there are
             values.
-        :param rule: What edits do with the values. Defaults to "interpolate" for numbers and "copy" for others.
+        :param rule: What edits do with the values. Defaults to "copy" for whole numbers and flags, and to "interpolate" for other values.
         """
         array = numeric(values, f"the values of {name!r}")
         if array.ndim not in (1, 2) or array.ndim == 2 and not 1 <= array.shape[1] <= 4:
@@ -411,7 +411,7 @@ class Mesh(MeshConversions, MeshOperations):
 
     @property
     def materials(self) -> list[str]:
-        """The names of the materials. The attribute "material" of faces has indices into this list."""
+        """The names of the materials. The face attribute "material" contains indices into this list."""
         return self._scene.materials(self._name)
 
     @property
@@ -465,8 +465,8 @@ class Mesh(MeshConversions, MeshOperations):
         return self._core.bytes()
 
     def distance_to(self, other: Mesh, *, tolerance: float | None = None) -> Distance:
-        """Measures the distances between the surfaces of two meshes, in both directions and in scene units. Placements
-        by nodes are left out; ``scene.placed()`` applies them.
+        """Measures the distances between the surfaces of two meshes, in both directions and in scene units. The
+        transforms of nodes that place the meshes in a scene are ignored; ``scene.placed()`` applies them.
 
         >>> import meshwright as mw
         >>> ball = mw.Scene().uv_sphere(name="ball").mesh()
@@ -543,8 +543,9 @@ class Mesh(MeshConversions, MeshOperations):
         ``m.recipe().save("a.glb").save_recipe("clean.ron")``. Paths of input files stay as they were given. Relative
         paths in a recipe are relative to the folder of its file, so save the recipe in the working directory.
 
-        :raises ValueError: If the mesh was made from arrays, has another mesh as an argument of an operation, or was
-            changed by :meth:`with_attribute`, :meth:`with_vertices` or :meth:`edit`. The text names the change.
+        :raises ValueError: If the mesh was made from arrays, was made by an operation with another mesh as an argument,
+            or was changed by :meth:`with_attribute`, :meth:`with_vertices` or :meth:`edit`. The text names the
+            change.
         """
         return self.scene().recipe()
 

@@ -159,7 +159,7 @@ class SceneOperations:
             ``"Vertices"``: Vertices.
             ``"Faces"``: Faces.
             ``"Corners"``: The corners of the faces, face by face.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         :warns meshwright.LossWarning: If the format cannot store some of the data. The text lists what is lost.
         """
@@ -454,7 +454,7 @@ class SceneOperations:
             vertex. The UVs of different patches overlap, because each patch covers the whole square from 0 to 1.
             Defaults to ``False``.
         :param normals: Whether to store the exact unit normals of the patches as vertex normals. Defaults to ``False``.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Tessellate', {'segments': segments, 'faces': faces, 'uvs': uvs, 'normals': normals}, on, id, progress)
@@ -476,7 +476,7 @@ class SceneOperations:
         Example: ``scene.sample_curve(segments=1)``, in a recipe ``SampleCurve(segments: 1)``
 
         :param segments: The number of straight segments of each polyline.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('SampleCurve', {'segments': segments}, on, id, progress)
@@ -500,7 +500,7 @@ class SceneOperations:
 
         :param t: The curve parameter at which the algorithm computes a point, from 0 (the start of the curve) to 1 (the
             end).
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('CurveLevels', {'t': t}, on, id, progress)
@@ -525,7 +525,7 @@ class SceneOperations:
         :param index: The index of the control point, from 0. Every curve on which the operation acts must have a
             control point with this index.
         :param to: The new position: ``(x, y)`` in the plane z = 0, in scene units.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('MoveControlPoint', {'index': index, 'to': to}, on, id, progress)
@@ -554,7 +554,7 @@ class SceneOperations:
             is the row and c is the column, all counted from 0. Every object on which the operation acts must have a
             control point with this index.
         :param to: The new position ``(x, y, z)``, in scene units.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('MovePatchPoint', {'index': index, 'to': to}, on, id, progress)
@@ -746,7 +746,7 @@ class SceneOperations:
         :param space: The coordinate system in which objects are scaled, rotated and moved. Defaults to ``"Scene"``.
             ``"Scene"``: The space of the scene.
             ``"Object"``: The own space of each object.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Transform', {'scale': scale, 'rotate': rotate, 'move': move, 'about': about, 'space': space}, on, id, progress)
@@ -823,7 +823,7 @@ class SceneOperations:
 
         :param distance: The largest distance between linked vertices, in scene units. With 0, only vertices at equal
             positions merge.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Weld', {'distance': distance}, on, id, progress)
@@ -849,7 +849,7 @@ class SceneOperations:
 
         :param faces: The faces to reverse. The faces must form whole connected components. Defaults to ``"All"``.
             ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Reverse', {'faces': faces}, on, id, progress)
@@ -888,7 +888,7 @@ class SceneOperations:
 
         :param faces: The faces to cut. Defaults to ``"All"``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a
             value of ``meshwright.sel``.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Triangulate', {'faces': faces}, on, id, progress)
@@ -950,7 +950,7 @@ class SceneOperations:
             Defaults to ``"Refuse"``.
             ``"Refuse"``: Refuse the edit.
             ``"Drop"``: Edit anyway.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('FlipEdges', {'edges': edges, 'until': until, 'passes': passes, 'on_refusal': on_refusal, 'seams': seams}, on, id, progress)
@@ -984,7 +984,7 @@ class SceneOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
                 element.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('SplitEdges', {'edges': edges, 'at': at, 'on_refusal': on_refusal}, on, id, progress)
@@ -1036,7 +1036,7 @@ class SceneOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
                 element.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('CollapseEdges', {'edges': edges, 'at': at, 'on_refusal': on_refusal}, on, id, progress)
@@ -1075,7 +1075,7 @@ class SceneOperations:
             Defaults to ``"Refuse"``.
             ``"Refuse"``: Refuse the edit.
             ``"Drop"``: Edit anyway.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('DissolveEdges', {'edges': edges, 'on_refusal': on_refusal, 'seams': seams}, on, id, progress)
@@ -1128,7 +1128,7 @@ class SceneOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
                 element.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('BevelEdges', {'edges': edges, 'width': width, 'fraction': fraction, 'on_refusal': on_refusal}, on, id, progress)
@@ -1164,7 +1164,7 @@ class SceneOperations:
             ``meshwright.sel``.
         :param vertices: The vertices to change. If omitted, no vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or
             a value of ``meshwright.sel``.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Crease', {'edges': edges, 'vertices': vertices, 'sharpness': sharpness}, on, id, progress)
@@ -1202,7 +1202,7 @@ class SceneOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
                 element.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('PokeFaces', {'faces': faces, 'distance': distance, 'on_refusal': on_refusal}, on, id, progress)
@@ -1235,7 +1235,7 @@ class SceneOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
                 element.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('SplitFaces', {'between': between, 'on_refusal': on_refusal}, on, id, progress)
@@ -1272,7 +1272,7 @@ class SceneOperations:
             ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
                 element.
         :param keep_vertices: Whether to keep vertices that are left without an edge. Defaults to ``False``.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('DeleteFaces', {'faces': faces, 'on_refusal': on_refusal, 'keep_vertices': keep_vertices}, on, id, progress)
@@ -1329,7 +1329,7 @@ class SceneOperations:
                 towards the viewer. Rotations by multiples of 90 degrees have no rounding errors.
         :param tag: The name of a tag for the moved faces and their side faces. Faces that already have the tag keep it.
             If omitted, no faces are tagged.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('ExtrudeFaces', {'faces': faces, 'by': by, 'scale': scale, 'rotate': rotate, 'tag': tag}, on, id, progress)
@@ -1369,7 +1369,7 @@ class SceneOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
                 element.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('InsetFaces', {'faces': faces, 'fraction': fraction, 'on_refusal': on_refusal}, on, id, progress)
@@ -1414,7 +1414,7 @@ class SceneOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
                 element.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('BevelFaces', {'faces': faces, 'fraction': fraction, 'distance': distance, 'on_refusal': on_refusal}, on, id, progress)
@@ -1456,7 +1456,7 @@ class SceneOperations:
         :param seams: What to do at seams. Defaults to ``"Refuse"``.
             ``"Refuse"``: Refuse the edit.
             ``"Drop"``: Edit anyway.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('DissolveVertices', {'vertices': vertices, 'on_refusal': on_refusal, 'seams': seams}, on, id, progress)
@@ -1501,7 +1501,7 @@ class SceneOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
                 element.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('BevelVertices', {'vertices': vertices, 'fraction': fraction, 'on_refusal': on_refusal}, on, id, progress)
@@ -1526,7 +1526,7 @@ class SceneOperations:
             ``"Area"``: The area of the face.
             ``"Angle"``: The angle of the face at the vertex.
             ``"Uniform"``: The same weight for all faces.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('VertexNormals', {'weight': weight}, on, id, progress)
@@ -1553,7 +1553,7 @@ class SceneOperations:
         Example: ``scene.tangents()``, in a recipe ``Tangents()``
 
         :param uv: The name of the attribute with the texture coordinates for the normal map. Defaults to ``uv``.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Tangents', {'uv': uv}, on, id, progress)
@@ -1600,7 +1600,7 @@ class SceneOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
                 element.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('FillHoles', {'around': around, 'max_edges': max_edges, 'with': with_, 'on_refusal': on_refusal}, on, id, progress)
@@ -1636,7 +1636,7 @@ class SceneOperations:
 
         :param first: The id of a vertex on the first hole.
         :param second: The id of a vertex on the second hole. A new edge joins this vertex to the vertex ``first``.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('BridgeLoops', {'first': first, 'second': second}, on, id, progress)
@@ -1678,7 +1678,7 @@ class SceneOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
                 element.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Stitch', {'distance': distance, 'on_refusal': on_refusal}, on, id, progress)
@@ -1713,7 +1713,7 @@ class SceneOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
                 element.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Cut', {'edges': edges, 'on_refusal': on_refusal}, on, id, progress)
@@ -1742,7 +1742,7 @@ class SceneOperations:
         :param name: The name of the tag. The name must not be empty and must not start or end with whitespace.
         :param vertices: The vertices to tag. If the selection is empty, the tag exists but no vertex has it. ``"All"``,
             ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('TagVertices', {'name': name, 'vertices': vertices}, on, id, progress)
@@ -1769,7 +1769,7 @@ class SceneOperations:
         :param name: The name of the tag. The name must not be empty and must not start or end with whitespace.
         :param edges: The edges to tag. If the selection is empty, the tag exists but no edge has it. ``"All"``,
             ``"Boundary"``, or a value of ``meshwright.sel``.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('TagEdges', {'name': name, 'edges': edges}, on, id, progress)
@@ -1796,7 +1796,7 @@ class SceneOperations:
         :param name: The name of the tag. The name must not be empty and must not start or end with whitespace.
         :param faces: The faces to tag. If the selection is empty, the tag exists but no face has it. ``"All"``,
             ``"Boundary"``, ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('TagFaces', {'name': name, 'faces': faces}, on, id, progress)
@@ -1865,7 +1865,7 @@ class SceneOperations:
             refined faces does not move. The documentation of the Rust function ``subdivision::refine_faces`` describes
             the ids of new elements. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
             ``meshwright.sel``.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('LoopSubdivide', {'levels': levels, 'until': until, 'weights': weights, 'boundary': boundary, 'creasing': creasing, 'face_varying': face_varying, 'to_limit': to_limit, 'faces': faces}, on, id, progress)
@@ -1928,7 +1928,7 @@ class SceneOperations:
             on common edges as additional corners. The surface outside the refined faces does not move. The
             documentation of the Rust function ``subdivision::refine_faces`` describes the ids of new elements.
             ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('CatmullClark', {'levels': levels, 'until': until, 'boundary': boundary, 'creasing': creasing, 'face_varying': face_varying, 'to_limit': to_limit, 'faces': faces}, on, id, progress)
@@ -1973,7 +1973,7 @@ class SceneOperations:
             vertices on common edges as additional corners. The documentation of the Rust function
             ``subdivision::refine_faces`` describes the ids of new elements. ``"All"``, ``"Boundary"``,
             ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Midpoint', {'levels': levels, 'until': until, 'into': into, 'faces': faces}, on, id, progress)
@@ -2008,7 +2008,7 @@ class SceneOperations:
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
                 than ``below``.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Butterfly', {'levels': levels, 'until': until}, on, id, progress)
@@ -2046,7 +2046,7 @@ class SceneOperations:
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
                 than ``below``.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Sqrt3', {'levels': levels, 'until': until}, on, id, progress)
@@ -2084,7 +2084,7 @@ class SceneOperations:
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
                 than ``below``.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('DooSabin', {'levels': levels, 'until': until}, on, id, progress)
@@ -2128,7 +2128,7 @@ class SceneOperations:
             ``"Back"``: The side of the plane that the normal of the plane points away from.
         :param tag: The name of a tag for the edges on the plane. Edges that already have the tag keep it. If omitted,
             no edges are tagged.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Bisect', {'point': point, 'normal': normal, 'keep': keep, 'tag': tag}, on, id, progress)
@@ -2164,7 +2164,7 @@ class SceneOperations:
         :param from_: The half that is kept and mirrored. Defaults to ``"Front"``.
             ``"Front"``: The side of the plane that the normal of the plane points to.
             ``"Back"``: The side of the plane that the normal of the plane points away from.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Symmetrize', {'point': point, 'normal': normal, 'from': from_}, on, id, progress)
@@ -2238,7 +2238,7 @@ class SceneOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
                 element.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Simplify', {'faces': faces, 'ratio': ratio, 'error': error, 'features': features, 'pin': pin, 'intersections': intersections, 'on_refusal': on_refusal}, on, id, progress)
@@ -2355,7 +2355,7 @@ class SceneOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
                 element.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Remesh', {'length': length, 'curvature': curvature, 'features': features, 'error': error, 'pin': pin, 'passes': passes, 'on_refusal': on_refusal}, on, id, progress)
@@ -2410,7 +2410,7 @@ class SceneOperations:
         :param keep_volume: Whether to restore the original volume of the mesh after smoothing. To restore the volume,
             the operation shifts all vertices that it is allowed to move by the same distance along their normals. The
             mesh must be closed. Defaults to ``False``.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Smooth', {'by': by, 'passes': passes, 'vertices': vertices, 'pin': pin, 'boundary': boundary, 'keep_volume': keep_volume}, on, id, progress)
@@ -2453,7 +2453,7 @@ class SceneOperations:
         :param attributes: The names of the attributes, for example ``["uv", "color"]``.
         :param within: The largest distance from the object ``from_`` at which an element takes values, in scene units.
             If omitted, there is no limit.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Transfer', {'from': from_, 'attributes': attributes, 'within': within}, on, id, progress)
@@ -2496,7 +2496,7 @@ class SceneOperations:
             ``choice.Scale(..)``: Scales along x, y and z about the mean of the positions of the selected vertices.
         :param falloff: The distance from the selected vertices at which the movement has fallen to 0, in scene units.
             If omitted, only the selected vertices move.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('MoveVertices', {'vertices': vertices, 'by': by, 'falloff': falloff}, on, id, progress)
@@ -2534,7 +2534,7 @@ class SceneOperations:
             the vertex inwards.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Displace', {'by': by, 'distance': distance, 'vertices': vertices}, on, id, progress)
@@ -2586,7 +2586,7 @@ class SceneOperations:
             coordinate of the mesh along the axis. Must not be less than ``from_``.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Bend', {'axis': axis, 'angle': angle, 'towards': towards, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, on, id, progress)
@@ -2629,7 +2629,7 @@ class SceneOperations:
             coordinate of the mesh along the axis. Must not be less than ``from_``.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Twist', {'axis': axis, 'angle': angle, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, on, id, progress)
@@ -2671,7 +2671,7 @@ class SceneOperations:
             coordinate of the mesh along the axis. Must not be less than ``from_``.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Taper', {'axis': axis, 'factor': factor, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, on, id, progress)
@@ -2715,7 +2715,7 @@ class SceneOperations:
             of the mesh is used.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Lattice', {'size': size, 'moves': moves, 'min': min, 'max': max, 'vertices': vertices}, on, id, progress)
@@ -2759,7 +2759,7 @@ class SceneOperations:
             value of ``meshwright.sel``.
         :param distance: The largest distance that a vertex is allowed to move, in scene units. If omitted, there is no
             limit.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Project', {'onto': onto, 'along': along, 'vertices': vertices, 'pin': pin, 'distance': distance}, on, id, progress)
@@ -2816,7 +2816,7 @@ class SceneOperations:
         :param missing: The value for elements at which the quantity is not defined. For example, a vertex without faces
             has no curvature. The report counts these elements. If omitted, the value is 0 for quantities that can be
             negative, and -1 for all other quantities.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Measure', {'of': of, 'name': name, 'missing': missing}, on, id, progress)
@@ -2874,7 +2874,7 @@ class SceneOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
                 element.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Unwrap', {'seams': seams, 'max_angle': max_angle, 'max_stretch': max_stretch, 'page': page, 'padding': padding, 'uv': uv, 'on_refusal': on_refusal}, on, id, progress)
@@ -2908,7 +2908,7 @@ class SceneOperations:
             The size matters only for ``padding``, which is a number of texels. Defaults to ``1024``.
         :param padding: The width of the empty border around each chart, in texels. The distance between two charts is
             at least twice this width. Defaults to 2.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('PackUvs', {'uv': uv, 'page': page, 'padding': padding}, on, id, progress)
@@ -3003,7 +3003,7 @@ class SceneOperations:
         :param images: The folder of texture images that are not stored next to their model. The path is relative to the
             folder of the recipe. If omitted, the folder of the recipe. Missing images are not drawn, and the report
             lists them.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Picture', {'path': path, 'size': size, 'camera': camera, 'views': views, 'columns': columns, 'style': style, 'highlight': highlight, 'highlight_width': highlight_width, 'marks': marks, 'color_by': color_by, 'turntable': turntable, 'images': images}, on, id, progress)
@@ -3055,7 +3055,7 @@ class SceneOperations:
             files. Defaults to ``2``.
         :param labels: Whether points are labeled with their names. Defaults to ``True``.
         :param legend: Whether there is a legend below the panels. Defaults to ``True``.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('CurveFigure', {'path': path, 't': t, 'by_level': by_level, 'before': before, 'width': width, 'columns': columns, 'scale': scale, 'labels': labels, 'legend': legend}, on, id, progress)
@@ -3093,7 +3093,7 @@ class SceneOperations:
         :param width: The width of the figure in SVG pixels. Defaults to ``640``.
         :param scale: The width and height of one SVG pixel, in pixels of a ``.png`` file. Has no effect on ``.svg``
             files. Defaults to ``2``.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('HalfEdgeFigure', {'path': path, 'faces': faces, 'width': width, 'scale': scale}, on, id, progress)
@@ -3132,7 +3132,7 @@ class SceneOperations:
         :param width: The width of the figure in SVG pixels. Defaults to ``640``.
         :param scale: The width and height of one SVG pixel, in pixels of a ``.png`` file. Has no effect on ``.svg``
             files. Defaults to ``2``.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('UvPicture', {'path': path, 'uv': uv, 'fill': fill, 'edges': edges, 'width': width, 'scale': scale}, on, id, progress)

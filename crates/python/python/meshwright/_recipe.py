@@ -321,7 +321,7 @@ class Recipe(SceneOperations):
         :param out: The output folder, which is created if necessary. It is relative to the working directory, and
             defaults to the folder ``out`` there: ``save("a.glb")`` writes ``out/a.glb``.
         :param keep_outputs: Whether the files that the steps write are kept after the run.
-        :param progress: Called with the step, the task, the number of finished parts and the total number of parts; or
+        :param progress: A callable that receives the step, the task, the number of finished parts and the total number of parts; or
             `True` for a bar of tqdm. An exception cancels the run.
         :param budget: The memory budget for meshes, in bytes. Defaults to 8 GiB.
         :param values: Values of the parameters of the recipe. A relative path is relative to the working directory.
@@ -370,8 +370,8 @@ def arg(name: str, kind: type | None = None, *, default: Any = None, min: float 
 
     :param name: The name.
     :param kind: int, float, bool, str, or `os.PathLike` for the path of an input file. If omitted, the type of the
-        default; a list or tuple of three numbers is a vector. Without a kind and a default, the parameter must be
-        declared elsewhere.
+        default; a list or tuple of three numbers is a vector. If `kind` and `default` are both omitted, another
+        `arg(..)` of this name in the recipe must give them.
     :param default: The default value.
     :param min: The minimum value.
     :param max: The maximum value.

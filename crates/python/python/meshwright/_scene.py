@@ -49,7 +49,7 @@ class Scene(SceneOperations, Mapping[str, Mesh]):
             known = ", ".join(f'"{n}"' for n in self) or "none"
             raise KeyError(f'no object is named "{name}"; objects: {known}')
         if self._core.kind(name) != "mesh":
-            raise TypeError(f'"{name}" is {self._core.kind(name)}, expected a mesh; tessellate() makes meshes of patches')
+            raise TypeError(f'the type of "{name}" is {self._core.kind(name)}, expected mesh; tessellate() makes meshes of patches')
         return Mesh(self._core.only([name]), name, self._notes, self._history.only(self._core, [name]))
 
     def __iter__(self) -> Iterator[str]:
@@ -126,10 +126,10 @@ class Scene(SceneOperations, Mapping[str, Mesh]):
         ``scene.weld(distance=1e-6)``.
 
         :param operation: The name of the operation.
-        :param on: The names of the objects on which the operation acts. If omitted, all that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
         :param id: A text that seeds the random choices of the operation. Defaults to the name of the operation. In a
-            recipe, the name of the step.
-        :param progress: Called with the operation, the task, the number of finished parts and the total number of
+            recipe, this text is also the id of the step.
+        :param progress: A callable that receives the operation, the task, the number of finished parts and the total number of
             parts; or `True` for a bar of tqdm. An exception cancels the operation. For a recipe, see
             :meth:`Recipe.run`.
         :param budget: The memory budget for meshes, in bytes. Defaults to 8 GiB.
@@ -152,7 +152,7 @@ class Scene(SceneOperations, Mapping[str, Mesh]):
             name = f"file.{extension_of(text)}"
             done, written = self._run(operation, {**fields, "path": name}, on, id, files={}, progress=progress)
             if len(written) != 1:
-                raise ValueError(f"{text} would be several files ({', '.join(written)}): choose .glb or another format")
+                raise ValueError(f"{text} would be several files ({', '.join(written)}): choose .glb or another format that needs only one file")
             write_bytes(text, written[name])
             return done
         file = Path(text)
@@ -322,8 +322,8 @@ def write_bytes(address: str, data: bytes) -> None:
 def read(path: str | os.PathLike[str], **options: Any) -> Scene:
     """Reads a file as a scene. `scene.mesh()` is its only mesh. `scene.notes` lists what was repaired or left out.
 
-    :param path: The file: .obj, .gltf, .glb, .ply, .stl, .off, .dae, .mws, .bez or .bzc. `s3://` and other addresses
-        need fsspec, and the file must not refer to other files.
+    :param path: The file: .obj, .gltf, .glb, .ply, .stl, .off, .dae, .mws, .bez or .bzc. Addresses such as `s3://`
+        need fsspec, and a file at an address must not refer to other files.
     :param options: The other parameters of :meth:`Scene.load`, such as `non_manifold`.
     """
     text = os.fspath(path)

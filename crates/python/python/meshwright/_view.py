@@ -50,7 +50,7 @@ def quantity(mesh: Mesh, of: str | Choice) -> Values:
         name, component = of.fields["name"], of.fields.get("component")
         domain = mesh.attributes.domain(name)
         if domain not in ("vertex", "face"):
-            raise ValueError(f'"{name}" is an attribute of a {domain}, expected one of vertices or faces')
+            raise ValueError(f'the domain of the attribute "{name}" is {domain}, expected vertex or face')
         values = mesh.attributes[domain, name]
         if component is not None:
             values = values[:, component]

@@ -1,9 +1,9 @@
 //! Checks the attributes of meshes before and after each step. The meshes must have the attributes that a step needs,
 //! and a step must not lose attributes unless `on_loss` allows it.
 //!
-//! The plan of each step says which attributes the step keeps, adds and drops. An attribute is lost if a mesh certainly
-//! has it before a step, but the plan of the mesh after the step does not list it. An attribute is missing if all
-//! attributes of the mesh are known but this attribute is not among them.
+//! The plan of a step predicts which attributes the step keeps, adds and drops. An attribute is lost if a mesh
+//! certainly has it before the step, but the plan does not list it for the mesh after the step. An attribute is missing
+//! if all attributes of the mesh are known but this attribute is not among them.
 
 use std::collections::HashMap;
 
@@ -38,8 +38,8 @@ fn key(attribute: &PlannedAttribute) -> (Domain, &str) {
 }
 
 impl Attributes {
-    /// Records the attributes that a step certainly loses. Adds the certain losses of the step to the list `losses`,
-    /// and its possible losses to the list `possible`.
+    /// Adds the certain losses of a step to the list `losses`, and its possible losses to the list `possible`. Also
+    /// remembers the attributes that are certainly lost, for later help texts.
     pub(super) fn losses(
         &mut self,
         step: &RecipeStep,
@@ -82,9 +82,10 @@ impl Attributes {
     }
 
     /// Reports errors in the selections of a step. A `Tagged(..)` or a `Where(..)` is an error if one of the meshes
-    /// certainly does not have its tag or attribute. A `Where(..)` without a bound is an error, too.
+    /// certainly does not have the named tag or attribute. A `Where(..)` without `above` and `below` is an error, too.
     pub(super) fn needs(&self, step: &RecipeStep, plan: &Plan, found: &mut Vec<Diagnostic>) {
-        // If the recipe expects a refusal, the missing tag can be the expected reason for the refusal.
+        // If the recipe expects the operation to refuse its input, a missing tag can be the expected reason. Therefore
+        // no error is reported.
         if plan.incomplete || step.refused.is_some() {
             return;
         }
@@ -231,7 +232,7 @@ struct Needed<'v> {
     name: &'v str,
     span: Span,
     is_tag: bool,
-    /// Whether the selection is a `Where` without a bound.
+    /// Whether the selection is a `Where` that has neither `above` nor `below`.
     is_unbounded: bool,
 }
 

@@ -173,8 +173,8 @@ fn plan_step(
         budget,
     };
     if step.refused.is_some() {
-        // The recipe expects that the step is refused. A refused step changes nothing, so its plan is discarded, and
-        // the problems of the plan are not reported.
+        // The recipe expects the operation to refuse its input. A refused step changes nothing, so its plan is
+        // discarded, and the problems of the plan are not reported.
         operation.plan(&mut plan.clone(), &cx);
         return;
     }
@@ -182,7 +182,7 @@ fn plan_step(
     plan.incomplete |= problems.iter().any(|p| !p.is_warning);
     for problem in &problems {
         let span = field_span(&step.value, &problem.path);
-        // A problem with the whole step is shown at the name of the step.
+        // A problem with the whole step is shown at the name of the operation.
         let span = if span == step.value.span {
             step.span
         } else {
@@ -286,7 +286,8 @@ fn check_output(
             found.push(Diagnostic::error(span, message).with_help(help));
         }
         Ok(full) if !files.store.exists(&full) => {
-            // A missing reference file is not an error, because the recipe must run to create the file.
+            // A missing reference file is not an error: `meshwright test --update` must be able to run the recipe,
+            // because it creates the file.
             let message = format!("the file {} does not exist", full.display());
             let help = "run `meshwright test --update` to create it";
             found.push(Diagnostic::warning(span, message).with_help(help));

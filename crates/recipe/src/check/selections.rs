@@ -22,7 +22,8 @@ enum Named<'v> {
 /// Reports each element and each material that a selection of the step names, if one of the meshes of the step
 /// certainly does not have it. Also reports each object that a selection names but that does not exist.
 pub(super) fn missing_elements(step: &RecipeStep, plan: &Plan, found: &mut Vec<Diagnostic>) {
-    // If the recipe expects a refusal, the missing element can be the expected reason for the refusal.
+    // If the recipe expects the operation to refuse its input, a missing element can be the expected reason. Therefore
+    // no error is reported.
     if plan.incomplete || step.refused.is_some() {
         return;
     }
@@ -99,7 +100,7 @@ fn collect<'v>(value: &'v Value, named: &mut Vec<(Named<'v>, Span)>) {
     value.parts().for_each(|part| collect(part, named));
 }
 
-/// Adds the name in `Name("..")`.
+/// Adds the name in a call such as `Material("..")` to `named`.
 fn add_name<'v>(
     call: &'v Call,
     name: fn(&'v str) -> Named<'v>,

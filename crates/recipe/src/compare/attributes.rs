@@ -102,7 +102,7 @@ fn values<I: Id>(a: &Column, b: &Column, first: &[I], second: &[I]) -> ColumnDif
     let (mut count, mut most, mut element) = (0, 0.0, None);
     for (&i, &j) in first.iter().zip(second) {
         let by = largest_difference(&a.values, i.index(), &b.values, j.index());
-        // A NaN also counts as a difference.
+        // NaN is not equal to 0, so a NaN also counts as a difference.
         if by == 0.0 {
             continue;
         }

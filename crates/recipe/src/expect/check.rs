@@ -48,7 +48,8 @@ impl Expectation {
         )
     }
 
-    /// Returns the name of the object with which the expectation compares.
+    /// Returns the name of the object with which the expectation compares the meshes. `None` if there is no such
+    /// object.
     fn other_object(&self) -> Option<&str> {
         match self {
             Self::Same {
@@ -311,7 +312,7 @@ fn manifold(name: &str, mesh: &Mesh) -> Result<(), Violation> {
     double_edges(mesh).first().map_or(Ok(()), |&e| {
         let [v, w] = mesh.edge_vertices(e);
         Err(Violation::unmet(format!(
-            "expected a manifold, but several edges of \"{name}\" join {v} and {w}"
+            "expected a manifold, but several edges of \"{name}\" join the vertices {v} and {w}"
         )))
     })
 }

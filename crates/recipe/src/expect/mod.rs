@@ -212,9 +212,9 @@ pub enum Expectation {
         /// At most this value.
         max: Option<f64>,
     },
-    /// The thickness of the solid at each selected vertex, in scene units. `Measure(of: Thickness, ..)` measures it in
-    /// the same way. The thickness is infinite where the surface has no opposite side, for example on an open sheet.
-    /// Fails if the selection is empty.
+    /// The thickness of the solid at each selected vertex, in scene units. `Measure(of: Thickness, ..)` measures the
+    /// thickness in the same way. The thickness is infinite where the surface has no opposite side, for example on an
+    /// open sheet. Fails if the selection is empty.
     Thickness {
         /// Which vertices.
         #[serde(default)]
@@ -255,7 +255,8 @@ pub enum Expectation {
         #[schemars(range(min = 0.0))]
         tolerance: f64,
     },
-    /// The position of one point of a polyline. The position is in object space, because nodes do not place polylines.
+    /// The position of one point of a polyline. The position is in object space, because the nodes of a scene place
+    /// only meshes.
     Point {
         /// The index of the polyline in its object, starting at 0.
         #[serde(default)]
@@ -277,7 +278,7 @@ pub enum Expectation {
         #[serde(default)]
         #[schemars(range(min = 0.0))]
         tolerance: f64,
-        /// Whether the faces must also be the same.
+        /// Whether the faces of the two meshes must also be the same.
         #[serde(default = "yes")]
         connectivity: bool,
     },
@@ -291,8 +292,9 @@ pub enum Expectation {
         #[schemars(range(min = 0.0))]
         below: f64,
     },
-    /// The number of motions in a symmetry group about the origin that map the mesh onto itself. If `eq`, `min` and
-    /// `max` are omitted, all motions of the group must map the mesh onto itself.
+    /// The number of motions (rotations and reflections) that map the mesh onto itself. The motions belong to a
+    /// symmetry group about the origin. If `eq`, `min` and `max` are omitted, all motions of the group must map the
+    /// mesh onto itself.
     SymmetricUnder {
         /// The symmetry group.
         group: Group,
@@ -302,7 +304,8 @@ pub enum Expectation {
         min: Option<u64>,
         /// At most this number of motions.
         max: Option<u64>,
-        /// The allowed distance between a vertex that was moved by a motion and the vertex onto which it is mapped.
+        /// The allowed distance between the image of a vertex under a motion and the vertex with which the image is
+        /// matched.
         #[serde(default = "tolerance")]
         #[schemars(range(min = 0.0))]
         tolerance: f64,
@@ -342,8 +345,8 @@ pub enum Expectation {
         /// The name of the attribute.
         name: String,
     },
-    /// The values of an attribute, for example one that `Measure` stored. Every mesh must have the attribute. Fails
-    /// if no element has a value.
+    /// The values of an attribute, for example of an attribute that `Measure` stored. Every mesh must have the
+    /// attribute. Fails if no element has a value.
     Attribute {
         /// The name of the attribute.
         name: String,
@@ -378,7 +381,7 @@ pub enum Expectation {
     Not(Box<Self>),
 }
 
-/// The other mesh with which an expectation compares.
+/// The mesh with which an expectation such as `Same` compares the checked meshes.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum OtherMesh {
@@ -485,7 +488,7 @@ impl Expectation {
         }
     }
 
-    /// Returns the other mesh with which the expectation compares, if it has one.
+    /// Returns the mesh with which the expectation compares the checked meshes, if there is such a mesh.
     pub fn other_mesh(&self) -> Option<&OtherMesh> {
         match self {
             Self::Same { r#as, .. } => Some(r#as),

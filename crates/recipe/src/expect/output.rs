@@ -38,7 +38,7 @@ pub(crate) fn golden(files: &Files, path: &str) -> Result<PathBuf, Violation> {
         .all(|c| matches!(c, Component::Normal(_)));
     if !is_plain || path.contains(['\\', ':', '\0']) {
         let message = format!(
-            "the path \"{path}\" must stay inside the recipe's folder: use a relative path without \".\", \"..\", \"\\\" and \":\""
+            "the path \"{path}\" must stay inside the recipe's folder: use a relative path without the folders \".\" and \"..\" and without the characters \"\\\" and \":\""
         );
         return Err(message.into());
     }
@@ -61,7 +61,7 @@ pub(crate) fn golden(files: &Files, path: &str) -> Result<PathBuf, Violation> {
     match files.store.entry(&full) {
         _ if files.store.is_link(&full) => Err(format!("\"{path}\" is a link, not a file").into()),
         Some(found) if !found.is_file() => Err(format!("\"{path}\" is not a file").into()),
-        // A missing file can be created.
+        // A missing file is allowed, because `test --update` creates it.
         _ => Ok(full),
     }
 }
@@ -130,9 +130,9 @@ fn with_written_file(
     Violation::unmet(format!("{}; the written file {why}", violation.message))
 }
 
-/// Whether a copy of the written file would contain the same objects if the copy had the name of the reference file and
-/// were alone in its folder. Returns `false` for an OBJ file with a material library, because the copy is read without
-/// the library. Returns true if the written file cannot be read as objects.
+/// Whether a copy of the written file would contain the same objects in an otherwise empty folder. The copy has the
+/// name of the reference file. Returns `false` for an OBJ file with a material library, because the copy is read
+/// without the library. Returns true if the written file cannot be read as objects.
 fn stands_alone(written: &Path, golden: &Path, bytes: &[u8], subject: Subject) -> bool {
     let Ok(scene) = subject.reader.scene(written, subject.files) else {
         return true;
@@ -264,7 +264,7 @@ mod tests {
             without_stamp(gif(b"\x21\xfe\x02by\x00")),
             gif(b"\x21\xfe\x02by\x00")
         );
-        // Truncated input does not panic.
+        // Truncated input does not cause a panic.
         for end in 0..gif(&long).len() {
             without_stamp(gif(&long)[..end].to_vec());
         }

@@ -10,8 +10,7 @@ use super::subject::{Subject, Violation};
 /// be much larger than the meshes.
 const MAX_BYTES: u64 = 1 << 36;
 
-/// A [`Subject`], which is a scene to check, made from another one. Its objects are the instances of the other
-/// subject's objects, in scene space.
+/// A [`Subject`] (a scene to check) whose objects are the instances of the objects of another subject, in scene space.
 pub(crate) struct PlacedSubject<'a> {
     scene: Cow<'a, Scene>,
     on: Option<Vec<String>>,
@@ -19,7 +18,8 @@ pub(crate) struct PlacedSubject<'a> {
 }
 
 impl<'a> PlacedSubject<'a> {
-    /// Places all objects in scene space. `other` is an object that must have exactly one instance.
+    /// Places all objects in scene space. `other` is the object with which an expectation compares. This object must
+    /// have exactly one instance.
     ///
     /// # Errors
     ///
@@ -45,7 +45,7 @@ impl<'a> PlacedSubject<'a> {
             return Err(message.into());
         }
         // Every object has at least one instance, so a name without instances is not the name of an object. Such a name
-        // stays in the list, so that the check reports the name.
+        // stays in the list `on`, so that the check reports the unknown name.
         let on = subject.on.map(|on| {
             let names = on.iter().flat_map(|name| {
                 let of_object = instances.iter().filter(|i| i.object.name == *name);

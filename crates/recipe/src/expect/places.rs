@@ -20,7 +20,8 @@ impl Expectation {
             Self::Same { .. } | Self::DistanceTo { .. } | Self::SymmetricUnder { .. }
         );
         if compares && !subject.scene.graph().is_empty() {
-            // Locations must be in object space, but these expectations compare instances in scene space.
+            // These expectations compare instances in scene space, but locations must be in object space. Therefore no
+            // locations are returned.
             return places;
         }
         for (object, mesh) in subject.meshes().unwrap_or_default() {
@@ -190,8 +191,9 @@ impl CheckedMesh<'_> {
         places
     }
 
-    /// Shows where two surfaces are farthest apart: returns the element of this mesh at this place, and the line from
-    /// the point on one surface to the nearest point on the other surface.
+    /// Returns two locations that show where two surfaces are farthest apart. The first location is the element of this
+    /// mesh at that place. The second is the line from the point on one surface to the nearest point on the other
+    /// surface.
     fn farthest(&self, found: &Distance) -> Vec<ErrorLocation> {
         let worst = found.worst();
         let on = if found.is_worst_forth() {

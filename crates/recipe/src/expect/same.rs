@@ -7,9 +7,9 @@ use mesh::{DVec3, Mesh, VertexId};
 
 use super::subject::Violation;
 
-/// An index of the vertices of a mesh for finding them by position. The list `tree` is a k-d tree. The vertex in the
-/// middle of the list splits the other vertices by one coordinate: the coordinate along which the bounding box of the
-/// vertices is longest. Each half of the list is split in the same way.
+/// An index for finding the vertices of a mesh by position. The list `tree` is a k-d tree. The vertex in the middle of
+/// the list splits the other vertices by one coordinate: the coordinate along which the bounding box of the vertices is
+/// longest. Each half of the list is split in the same way.
 pub(super) struct PositionIndex<'m> {
     mesh: &'m Mesh,
     tree: Vec<(VertexId, u8)>,

@@ -1,4 +1,4 @@
-//! The subject of an expectation, which is a scene, and measurements that several expectations use.
+//! The subject of an expectation (the scene to check), and measurements that several expectations use.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -51,8 +51,7 @@ pub struct Violation {
 }
 
 impl Violation {
-    /// Creates a violation without an actual value, for expectations in which `meshwright test --update` can replace no
-    /// value.
+    /// Creates a violation without an actual value, so that `meshwright test --update` does not change the expectation.
     pub(super) fn unmet(message: impl Into<String>) -> Self {
         Self {
             message: message.into(),
@@ -515,8 +514,8 @@ fn singular_if_one(n: u64, what: &str) -> Cow<'_, str> {
     }
 }
 
-/// Checks a number against `eq` (within the tolerance), `min` and `max`. `what` is the name of the number in the error
-/// message, such as "an area" or "v3 to have a thickness".
+/// Checks a number against `eq` (within the tolerance), `min` and `max`. `what` follows the word "expected" in the
+/// error message, for example "an area" or "v3 to have a thickness".
 pub(super) fn check_number(
     what: impl fmt::Display,
     found: f64,
@@ -540,8 +539,8 @@ pub(super) fn check_number(
     )
 }
 
-/// Formats a number that violates a limit, with six significant digits. If the number would then appear to satisfy the
-/// limit, keeps all digits.
+/// Formats a number that violates a limit, with six significant digits. If the rounded number would appear to satisfy
+/// the limit, keeps all digits.
 pub(super) fn rounded(found: f64, limit: f64) -> String {
     let short = mesh::readable(found);
     let order = short.parse::<f64>().ok().map(|x| x.total_cmp(&limit));
@@ -553,8 +552,8 @@ pub(super) fn rounded(found: f64, limit: f64) -> String {
 }
 
 /// Returns the violation of the first of the bounds `eq`, `min` and `max` that does not hold. The violation contains
-/// the actual value only if `eq` does not hold but `min` and `max` do. If `min` or `max` were violated, the expectation
-/// would still fail after the actual value had been recorded.
+/// the actual value only if `eq` does not hold but `min` and `max` do. If `min` or `max` does not hold, the expectation
+/// would still fail with the actual value as `eq`.
 fn check_bounds<T: PartialOrd + Copy>(
     found: T,
     [eq, min, max]: [Option<T>; 3],

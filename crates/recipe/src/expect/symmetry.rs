@@ -1,4 +1,4 @@
-//! Symmetry: counts the motions of a symmetry group that map a mesh onto itself.
+//! Symmetry: counts the motions (rotations and reflections) of a group that map a mesh onto itself.
 
 use mesh::{DVec3, Mesh, VertexId};
 use schemars::JsonSchema;
@@ -27,7 +27,8 @@ pub(super) struct Motion {
 
 impl Motion {
     fn apply(&self, p: DVec3) -> DVec3 {
-        // The image of an axis is an axis or its opposite, so the sums are exact.
+        // The image of each axis is an axis or the opposite of an axis. In each coordinate, only one term of the sum is
+        // not 0, so the sum is exact.
         p.x * self.axes[0] + p.y * self.axes[1] + p.z * self.axes[2]
     }
 }
@@ -62,9 +63,9 @@ impl Group {
     }
 }
 
-/// Counts the motions that map the vertices of the mesh onto themselves: the image of each vertex lies within the
-/// tolerance of a vertex, a different one for each image. If `connectivity` is set, each motion must also map every
-/// face onto a face.
+/// Counts the motions that map the vertices of the mesh onto themselves. The image of each vertex must lie within the
+/// tolerance of a vertex, and no two images are matched with the same vertex. If `connectivity` is set, each motion
+/// must also map every face onto a face.
 pub(super) fn count(mesh: &Mesh, motions: &[Motion], tolerance: f64, connectivity: bool) -> u64 {
     let points = PositionIndex::new(mesh);
     let keeps = |motion: &Motion| {

@@ -247,7 +247,7 @@ impl Reader<'_, '_> {
             return None;
         }
         if chain.len() > MAX_CALLS {
-            let message = format!("calls are nested more than {MAX_CALLS} deep");
+            let message = format!("calls are nested more than {MAX_CALLS} levels deep");
             self.error(span, message, "");
             return None;
         }

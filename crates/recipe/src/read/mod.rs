@@ -57,8 +57,8 @@ pub struct Values<'a> {
     pub set: &'a [(String, String)],
     /// The name of a preset of the recipe.
     pub preset: Option<&'a str>,
-    /// The folder to which relative paths in `set` are relative, such as the working directory. If `None`, these paths
-    /// are relative to the folder of the recipe.
+    /// The folder to which relative paths in the field `set` are relative, such as the working directory. If `None`,
+    /// these paths are relative to the folder of the recipe.
     pub folder: Option<&'a Path>,
 }
 
@@ -67,7 +67,7 @@ pub fn read(source: &Source, registry: &Registry, values: Values) -> Reading {
     read_by(&Schemas::new(registry), &Disk, source, values)
 }
 
-/// Like [`read`](read()), but reads called recipes from `store`. Calls that read different recipes can share `schemas`.
+/// Like [`read`](read()), but reads called recipes from `store`. If several recipes are read, they can share `schemas`.
 pub fn read_by(schemas: &Schemas, store: &dyn Store, source: &Source, values: Values) -> Reading {
     let mut shared = Shared {
         schemas,
@@ -240,7 +240,7 @@ impl<'s, 'a> Reader<'s, 'a> {
             self.needs(needs);
         }
         if let Some(on_loss) = root.field("on_loss") {
-            // `check_schema` has reported an invalid value.
+            // `check_schema` has already reported an invalid value, so the default is used.
             self.on_loss = OnLoss::deserialize(on_loss).unwrap_or_default();
         }
         self.declare(root.field("params"));

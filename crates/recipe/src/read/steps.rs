@@ -49,8 +49,8 @@ impl Reader<'_, '_> {
         self.fill(enabled) && enabled.kind == ValueKind::Bool(false)
     }
 
-    /// Reads a disabled step. Its ids are then known, and the parameters in it count as used. After reading, the step
-    /// is discarded together with the errors and warnings in it.
+    /// Reads a disabled step, so that its ids are known and the parameters in the step count as used. Then discards the
+    /// step together with its errors and warnings.
     fn disabled(&mut self, item: Value) {
         let before = (
             self.diagnostics.len(),
@@ -114,12 +114,12 @@ impl Reader<'_, '_> {
             let help = "remove `on`: the operation creates new objects, or its parameters name the objects that it acts on";
             self.error(on.span, format!("{} does not take `on`", entry.name), help);
         }
-        // `check_schema` has reported invalid values.
+        // `check_schema` has already reported invalid values, so they are ignored here.
         let refused = envelope("refused").and_then(|reason| Refusal::deserialize(reason).ok());
         let on_loss = envelope("on_loss").and_then(|on_loss| OnLoss::deserialize(on_loss).ok());
         let note = envelope("note").and_then(Value::as_str);
-        // The name can be a part of the label, and the label seeds random choices. An old name is replaced by the
-        // current name, so that both names give the same choices.
+        // The name of the operation can be a part of the label, and the label seeds random choices. An old name is
+        // replaced by the current name, so that both names give the same choices.
         let name = entry.as_ref().map_or(name, |entry| entry.name).to_owned();
         Draft::new(RecipeStep {
             step,

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::recipe::{RecipeExpectation, RecipeStep};
 
-/// A step cache, which stores the results of steps, set up for the runs of one recipe.
+/// A step cache, set up for the runs of one recipe. The cache stores the results of steps.
 pub trait StepCache: fmt::Debug + Sync {
     /// Starts a run that uses this cache.
     fn begin(&self) -> Box<dyn CachedRun + '_>;
@@ -82,7 +82,7 @@ pub trait CachedRun {
 pub struct StepResult {
     /// The report of the step.
     pub report: Report,
-    /// If the recipe expects a refusal: the reason why the step was refused.
+    /// The reason why the operation refused its input, if the recipe expects a refusal.
     pub refused: Option<Refusal>,
     /// The number of vertices, of edges, and of faces of all meshes together.
     pub counts: [usize; 3],
@@ -148,7 +148,8 @@ pub enum RerunReason {
     /// An input file changed.
     #[error("the file {} {}", .0.display(), .1)]
     File(PathBuf, FileChange),
-    /// The recipe or its parameters changed. The output files of the step record both.
+    /// The recipe or its parameters changed. The output files of the step record both, so the step must write the files
+    /// again.
     #[error(
         "the step's output files record the recipe and its parameters, and one of these changed"
     )]

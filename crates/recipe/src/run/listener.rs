@@ -57,7 +57,7 @@ pub struct StepDone {
     pub label: String,
     /// The report of the step.
     pub report: Report,
-    /// If the recipe expects a refusal: the reason why the step was refused.
+    /// The reason why the operation refused its input, if the recipe expects a refusal.
     pub refused: Option<Refusal>,
     /// The number of vertices of all meshes together after the step. Points of polylines are included.
     pub vertices: usize,

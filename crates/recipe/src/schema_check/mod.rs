@@ -117,7 +117,7 @@ impl Rename {
     }
 }
 
-/// The field or variant to which a value belongs. Messages use its name.
+/// The field or variant to which a value belongs. Messages use the name of this field or variant.
 #[derive(Clone, Copy, Debug, Default)]
 struct Place<'n> {
     /// The name of the innermost field or variant around the value.
@@ -141,7 +141,7 @@ impl<'n> Place<'n> {
         }
     }
 
-    /// Returns words for the value that can be the subject of a sentence.
+    /// Returns a noun phrase for the value. Messages use the phrase as the subject of a sentence.
     fn subject(self) -> String {
         match self.name {
             Some(name) if self.inside => format!("a value in `{name}`"),

@@ -21,7 +21,7 @@ impl Checker {
             [] => self.check_variant(value, schema, choice, place),
             [one] => self.check(value, one, place),
             // Several alternatives that are not variants occur only in untagged enumerations. Parameters do not use
-            // untagged enumerations.
+            // untagged enumerations, so nothing is checked here.
             _ => {}
         }
     }
@@ -179,7 +179,7 @@ fn renamed(value: &Value, name: &str) -> Value {
     renamed
 }
 
-/// Returns a help text that lists the variants, if there are no more than 24.
+/// Returns a help text that lists the variants, if there are at most 24.
 fn variants_help(names: &[&str]) -> Option<String> {
     (1..=24)
         .contains(&names.len())

@@ -44,7 +44,7 @@ pub enum Metric {
         /// The name of the object to measure. `on` is required if the scene has several meshes.
         on: Option<String>,
     },
-    /// A statistic of the values of an attribute, for example one that `Measure` stored.
+    /// A statistic of the values of an attribute, for example of an attribute that `Measure` stored.
     Attribute {
         /// The name of the attribute. If several kinds of elements have an attribute of this name, the first kind in
         /// the order vertices, faces, corners, edges is used.

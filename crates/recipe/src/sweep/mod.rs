@@ -14,10 +14,10 @@
 //! ```
 //!
 //! [`read_sweep`] reads the text, and [`Sweep::grid`] checks its values against the parameters that the recipe
-//! declares. Both [`read_sweep`] and [`Sweep::grid`] report all errors at once. The lists of `zip` have the same
-//! length, and the n-th values of all these lists form a row. Each cell stands for one run of the recipe. The cells are
-//! all combinations of one value from each list of `over` and one row of `zip`. From cell to cell, the row of `zip`
-//! changes fastest, then the value from the last list of `over`.
+//! declares. Both [`read_sweep`] and [`Sweep::grid`] report all errors at once. `over` and `zip` contain lists of
+//! parameter values. The lists of `zip` have the same length, and the n-th values of all lists of `zip` form a row.
+//! Each cell stands for one run of the recipe. The cells are all combinations of one value from each list of `over` and
+//! one row of `zip`. From cell to cell, the row of `zip` changes fastest, then the value from the last list of `over`.
 
 mod metric;
 mod values;
@@ -47,7 +47,7 @@ pub const MAX_CELLS: usize = 10_000;
 pub struct Sweep {
     /// The path of the recipe, relative to the folder of the sweep.
     pub recipe: String,
-    /// The span of that path.
+    /// The span of the path of the recipe.
     pub recipe_span: Span,
     /// Whether the recipe's expectations must hold in every cell.
     pub expects: bool,

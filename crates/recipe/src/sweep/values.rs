@@ -53,7 +53,7 @@ pub(super) fn settings(
     range(param, [from, to], steps, value.span)
 }
 
-/// Returns all settings, or all errors if there are any.
+/// Returns all values, or all errors if there are any.
 fn collect(
     each: impl Iterator<Item = Result<Setting, Vec<Diagnostic>>>,
 ) -> Result<Vec<Setting>, Vec<Diagnostic>> {

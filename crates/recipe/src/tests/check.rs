@@ -219,7 +219,7 @@ fn outputs_stay_in_the_output_folder() {
             &format!("\"{path}\""),
             &format!(
                 "the output path \"{path}\" must stay inside the output folder: use a \
-                 relative path without \".\", \"..\", \"\\\" and \":\""
+                 relative path without the folders \".\" and \"..\" and without the characters \"\\\" and \":\""
             ),
             "",
         );

@@ -14,7 +14,7 @@ use crate::drawing::{Channel, NO_FACE, Part, Surface};
 use crate::figure::construction;
 use crate::style::Lines;
 
-/// The number of cells along each side of the grid as which a patch is drawn.
+/// A patch is drawn as a grid of cells. This is the number of cells along each side of the grid.
 const CELLS: u32 = 24;
 /// The number of line segments into which a curve is divided for drawing.
 const SEGMENTS: u32 = 200;
@@ -96,7 +96,8 @@ impl Builder<'_, '_> {
     }
 
     /// Adds polylines. If the style has points, also adds dots at the points of the polylines. If the style sets no
-    /// color, the levels of de Casteljau's construction have the same colors as in figures of the construction.
+    /// color and the polylines are the levels of de Casteljau's construction, each level has the same color as in a
+    /// figure of this construction.
     pub(super) fn polylines(&mut self, lines: &[Vec<DVec3>], color: Color) {
         let default = self.line_color(color);
         let are_levels = self.style.color.is_none() && are_levels(lines);

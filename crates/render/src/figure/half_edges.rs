@@ -1,4 +1,4 @@
-//! Draws a figure of the half-edges of a part of a mesh.
+//! Draws some faces of a mesh and their half-edges as a figure.
 //!
 //! ```text
 //!   v3 ------------ v2

@@ -26,12 +26,13 @@ impl Label {
     }
 }
 
-/// Draws labels over an image. Later labels are drawn on top. The letters are vertically centered at the position.
-/// Parts outside of the image are cut off.
+/// Draws labels over an image. Later labels are drawn on top. The letters of a label are vertically centered at its
+/// position. Parts outside of the image are cut off.
 pub fn draw_labels(image: &mut Image, labels: &[Label]) {
     let size = DVec2::new(f64::from(image.width), f64::from(image.height));
     for label in labels {
-        // Labels are drawn one by one, because drawing takes memory for the bounding box of the whole document.
+        // Each label is drawn as a document of its own. A single document with all labels would take memory for the
+        // bounding box of all labels together.
         let mut svg = Svg::new(size.x, size.y);
         svg.text(
             label.position + DVec2::Y * label.text.size * 0.36,

@@ -262,7 +262,8 @@ fn ticks(low: f64, high: f64) -> Vec<Tick> {
     } else {
         high / steps - low / steps
     };
-    // If the two ends of the range are nearly equal, several labels between them would show the same number.
+    // If the two ends of the range are nearly equal, several labels would show the same number. Therefore the axis has
+    // only one tick.
     let largest = low.abs().max(high.abs());
     if rough <= largest * 1e-14 {
         return vec![Tick {

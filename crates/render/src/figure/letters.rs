@@ -31,7 +31,7 @@ static FACES: LazyLock<[Typeface; 4]> = LazyLock::new(|| {
 
 /// The outlines of a line of text.
 pub(super) struct Line {
-    /// The outlines of the letters: one path for each run that has outlines.
+    /// The outlines of the letters: one path for each run (a part of the text in one font and size) that has outlines.
     pub(super) paths: Vec<Path>,
     /// The width, including spaces.
     pub(super) width: f32,
@@ -83,7 +83,7 @@ struct Cluster {
     face: &'static Typeface,
     /// The font size.
     size: f32,
-    /// The sum of the shifts of this run and all previous runs, to the right and down.
+    /// The sum of the shifts of the letter's run and of all previous runs, to the right and down.
     shift: [f32; 2],
     /// The distance from this cluster to the next one, in font units.
     units: i32,

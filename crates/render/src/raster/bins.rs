@@ -43,7 +43,6 @@ pub(super) struct Bins {
 /// A rectangle of tiles: left, top, right and bottom. Right and bottom are exclusive.
 pub(super) type TileRect = [u32; 4];
 
-/// Returns the number of tiles of a rectangle.
 fn n_tiles([left, top, right, bottom]: TileRect) -> usize {
     (right - left) as usize * (bottom - top) as usize
 }
@@ -75,9 +74,9 @@ fn chunks(n: usize, all: usize) -> impl Iterator<Item = Range<usize>> {
         .map(move |first| first..(first + size).min(n))
 }
 
-/// Returns the maximum number of bytes that the lists take, including the temporary memory of sorting. `groups` has the
-/// number of items of each group: of the triangles of each part, or of all lines. All items of a chunk belong to the
-/// same group.
+/// Returns the maximum number of bytes that the lists take, including the temporary memory of sorting. The triangles of
+/// each part form a group, or all lines form one group. `groups` has the number of items of each group. All items of a
+/// chunk belong to the same group.
 pub(super) fn bytes(groups: impl Iterator<Item = usize> + Clone, frame: &Frame) -> u64 {
     let all: usize = groups.clone().sum();
     let n_chunks: usize = groups.map(|n| chunks(n, all).count()).sum();

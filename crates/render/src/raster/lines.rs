@@ -2,9 +2,9 @@
 //! of them.
 //!
 //! For each sample, the depths of the line and of the surface are compared at one point: the point of the line's axis
-//! that is nearest to the sample. The depth of the surface at that point of the axis is the depth of the plane of the
-//! triangle that is visible at the sample. Thus a thick line on a slanted surface is visible in its full width,
-//! although half of the line is behind the surface.
+//! that is nearest to the sample. At that point, the surface is replaced by the plane of the triangle that is visible
+//! at the sample. Thus a thick line on a slanted surface is visible in its full width, although half of the line is
+//! behind the surface.
 //!
 //! A hidden point is drawn as a ring, because a faint disc would look like a stain on the surface.
 

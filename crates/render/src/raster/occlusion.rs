@@ -121,7 +121,8 @@ impl Occlusion {
     /// Returns the fraction of the surroundings that is visible from a point with this unit normal, from 0 (none) to 1
     /// (all). Each direction is weighted by the cosine of its angle to the normal.
     pub(super) fn openness(&self, p: DVec3, normal: DVec3) -> f32 {
-        // The point is moved away from its surface, because the resolution of the maps is limited.
+        // The point is moved away from its surface. Otherwise, the surface could hide its own points, because the
+        // resolution of the maps is limited.
         let p = ((p - self.center) / self.texel + normal * 2.0).as_vec3();
         let n = normal.as_vec3();
         let half = self.side as f32 / 2.0 - 0.5;

@@ -52,7 +52,7 @@ struct OpennessSample {
 pub(super) struct ShadingCache {
     /// The triangle that was shaded last, and its data.
     triangle: Option<(u32, TriangleData)>,
-    /// The last openness in the current pixel.
+    /// The openness that was computed last in the current pixel.
     openness: Option<OpennessSample>,
 }
 
@@ -224,13 +224,14 @@ impl<'a> Shader<'a> {
         }
     }
 
-    /// Returns the openness of a point. The strength of ambient occlusion in the style determines how much the openness
-    /// is reduced.
+    /// Returns the openness of a point: the fraction of its surroundings that is visible from the point. The weaker the
+    /// ambient occlusion of the style, the nearer to 1 is the result.
     fn openness(&self, point: &SurfacePoint, last: &mut Option<OpennessSample>) -> f32 {
         let Some(occlusion) = &self.occlusion else {
             return 1.0;
         };
-        // Points of the same pixel and the same surface have nearly the same openness, so the openness is reused.
+        // Nearby points of the same surface in one pixel have nearly the same openness, so the openness of the last
+        // point is reused.
         let near = last.filter(|k| {
             let pixel = self
                 .view
@@ -334,7 +335,8 @@ fn normal(part: &Part, triangle: usize, point: &SurfacePoint) -> DVec3 {
         return point.normal;
     }
     let n = if point.is_back { -normal } else { normal };
-    // An interpolated normal can point away from the camera although the triangle faces the camera.
+    // An interpolated normal can point away from the camera although the triangle faces the camera. Such a normal is
+    // made perpendicular to the direction towards the camera.
     let facing = n.dot(point.to_eye);
     if facing < 0.0 {
         (n - point.to_eye * facing).normalize_or(point.normal)

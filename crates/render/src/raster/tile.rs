@@ -1,10 +1,10 @@
 //! Finds the visible triangle for each sample of a tile of the picture.
 //!
 //! A pixel has 16 samples. Each of its 16 rows and each of its 16 columns contains exactly one sample (n-rooks:
-//! Shirley, "Discrepancy as a Quality Measure for Sample Distributions", 1991). The arrangement was found by a search
-//! that tested each arrangement with edges of all directions that cut a pixel. Of all tested arrangements, this one has
-//! the smallest difference between the fraction of samples that are covered and the exact fraction of the pixel that is
-//! covered.
+//! Shirley, "Discrepancy as a Quality Measure for Sample Distributions", 1991). This arrangement of samples was found
+//! by a search. The search tested each arrangement with edges of all directions that cut a pixel. Of all tested
+//! arrangements, this one has the smallest difference between the fraction of samples that are covered and the exact
+//! fraction of the pixel that is covered.
 
 use std::ops::{Add, BitOr, Mul, Sub};
 
@@ -17,7 +17,7 @@ use super::{Frame, TILE};
 
 /// The number of samples per pixel.
 pub(super) const SAMPLES: usize = 16;
-/// The value of a sample without a triangle.
+/// The value that is stored instead of a triangle index for a sample without a triangle.
 pub(super) const NO_TRIANGLE: u32 = u32::MAX;
 /// The number of triangle planes that a tile caches.
 const PLANES: usize = 512;

@@ -3,9 +3,10 @@
 use super::{AnimatedProperty, Graph, MeshLabel, Node};
 
 impl Graph {
-    /// Removes an object from all nodes. A node that referenced the object is removed if it has no camera, no light and
-    /// no remaining children, and is neither a joint nor the root of the joints of a skin. The channels that animate a
-    /// removed node are removed too. The remaining nodes keep their order.
+    /// Removes an object from all nodes. The nodes that referenced the object are removed, with two exceptions. A node
+    /// is kept if it has a camera, a light or remaining children. A node is also kept if it is a joint of a skin or the
+    /// root of such joints. The channels that animate a removed node are removed too. The remaining nodes keep their
+    /// order.
     pub fn remove_object(&mut self, object: &str) {
         self.labels.remove(object);
         let mut n_children = vec![0_usize; self.nodes.len()];

@@ -160,8 +160,9 @@ impl Star {
     }
 
     /// Returns the directions of the first and the last spoke of a sector at a corner. These directions are tangents of
-    /// the crease curves. They are swapped if the corner is concave. If the directions do not span a plane, or if the
-    /// sector goes all the way around (a cone), returns a plane whose normal is the mean of the face normals.
+    /// the crease curves. The two directions are swapped if the corner is concave. If they do not span a plane, or if
+    /// the sector goes all the way around (a cone), returns two vectors that span another plane: its normal is the mean
+    /// of the face normals.
     fn corner_tangents(&self, sector: Sector) -> [DVec3; 2] {
         let arm = |i: usize| self.spoke(sector, i) - self.center;
         let faces = 0..sector.n_faces;
@@ -196,8 +197,8 @@ impl Star {
         // that shrinks most slowly would remain after some levels. Orthogonal iteration preserves all directions: after
         // each level the columns x, y and z are made orthonormal. An upper triangular matrix converts the orthonormal
         // columns back to the previous columns. The product of these matrices over all levels is stored without a
-        // common factor. Its rows are (1, b, c), s (0, 1, e) and s q (0, 0, 1). The first two rows converge to vectors
-        // that span the plane.
+        // common factor. The rows of the product are (1, b, c), s (0, 1, e) and s q (0, 0, 1); the five numbers b, c,
+        // e, s and q are updated at each level. The first two rows converge to vectors that span the plane.
         let mut star = self.clone();
         let to_frame = frame.transpose();
         for p in star.points() {

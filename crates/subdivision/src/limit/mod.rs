@@ -33,9 +33,9 @@ pub struct Limit {
     /// vectors points outward. At an inner crease, the vectors span the tangent plane of one side of the
     /// crease. At an isolated vertex, the vectors are zero.
     pub tangents: Vec<[DVec3; 2]>,
-    /// The unit normal of each corner, by the index of its half-edge. The normal is zero for half-edges without a face.
-    /// The value is `None` if each vertex has only one tangent plane, because then one normal for each vertex is
-    /// enough.
+    /// The unit normal of each corner, stored at the index of its half-edge. The normal is zero for half-edges without
+    /// a face. The value is `None` if each vertex has only one tangent plane, because then one normal for each vertex
+    /// is enough.
     pub corner_normals: Option<Vec<DVec3>>,
 }
 

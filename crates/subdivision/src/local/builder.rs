@@ -1,4 +1,4 @@
-//! Builds the connectivity arrays of the next level, edge by edge and face by face.
+//! Builds the connectivity arrays of the next subdivision level, edge by edge and face by face.
 
 use mesh::{Connectivity, FaceId, HalfEdgeId};
 

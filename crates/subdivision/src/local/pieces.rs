@@ -1,12 +1,12 @@
-//! The connectivity of the next level if only some faces and edges are cut.
+//! The connectivity of the next subdivision level if only some faces and edges are cut.
 //!
 //! Elements are in the same order as if all faces were cut (see [`halves`](crate::halves),
 //! [`triangles`](crate::triangles) and [`quads`](crate::quads)). The parts of edges come first, in order of the edges.
 //! The edges inside faces follow, in order of the faces. The parts of faces are in order of the faces. The index of the
 //! first part of an element is a prefix sum: the number of parts of all earlier elements of the same kind.
 //!
-//! The first half-edge of a triangle with a hanging vertex m starts at m. A triangle with a hanging vertex m is cut as
-//! if m were the new vertex on its side:
+//! If a triangle has a hanging vertex m (a vertex in the middle of a side), its first half-edge starts at m. A triangle
+//! with a hanging vertex m is cut as if m were the new vertex on its side:
 //!
 //! ```text
 //!             c                     c                        c
@@ -188,7 +188,7 @@ impl<'a> Pieces<'a> {
         VertexId::new(first + self.centers.first(f))
     }
 
-    /// Returns the first half of the `k`-th edge inside face `f`.
+    /// Returns the first half-edge of the `k`-th edge inside face `f`.
     pub(super) fn inner(&self, f: usize, k: usize) -> HalfEdgeId {
         let e = self.on_edges.len() + self.inside.first(f) + k;
         HalfEdgeId::new(2 * e)

@@ -79,8 +79,8 @@ impl ButterflyMasks<'_> {
         (n != 6 && !self.0.is_boundary_vertex(v)).then_some(n)
     }
 
-    /// The regular mask has one half for each half-edge of the edge. Calls `add` for the half that belongs to `h`: the
-    /// origin of `h`, and the vertices on the same side of the edge as the triangle of `h`.
+    /// The terms of the regular mask form two groups, one for each half-edge of the edge. Calls `add` for the group of
+    /// `h`: the origin of `h`, and the vertices on the same side of the edge as the triangle of `h`.
     #[inline]
     fn regular_half(&self, h: HalfEdgeId, add: &mut impl FnMut(usize, f64)) {
         let mesh = self.0;

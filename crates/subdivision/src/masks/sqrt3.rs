@@ -58,7 +58,7 @@ impl Sqrt3<'_> {
     /// third of the way from the origin of `h` to its target.
     fn on_boundary(&self, h: HalfEdgeId, add: &mut impl FnMut(usize, f64)) {
         let mesh = self.mesh;
-        // h can be either half of the boundary edge.
+        // h can be either half-edge of the boundary edge.
         let beyond = if mesh.face(h).is_none() {
             mesh.origin(mesh.prev(h))
         } else {

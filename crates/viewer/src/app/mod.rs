@@ -34,8 +34,8 @@ pub use start::{Opened, Start};
 /// The time after which the window shows the progress of a run.
 const LONG: Duration = Duration::from_millis(100);
 
-/// The longest time for which the first frame waits for the scene, so that a window that opens a file does not draw an
-/// empty scene first.
+/// The longest time for which the first frame waits for the scene. Without this wait, a window that opens a file would
+/// first draw an empty scene.
 const FIRST_FRAME: Duration = Duration::from_millis(250);
 
 /// A message at the top of the view.
@@ -58,7 +58,7 @@ impl Notice {
 pub struct App {
     pub(crate) parts: Parts,
     tree: Tree<Pane>,
-    /// The layout in the state folder.
+    /// The layout that is stored in the state folder.
     remembered: Remembered,
 }
 
@@ -168,8 +168,8 @@ impl App {
         &mut self.parts.editor
     }
 
-    /// Returns where the view shows a point of the scene, in points of the screen from the upper left corner of the
-    /// view. `None` if the point is behind the camera.
+    /// Returns where the view shows a point of the scene, in logical pixels from the upper left corner of the view.
+    /// `None` if the point is behind the camera.
     pub fn pixel_of(&self, point: mesh::DVec3) -> Option<[f64; 2]> {
         self.parts.view.pixel_of(point).map(|at| at.to_array())
     }

@@ -18,7 +18,8 @@ impl Parts {
     pub(super) fn view_event(&mut self, event: ViewEvent, scene: &Scene) {
         let picks = matches!(event, ViewEvent::Click { .. } | ViewEvent::Area { .. });
         if picks && self.draft.is_some() && self.editor.is_preview() {
-            // The new step acts on elements of the scene before this step, not on elements of the preview.
+            // The new step acts on elements of the scene before this step. Therefore elements of the preview cannot be
+            // picked, and the preview ends.
             self.editor.end_preview();
             self.inform(
                 "The view now shows the scene before the new step: pick the elements here.",

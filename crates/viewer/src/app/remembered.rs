@@ -16,7 +16,7 @@ pub(super) const FILE: &str = "window.ron";
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq)]
 #[serde(default)]
 pub(crate) struct Remembered {
-    /// The width and height of the window, in points of the screen.
+    /// The width and height of the window, in logical pixels.
     pub(crate) size: Option<[f32; 2]>,
     /// Whether the window fills the screen.
     pub(crate) is_maximized: bool,

@@ -46,7 +46,8 @@ pub struct Opened {
 impl Start {
     /// Creates the editor, and opens the file if there is one.
     pub fn open(self) -> Opened {
-        // Looks for the journals of other editors before this editor has its own journal.
+        // The unsaved texts of other editors are read before this editor creates its own journal, so that its journal
+        // is not among them.
         let mut files = Files::new(self.state_folder.clone());
         let settings = Settings {
             journals: files::journals(self.state_folder.as_deref()),

@@ -19,7 +19,7 @@ const MAX_POINTS: usize = (128 << 20) / size_of::<[f32; 3]>();
 /// mesh.
 pub(super) const EDGE: u32 = 1 << 31;
 
-/// Stands for "no normal".
+/// The encoded value for a point that has no normal.
 const NO_NORMAL: u32 = 0x8000_8000;
 
 /// Chunks of triangles that share their points.
@@ -120,8 +120,8 @@ fn byte(x: f32) -> u8 {
     (x.clamp(0.0, 1.0) * 255.0).round() as u8
 }
 
-/// Converts a part. If the part is the surface of a mesh, `mesh` is this mesh. The mesh is needed to find out which
-/// sides of triangles are edges of the mesh, and which are diagonals of polygons.
+/// Converts a part of a drawing. If the part is the surface of a mesh, `mesh` is this mesh. The mesh is needed to find
+/// out which sides of triangles are edges of the mesh, and which are diagonals of polygons.
 pub(super) fn surfaces(part: &Part, mesh: Option<&Mesh>, center: DVec3) -> Vec<Surface> {
     split(part, mesh, center, [CHUNK, MAX_POINTS])
 }
@@ -167,10 +167,10 @@ fn split(
     renumbered.collect()
 }
 
-/// Maps points of a part to points of a chunk.
+/// Maps the indices of the points of a part to the indices of the points of a chunk.
 struct Renumbering {
     local: Vec<u32>,
-    /// For each entry of `local`, the chunk for which the entry is valid.
+    /// For each entry of `local`, the number of the chunk for which the entry is valid.
     owner: Vec<u32>,
     chunk: u32,
 }

@@ -5,8 +5,8 @@
 //! ```
 //!
 //! [`Painter`] keeps the buffers of each object. An object is converted and uploaded again only if its geometry or the
-//! [`Look`] changes. Geometries are compared by address. The picture depends only on the scene, the look, the overlay
-//! and the camera, not on earlier pictures.
+//! [`Look`] changes. Meshes are compared by address. The picture depends only on the scene, the look, the overlay and
+//! the camera, not on earlier pictures.
 
 mod device;
 mod geometry;
@@ -41,7 +41,7 @@ pub struct Overlay {
 pub struct OverlayLine {
     /// The ends.
     pub ends: [DVec3; 2],
-    /// The width in points of the screen.
+    /// The width of the line or the diameter of the dot, in logical pixels.
     pub width: f32,
     /// The opacity where a surface hides the line.
     pub hidden: f32,

@@ -39,8 +39,8 @@ pub(super) struct Key {
 }
 
 impl Key {
-    /// Whether both objects have the same color and style, and their buffers depend only on the color, the style and
-    /// the geometry.
+    /// Whether both objects have the same color and style, and have no seams, materials or numbers as colors. Their
+    /// buffers then depend only on the color, the style and the geometry.
     pub(super) fn looks_like(&self, other: &Self) -> bool {
         self.color == other.color
             && self.style == other.style

@@ -235,8 +235,8 @@ impl Painter {
         self.overlay_key = Some((overlay.clone(), scale));
     }
 
-    /// Draws the scene. `size` is the size of the picture in pixels, and `scale` the number of pixels per point of the
-    /// screen.
+    /// Draws the scene. `size` is the size of the picture in pixels, and `scale` is the number of picture pixels per
+    /// logical pixel.
     pub fn draw(
         &mut self,
         camera: &Camera,

@@ -22,7 +22,7 @@ const MAX_CHANGES: usize = 50_000;
 pub(super) struct Simple {
     /// The triangles of each chunk.
     pub(super) triangles: Vec<wgpu::Buffer>,
-    /// The normals of the points. `None` if the normals are those of the triangles.
+    /// The normals of the points. `None` if the surface is shaded flat, with the normals of its triangles.
     pub(super) normals: Option<wgpu::Buffer>,
     /// Whether the back of the surface has a color of its own.
     pub(super) has_back: bool,

@@ -43,7 +43,7 @@ pub(crate) fn ui(ui: &mut Ui, parts: &mut Parts) {
         });
 }
 
-/// A part of the panel that can be closed. `name` stays the same when the title changes.
+/// Draws a part of the panel that the user can collapse. `name` identifies the part, because its title can change.
 fn section(ui: &mut Ui, name: &str, title: &str, contents: impl FnOnce(&mut Ui)) {
     let color = Colors::current(ui).text;
     CollapsingHeader::new(RichText::new(title).strong().size(13.0).color(color))
@@ -115,7 +115,7 @@ fn step(ui: &mut Ui, parts: &mut Parts) {
         && ui
             .add(play)
             .on_hover_text(
-                "Shows the edits of this step one by one, with the pointers that they change",
+                "Shows the edits of this step one by one, with the half-edge pointers that each edit changes",
             )
             .clicked()
     {
@@ -232,7 +232,7 @@ fn panel_field(name: &str, param: &Param, value: String) -> editor::PanelField {
     }
 }
 
-/// The objects of the scene.
+/// Draws information about the objects of the scene.
 fn information(ui: &mut Ui, parts: &Parts) {
     let colors = Colors::current(ui);
     let scene = parts.editor.view().scene;

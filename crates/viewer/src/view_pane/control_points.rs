@@ -14,9 +14,9 @@ use crate::theme::Colors;
 #[derive(Clone, Debug)]
 pub(super) struct PointDrag {
     point: ControlPoint,
-    /// The offset from the cursor to the control point at the start of the drag, in points of the screen.
+    /// The offset from the cursor to the control point at the start of the drag, in logical pixels.
     grip: DVec2,
-    /// The last position, in the space of the object.
+    /// The last position of the control point, in the space of the object.
     to: Option<DVec3>,
 }
 

@@ -33,7 +33,7 @@ pub(super) fn axes(ui: &Ui, rect: Rect, camera: &Camera) {
     }
 }
 
-/// Draws an area that is being drawn with the mouse.
+/// Draws the box or the lasso that the user is drawing with the mouse.
 pub(super) fn outline(ui: &Ui, area: &Outline, colors: &Colors) {
     let stroke = Stroke::new(1.0, colors.accent);
     let fill = colors.accent.gamma_multiply(0.12);

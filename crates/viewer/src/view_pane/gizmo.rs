@@ -12,12 +12,12 @@ use super::{ViewEvent, ViewPane};
 use crate::gpu::axis_color;
 use crate::theme::Colors;
 
-/// The length of the handles, in points of the screen.
+/// The length of the handles, in logical pixels.
 const LENGTH: f64 = 84.0;
-/// The maximum distance from the cursor at which a handle can be dragged, in points of the screen.
+/// The maximum distance from the cursor at which a handle can be dragged, in logical pixels.
 const REACH: f64 = 8.0;
-/// The minimum length of an arrow that can be dragged, in points of the screen. A shorter arrow points almost towards
-/// the viewer or away from the viewer.
+/// The minimum length of an arrow that can be dragged, in logical pixels. A shorter arrow points almost exactly towards
+/// or away from the viewer.
 const SHORTEST: f64 = 12.0;
 /// The number of straight segments of a ring.
 const RING: u8 = 64;
@@ -45,11 +45,11 @@ pub(crate) struct Gizmo {
 /// A drag of a handle.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Drag {
-    /// The handles at the start.
+    /// The handles at the start of the drag.
     gizmo: Gizmo,
     /// The index of the axis, or `ALL`.
     axis: usize,
-    /// The base and the tip of the axis at the start, in points of the screen.
+    /// The base and the tip of the axis at the start of the drag, in logical pixels.
     line: [DVec2; 2],
     /// The length of the axis in scene units.
     length: f64,
@@ -58,7 +58,7 @@ pub(super) struct Drag {
     last: DVec2,
     /// The angle by which the cursor has moved around the base since the start of the drag, in degrees.
     turned: f64,
-    /// The offset in scene units, the angle in degrees, or the factor.
+    /// The result of the drag so far: an offset in scene units, an angle in degrees, or a scale factor.
     value: f64,
 }
 
@@ -347,7 +347,7 @@ pub(super) fn round(length: f64, pixel: f64) -> f64 {
     if !(size > 0.0 && size.is_finite()) {
         return 0.0;
     }
-    // Divisions by powers of ten give the nearest number with few digits.
+    // A division by 10 gives the nearest number with few digits, such as 0.3. A multiplication by 0.1 can be inexact.
     let digits = -libm::floor(libm::log10(size));
     let power = libm::pow(10.0, digits.abs());
     if digits >= 0.0 {

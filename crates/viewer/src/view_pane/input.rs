@@ -7,7 +7,7 @@ use glam::DVec2;
 use super::{Shown, ViewEvent, ViewPane};
 use crate::gpu::Wireframe;
 
-/// An area that is drawn with the mouse, in points of the screen.
+/// An area that is drawn with the mouse, in logical pixels.
 #[derive(Clone, Debug)]
 pub(super) enum Outline {
     /// A box, given by two opposite corners.
@@ -105,7 +105,8 @@ impl ViewPane {
                 removes: modifiers.alt,
             });
         }
-        // While a button is down, nothing is picked, so that turning a large scene stays fast.
+        // While a mouse button is down, no element under the cursor is searched for, so that turning a large scene
+        // stays fast.
         let is_down = ui.input(|input| input.pointer.any_down());
         if response.contains_pointer() && !is_down {
             let hovered = pointer.and_then(|at| {
@@ -119,7 +120,8 @@ impl ViewPane {
             });
             if hovered != self.hovered {
                 self.hovered = hovered;
-                // The status was drawn before the view in this frame, so it is updated in the next frame.
+                // The status bar was drawn before the view in this frame, so it shows the new element only in the next
+                // frame.
                 ui.ctx().request_repaint();
             }
         } else if !response.contains_pointer() {
@@ -143,7 +145,7 @@ impl ViewPane {
         }
     }
 
-    /// Returns the map from the scene to points of the view.
+    /// Returns the map from the scene to positions in the view.
     pub(super) fn projection(&self) -> Projection {
         let extent = self.gpu.as_ref().and_then(|gpu| gpu.painter.extent());
         let (center, radius) = extent.unwrap_or((self.camera.target, self.camera.distance));

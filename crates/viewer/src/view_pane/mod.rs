@@ -211,8 +211,7 @@ impl ViewPane {
         self.camera.fit(0.5 * (min + max), radius * 1.6, self.size);
     }
 
-    /// Returns where the view shows a point of the scene, in points of the screen from the upper left corner of the
-    /// view.
+    /// Returns where the view shows a point of the scene, in logical pixels from the upper left corner of the view.
     pub(crate) fn pixel_of(&self, point: DVec3) -> Option<DVec2> {
         self.camera.project(point, self.size)
     }

@@ -57,7 +57,10 @@ fn faces_that_share_an_edge_are_one_region_with_a_mean_normal() {
         shapes::cube(),
     )
     .unwrap();
-    assert_eq!(report.notes, ["regions: 1, side faces: 6"]);
+    assert_eq!(
+        report.notes,
+        ["connected regions of selected faces: 1, new side faces: 6"]
+    );
     let moved = mesh.face_center(FaceId::new(2)) - DVec3::new(0.0, -1.0, 0.0);
     let half = 0.5_f64.sqrt();
     assert!((moved - DVec3::new(half, -half, 0.0)).length() < 1e-15);

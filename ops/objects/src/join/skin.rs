@@ -193,7 +193,7 @@ pub(super) fn report(
             .sum();
         if n > 0 {
             report.notes.push(format!(
-                "vertices of joined objects without a skin, which are bound to the first joint: {n}"
+                "vertices bound to the first joint, because their objects had no skin: {n}"
             ));
         }
     } else if let Err(why) = kept {

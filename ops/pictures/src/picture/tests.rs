@@ -165,7 +165,7 @@ fn invalid_parameters_are_problems_of_the_plan() {
         (
             "path: \"../a.png\"",
             "the output path \"../a.png\" must stay inside the output folder: use a relative path \
-             without \".\", \"..\", \"\\\" and \":\"",
+             without the folders \".\" and \"..\" and without the characters \"\\\" and \":\"",
         ),
         (
             "path: \"a.png\", style: (sharp: 200)",

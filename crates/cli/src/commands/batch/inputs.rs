@@ -11,10 +11,10 @@ use super::sets::{ParameterSet, label};
 /// An input file of a batch.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Input {
-    /// The path of the input file. The path begins with the folder in which the pattern starts. The path is empty if
+    /// The path of the input file, such as `models/a/cow.obj` for the pattern `models/**/*.obj`. The path is empty if
     /// the recipe runs without an input file.
     pub(crate) path: String,
-    /// The path relative to the folder in which the pattern starts.
+    /// The path relative to the folder before the first wildcard of the pattern: `a/cow.obj` for `models/**/*.obj`.
     pub(crate) relative: PathBuf,
     /// The parameter set of the run, if the batch has several.
     pub(crate) set: Option<ParameterSet>,
@@ -88,7 +88,7 @@ fn search(pattern: &str, inputs: &mut Vec<Input>) -> anyhow::Result<()> {
     let (base, rest) = split(pattern);
     let invalid = || format!("{pattern} is not a valid file pattern");
     fast_glob::validate(rest).map_err(|error| anyhow!("{error}").context(invalid()))?;
-    // A leading exclamation mark is part of a name here, not a negation.
+    // In `fast_glob`, a leading exclamation mark negates the pattern. Here, it is a part of the name.
     let glob = if rest.starts_with('!') {
         format!("\\{rest}")
     } else {
@@ -131,7 +131,8 @@ fn search(pattern: &str, inputs: &mut Vec<Input>) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Splits a pattern into two parts: the folder in which the pattern starts, and the rest of the pattern.
+/// Splits a pattern into the folder before its first wildcard and the rest: `models/*.obj` becomes `models` and
+/// `*.obj`.
 fn split(pattern: &str) -> (&str, &str) {
     let special = pattern
         .find(['*', '?', '[', '{', '\\'])

@@ -65,7 +65,7 @@ fn merge(reports: &[(&Path, Report)]) -> anyhow::Result<Report> {
     for (path, report) in reports {
         for row in &report.rows {
             match rows.get(&row.key()) {
-                // A file that is skipped in one report can be processed in another.
+                // A file that is skipped in one report can be processed in another report. This is not a contradiction.
                 Some(_) if row.state == State::Skipped => {}
                 Some((_, earlier)) if earlier.state == State::Skipped => {
                     rows.insert(row.key(), (path, row));

@@ -332,7 +332,8 @@ fn failure(file: &Input, message: String) -> FileResult {
     }
 }
 
-/// Returns the result of a file whose job panicked (`Some`) or was not started (`None`).
+/// Returns the result of a file whose job ended without a result. `panicked` has the message if the job panicked, and
+/// is `None` if the job was not started.
 fn without_result(file: &Input, panicked: Option<String>) -> FileResult {
     match panicked {
         Some(message) => failure(file, message),
@@ -353,7 +354,7 @@ fn row(file: &Input, loaded: &Loaded, outcome: &Outcome) -> Row {
         row.losses
             .extend(losses.map(|loss| format!("{}: {loss}", step.label)));
     }
-    // If a step failed, the counts are the counts before that step.
+    // If a step failed, these are the element counts of the scene before that step.
     let last = outcome.steps.last();
     row.vertices = last.map(|step| step.vertices);
     row.edges = last.map(|step| step.edges);

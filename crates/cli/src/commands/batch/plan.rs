@@ -34,7 +34,7 @@ pub(super) struct Batch<'a> {
 
 impl<'a> Batch<'a> {
     /// Reads the recipe, lists the input files, and checks that no output would overwrite an input file or the output
-    /// of another file. If the text of the recipe has errors, prints them and returns `None`.
+    /// of a run on another input file. If the text of the recipe has errors, prints them and returns `None`.
     pub(super) fn plan(
         args: &'a BatchArgs,
         engine: &'a Engine<'a>,
@@ -83,7 +83,8 @@ impl<'a> Batch<'a> {
         Ok(Some(batch))
     }
 
-    /// Fails if two files would write the same output, or if an output would overwrite an input file.
+    /// Fails if the runs on two input files would write to the same path, or if an output would overwrite an input
+    /// file.
     ///
     /// In this recipe and in the recipes that it calls, an output path depends on the input file only through
     /// placeholders. So the recipe is checked only once for each parameter set, with a marker in place of the name of

@@ -51,7 +51,7 @@ pub(super) struct CellResult {
     /// The written files, if outputs are kept.
     pub(super) outputs: Vec<PathBuf>,
     pub(super) error: Option<String>,
-    /// The scene for the sheet, if one is drawn and the cell succeeded.
+    /// The scene for the sheet, if a sheet is drawn and the cell succeeded.
     pub(super) scene: Option<CellScene>,
     /// Whether Ctrl-C canceled the run of the cell, or prevented its start.
     pub(super) is_not_run: bool,

@@ -141,7 +141,7 @@ struct Plan {
     source: Source,
     /// The text of the recipe.
     recipe: Source,
-    /// The recipe, in which the parameters have the values that are the same in all cells.
+    /// The recipe, in which all parameters have their default values.
     loaded: Loaded,
     grid: Grid,
 }
@@ -312,8 +312,8 @@ fn short(text: &str) -> String {
     }
 }
 
-/// Shortens the cells of the table, so that it fits a terminal better. In the table, an error is replaced by a mark,
-/// because all errors are printed in full below the table. Numbers are shortened.
+/// Shortens the entries of the table, so that the table fits a terminal better. Numbers get fewer digits. An error is
+/// replaced by a mark, because all errors are printed in full below the table.
 fn on_a_terminal(rows: Vec<Vec<String>>) -> Vec<Vec<String>> {
     rows.into_iter()
         .map(|mut row| {

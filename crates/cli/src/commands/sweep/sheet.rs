@@ -30,8 +30,8 @@ use crate::commands::picture::{SHEET_CELL, check_names, parameters};
 use crate::listener::{INTERRUPT, is_interrupted};
 use crate::many::{error_message, run_in_order};
 
-/// Maximum number of lines of text below the image of a cell. The first number is for its parameter values, and the
-/// second for its values of `keep`.
+/// Maximum numbers of lines below the image of a cell: first for the parameter values, then for the measured values
+/// that `keep` lists.
 const MAX_LINES: [usize; 2] = [2, 3];
 
 /// The color of errors.
@@ -297,7 +297,7 @@ struct Layout {
     heads: [Vec<String>; 2],
 }
 
-/// Cells without labels of rows and columns are placed in one row if there are at most this many of them.
+/// If a sheet has no labels of rows and columns, up to this many cells are placed in one row.
 const MAX_SINGLE_ROW: usize = 6;
 
 impl Layout {
@@ -309,7 +309,7 @@ impl Layout {
         let columns = match (columns, &changing[..]) {
             (Some(columns), _) => columns as usize,
             (None, [rows, columns]) => {
-                // In the list of cells, the value of the last parameter changes from one cell to the next.
+                // In the list of cells, the values of the last axis change fastest.
                 let row = |i: usize| values(plan, rows, i * columns.len).join(", ");
                 let column = |i: usize| values(plan, columns, i).join(", ");
                 heads[0].extend((0..rows.len).map(row));
@@ -332,8 +332,8 @@ impl Layout {
     }
 
     /// Returns the text below the image of a cell. The text has the parameter values, unless these are the labels of
-    /// rows and columns. The text also has as many values of `keep` as fit. Values of `keep` that are times are left
-    /// out, because they differ from run to run.
+    /// rows and columns. The text also has as many of the measured values that `keep` lists as fit. Measured times are
+    /// left out, because they differ from run to run.
     fn caption(&self, plan: &Plan, cell: usize, result: &CellResult, width: u32) -> String {
         let style = SheetStyle::default();
         let (size, room) = (f64::from(style.font_size), f64::from(width + style.gap / 2));

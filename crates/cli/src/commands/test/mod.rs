@@ -113,7 +113,7 @@ pub(crate) fn run(args: &TestArgs, engine: &Engine) -> anyhow::Result<bool> {
     Ok(failed == 0 && not_run == 0 && passed > 0)
 }
 
-/// Returns the recipes among the given paths, and below the given folders, that are run as tests of their own.
+/// Returns the recipes that are run as tests of their own. They are among the given paths or below the given folders.
 pub(crate) fn tested(paths: &[PathBuf], engine: &Engine) -> anyhow::Result<Vec<PathBuf>> {
     let recipes = recipes(paths)?;
     let limits = JobLimits {
@@ -255,7 +255,7 @@ impl<'a> Test<'a> {
             return TestResult::failed(&loaded.diagnostics, None);
         }
         let pictures = if args.update {
-            // Nothing is drawn, because the update can fix the failures.
+            // The failures are not drawn, because the update can fix them.
             Pictures::default()
         } else {
             let name = &self.found.own_folder;

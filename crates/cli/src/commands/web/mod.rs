@@ -73,8 +73,8 @@ fn accept(listener: &TcpListener, folder: &Arc<Path>) {
             Builder::new().spawn(move || _ = answer(&stream, &folder))
         });
         if accepted.is_err() {
-            // There are too many connections or threads. The next attempt waits for a moment, because some of them can
-            // end in the meantime.
+            // The error means that there are too many connections or threads. Some of them can end before the next
+            // attempt.
             sleep(POLL_INTERVAL);
         }
     }

@@ -169,7 +169,7 @@ fn content_type(path: &Path) -> &'static str {
         "jpg" | "jpeg" => "image/jpeg",
         "ico" => "image/x-icon",
         "woff2" => "font/woff2",
-        // License files have no extension.
+        // Meshwright's web page has license files without an extension.
         "" | "txt" | "md" | "ron" => "text/plain; charset=utf-8",
         _ => "application/octet-stream",
     }

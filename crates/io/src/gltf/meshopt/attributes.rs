@@ -9,7 +9,8 @@
 //!                                     2 bits for each 16 elements | 16 differences | 16 differences | ...
 //! ```
 //!
-//! A channel consists of four bytes of an element. Only version 1 (`0xa1`) has controls and modes.
+//! A channel consists of four bytes of an element. The controls select how many bits the differences of each byte can
+//! have. The mode of a channel is one of the variants of `Channel`. Only version 1 (`0xa1`) has controls and modes.
 
 use super::input::Input;
 use crate::fault::Fault;
@@ -21,7 +22,7 @@ const BLOCK_BYTES: usize = 8192;
 /// The largest number of elements in a block.
 pub(super) const BLOCK: usize = 256;
 
-/// The number of bits of a difference for each of the four kinds of groups.
+/// Differences are stored in groups. For each of the four kinds of groups, the number of bits of a difference.
 type Bits = [u8; 4];
 
 const VERSION_0: Bits = [0, 2, 4, 8];

@@ -2,13 +2,13 @@
 
 use super::triangles::Recent;
 
-/// The table at the end of each stream, with the pairs of 4-bit values that a code can refer to. The format allows any
-/// pairs. This table contains frequent pairs (`kCodeAuxEncodingTable` of meshoptimizer).
+/// The table at the end of each stream. The code of a triangle can refer to a pair of 4-bit values in this table. The
+/// format allows any pairs. This table contains frequent pairs (`kCodeAuxEncodingTable` of meshoptimizer).
 const PAIRS: [u8; 16] = [
     0x00, 0x76, 0x87, 0x56, 0x67, 0x78, 0xa9, 0x86, 0x65, 0x89, 0x68, 0x98, 0x01, 0x69, 0, 0,
 ];
 
-/// The number of pairs that a code can refer to.
+/// The number of pairs in the table that the code of a triangle can refer to.
 const N_PAIRS: usize = 14;
 
 /// Encodes triangles whose indices have N bytes. The order of the triangles is kept. A triangle that shares an edge

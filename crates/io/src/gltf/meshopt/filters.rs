@@ -96,8 +96,8 @@ fn to_bytes(values: [u16; 4]) -> [u8; 8] {
     [a, b, c, d, e, f, g, h]
 }
 
-/// Returns the unit vector that the point (x, y) on the unfolded octahedron represents. Its components are multiplied
-/// by `largest` and rounded.
+/// Returns the unit vector that the point (x, y) on the unfolded octahedron represents. The components of this vector
+/// are multiplied by `largest` and rounded.
 ///
 /// The argument `one` is the integer that represents 1. Source: Cigolle et al., "A Survey of Efficient Representations
 /// for Independent Unit Vectors", 2014, section 3.3.

@@ -122,7 +122,7 @@ fn errors_for_bad_input_name_the_element() {
     let message = |r: Result<(Mesh, BuildReport), BuildError>| r.unwrap_err().to_string();
     assert_eq!(
         message(Mesh::from_polygons(points(3), &[[0, 1, 2], [0, 1, 3]])),
-        "face 1 refers to vertex 3, but there are 3 vertices"
+        "face 1 refers to vertex 3, but there are 3 vertices, numbered from 0"
     );
     let mut bad = points(3);
     bad[1].y = f64::NAN;

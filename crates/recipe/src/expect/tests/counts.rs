@@ -184,7 +184,10 @@ fn two_edges_between_the_same_vertices_are_not_manifold() {
     assert_eq!(mesh.defects(), []);
     assert_eq!(
         check(&scene([("double", mesh)]), "Manifold"),
-        Err("expected a manifold, but several edges of \"double\" join v0 and v1".to_owned())
+        Err(
+            "expected a manifold, but several edges of \"double\" join the vertices v0 and v1"
+                .to_owned()
+        )
     );
 }
 

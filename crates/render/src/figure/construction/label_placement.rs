@@ -15,10 +15,10 @@ pub(crate) struct LabelPlacement {
     pub(crate) area: [DVec2; 2],
 }
 
-/// The number of directions, around the point, in which the label is placed for trial.
+/// The number of directions around the point in which positions for the label are tried.
 const DIRECTIONS: u32 = 24;
 
-/// The distances from the point at which the label is placed for trial, in pixels.
+/// The distances from the point, in pixels, at which positions for the label are tried.
 const DISTANCES: [f64; 3] = [3.0, 8.0, 15.0];
 
 impl LabelPlacement {

@@ -40,10 +40,10 @@ const MIN_AREA: f64 = 1e-11;
 /// out: the crate `uvunwrap` ignores triangles whose height is below 1e-6 times the diagonal.
 const MIN_HEIGHT: f64 = 4e-6;
 
-/// A shape with more than this number of triangles is replaced by its convex hull, if both have nearly the same area.
+/// A shape with more than this number of triangles is replaced by its convex hull, if the hull is not larger.
 const MAX_CONVEX: usize = 256;
 
-/// The largest difference of the areas of a shape and of the convex hull that replaces it, as a fraction of the area.
+/// Areas whose difference is at most this fraction of the area count as equal.
 const HULL_MARGIN: f64 = 1e-4;
 
 /// A chart before the packing.
@@ -104,9 +104,7 @@ pub fn pack(
     let unit = 1.0 / largest.fold(f64::MIN_POSITIVE, f64::max);
     let mut shapes: Vec<Shape> = solid
         .iter()
-        .map(|chart| {
-            Shape::of_triangles(&chart.triangles, |h| places(chart, h) * unit).simplified()
-        })
+        .map(|chart| Shape::of_triangles(&chart.triangles, |h| places(chart, h) * unit))
         .collect();
     let mut packed = Packed {
         uvs: vec![DVec2::ZERO; uvs.len()],
@@ -115,10 +113,14 @@ pub fn pack(
         n_overlapping: 0,
         coverage: 0.0,
     };
+    for shape in &mut shapes {
+        packed.n_overlapping += usize::from(shape.simplify());
+    }
     if solid.is_empty() {
         return Ok(packed);
     }
     let mut atlas = pack_shapes(&shapes, page, progress)?;
+    let n_known = packed.n_overlapping;
     for (shape, output) in shapes.iter_mut().zip(&atlas.meshes) {
         // If a chart overlaps itself, the packing has cut it into several charts.
         if n_charts(output) != 1 {
@@ -126,7 +128,7 @@ pub fn pack(
             packed.n_overlapping += 1;
         }
     }
-    if packed.n_overlapping > 0 {
+    if packed.n_overlapping > n_known {
         atlas = pack_shapes(&shapes, page, progress)?;
     }
     let density = f64::from(atlas.texels_per_unit) / f64::from(page.size);
@@ -268,19 +270,21 @@ impl Shape {
         (self.points.len() - 1) as u32
     }
 
-    /// Replaces a convex shape of many triangles by its convex hull. The crate `uvunwrap` compares triangles whose
-    /// bounding boxes overlap. In the triangulation of a face with many corners, these can be almost all pairs.
-    fn simplified(self) -> Self {
+    /// Replaces a shape of many triangles by its convex hull if the shape is convex, or certainly overlaps itself because
+    /// its area is larger than that of the hull. Returns whether it overlaps itself. The crate `uvunwrap` compares
+    /// triangles whose bounding boxes overlap. In the triangulation of a face with many corners, these can be almost all
+    /// pairs.
+    fn simplify(&mut self) -> bool {
         if self.indices.len() / 3 <= MAX_CONVEX {
-            return self;
+            return false;
         }
         let hull = self.hull();
-        let area = hull.area();
-        if (self.area() - area).abs() <= HULL_MARGIN * area {
-            hull
-        } else {
-            self
+        let (area, of_hull) = (self.area(), hull.area());
+        if hull.indices.is_empty() || area < (1.0 - HULL_MARGIN) * of_hull {
+            return false;
         }
+        *self = hull;
+        area > (1.0 + HULL_MARGIN) * of_hull
     }
 
     fn area(&self) -> f64 {

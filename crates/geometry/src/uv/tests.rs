@@ -356,6 +356,18 @@ fn charts_that_overlap_themselves_are_packed_by_their_hulls() {
 }
 
 #[test]
+fn a_chart_of_many_triangles_that_overlaps_itself_is_packed_by_its_hull() {
+    // The projection along the axis: both caps become the same disk, and the sides have zero area.
+    let mesh = shapes::cylinder(300, true);
+    let uv = |h| mesh.position(mesh.origin(HalfEdgeId::new(h))).truncate();
+    let uvs: Vec<DVec2> = (0..mesh.n_half_edges()).map(uv).collect();
+    let packed = pack(&mesh, &uvs, PAGE, &NoProgress).unwrap();
+    assert_eq!((packed.n_charts, packed.n_overlapping), (1, 1));
+    let inside = |uv: &DVec2| uv.cmpge(DVec2::ZERO).all() && uv.cmple(DVec2::ONE).all();
+    assert!(packed.uvs.iter().all(inside));
+}
+
+#[test]
 fn a_hull_with_two_points_that_nearly_coincide_stays_in_one_part() {
     // Two quads that lie on each other in the texture, and six squares. Two corners of the quads nearly coincide.
     let (mut positions, mut faces) = (Vec::new(), Vec::<[u32; 4]>::new());

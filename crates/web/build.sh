@@ -16,7 +16,7 @@ skip() { echo "the package for browsers is not built: $*"; exit 0; }
 
 command -v npm > /dev/null || skip "npm is missing"
 sysroot=$(rustc --print sysroot)
-build=(cargo build --profile web --locked --target "$target" -p meshwright-web)
+build=(cargo rustc --profile web --locked --target "$target" -p meshwright-web --lib --crate-type cdylib)
 if ! [ -d "$sysroot/lib/rustlib/$target" ]; then
     [ "$(uname -sm)" = "Linux x86_64" ] || skip "the standard library is missing: rustup target add $target"
     command -v apt-get > /dev/null || skip "the standard library and apt-get are missing"
@@ -55,8 +55,11 @@ fi
 npm install --silent --no-audit --no-fund --prefix "$work/tools" binaryen@132.0.0 ||
     skip "binaryen cannot be installed from npm"
 
-CARGO_INCREMENTAL=0 CARGO_TARGET_DIR=$work/target "${compiler[@]:-env}" "${build[@]}"
-(cd crates/web/bindgen && CARGO_INCREMENTAL=0 CARGO_TARGET_DIR=$work/bindgen cargo build --locked)
+# Threads need atomic operations. Both engines are compiled with them, so that only the last crate is compiled twice.
+[ -z "${compiler:-}" ] || export CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS="-C target-feature=+atomics"
+export CARGO_INCREMENTAL=0
+CARGO_TARGET_DIR=$work/target "${compiler[@]:-env}" "${build[@]}"
+(cd crates/web/bindgen && CARGO_TARGET_DIR=$work/bindgen cargo build --locked)
 
 # Writes the package: package FOLDER-OF-CARGO FOLDER
 package() {
@@ -70,16 +73,14 @@ package() {
 package "$work/target" "$out"
 node crates/web/tests/scenes.mjs "$out"
 
-# Threads need shared memory and atomic operations. The standard library must support them, too, and is therefore built
-# from its sources.
+# Threads also need shared memory, and a standard library that was compiled with atomic operations.
 if [ -n "${compiler:-}" ]; then
-    flags="-C target-feature=+atomics"
+    flags=(--cfg threads)
     for argument in --shared-memory --import-memory --max-memory=4294967296 --export=__heap_base \
         --export=__wasm_init_tls --export=__tls_size --export=__tls_align --export=__tls_base; do
-        flags+=" -C link-arg=$argument"
+        flags+=(-C "link-arg=$argument")
     done
-    CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS=$flags CARGO_INCREMENTAL=0 CARGO_TARGET_DIR=$work/target \
-        "${compiler[@]}" "${build[@]}"
+    CARGO_TARGET_DIR=$work/target "${compiler[@]}" "${build[@]}" -- "${flags[@]}"
     package "$work/target" "$work/threads"
 else
     rm -rf "$work/threads"

@@ -7,7 +7,7 @@
 //! arrays.rs   the arrays of a mesh that a view needs
 //! colors.rs   the colors of quantities for these arrays
 //! bindings.rs the same functions for JavaScript, through `wasm-bindgen`; only in WebAssembly
-//! threads.rs  Web Workers as threads; only in a build with atomic operations
+//! threads.rs  Web Workers as threads; only in a build with shared memory
 //! ```
 //!
 //! `build.sh` builds the package in `target/web`. `package/meshwright.js` adds types and objects to the bindings.
@@ -20,7 +20,7 @@ mod session;
 
 #[cfg(target_arch = "wasm32")]
 mod bindings;
-#[cfg(all(target_arch = "wasm32", target_feature = "atomics"))]
+#[cfg(all(target_arch = "wasm32", threads))]
 mod threads;
 
 pub use arrays::Arrays;

@@ -267,7 +267,8 @@ fn from_every_step(recipe: &Scene) -> Result<(), Failed> {
     if loaded.forecast.peak_bytes() > MAX_BYTES_FROM_EVERY_STEP {
         return Ok(());
     }
-    // The run does not write the files of earlier steps, so expectations about files are removed.
+    // A run that starts at a later step does not write the files of the earlier steps, so expectations about files are
+    // removed.
     let expectations = &mut loaded.recipe.expectations;
     expectations.retain(|placed| placed.that.output().is_none());
     let recorder = SceneRecorder::default();

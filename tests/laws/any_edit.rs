@@ -52,7 +52,7 @@ const UNWRAP: u8 = 32;
 /// Applies the edit. Ids can be beyond the last element, or belong to deleted elements.
 ///
 /// # Errors
-/// The reason for which the edit was refused.
+/// Returns the reason for which the edit was refused.
 pub(crate) fn edit(mesh: &mut Mesh, code: EditCode) -> Result<(), EditError> {
     let EditCode { kind, a, b, place } = code;
     let e = EdgeId::new(pick(mesh, Domain::Edge, a));
@@ -250,7 +250,7 @@ fn change_surface_further(mesh: &mut Mesh, code: EditCode) {
                     1 => deform::Twist { frame, angle: t }.point(*p),
                     _ => deform::Taper { frame, factor: t }.point(*p),
                 };
-                // The operations refuse results that are not finite.
+                // The operations refuse results that are not finite, so such results are skipped.
                 if moved.is_finite() {
                     *p = moved;
                 }
@@ -402,7 +402,7 @@ fn hole(mesh: &Mesh, h: HalfEdgeId) -> HalfEdgeId {
 ///
 /// # Panics
 ///
-/// If a guarantee is broken.
+/// Panics if a guarantee is broken.
 pub(crate) fn edit_and_check(mesh: &mut Mesh, code: EditCode) {
     let before = mesh.clone();
     let result = edit(mesh, code);
@@ -420,7 +420,6 @@ pub(crate) fn edit_and_check(mesh: &mut Mesh, code: EditCode) {
     }
 }
 
-/// Returns the number of duplicate edges.
 fn n_duplicate_edges(mesh: &Mesh) -> usize {
     let mut ends: Vec<[VertexId; 2]> = mesh.edges().map(|e| mesh.edge_vertices(e)).collect();
     for pair in &mut ends {

@@ -205,7 +205,6 @@ fn a_cancelled_run_ends_with_the_scene_before_the_step() {
     assert_none(&failures);
 }
 
-/// The result of a run.
 struct Run {
     outcome: Outcome,
     /// The number of progress calls.

@@ -179,8 +179,8 @@ fn results_and_refusals_are_the_same_twice_and_for_any_number_of_threads() {
     assert_none(&failures);
 }
 
-/// Returns the part of a result that must be equal in all runs. File errors are left out, because temporary folders
-/// have a different name in each run.
+/// Returns the part of a result that must be equal in all runs. The messages of file errors are left out, because they
+/// contain names of temporary folders, which differ between runs.
 fn summary(result: &StepResult) -> String {
     match result {
         Ok((scene, report)) => format!("{} {report:?}", scene.digest()),

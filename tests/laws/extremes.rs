@@ -62,8 +62,8 @@ fn extreme_variants(parameters: &str, can_be_read: impl Fn(&str) -> bool) -> Vec
     texts
 }
 
-/// Returns several scenes: an object of each kind, a cube of triangles, and the same cube scaled to very large and very
-/// small sizes.
+/// Returns several scenes: one with an object of each kind, one with a cube of triangles, and some with this cube
+/// scaled to very large and very small sizes.
 fn scenes() -> Vec<(&'static str, Scene)> {
     let find = |wanted: &str| {
         let mut all = fixtures::scenes().into_iter();

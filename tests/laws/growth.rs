@@ -15,9 +15,9 @@
 //!
 //! Each measured time is the median of the processor times of several runs on one thread, so that other programs hardly
 //! affect it. The time on a mesh is compared with the time on a mesh that is four times as large (doubled twice). If
-//! the growth of the time is too large, it is measured again. If the growth is still too large, it is measured with
-//! meshes that are four times as large, because the time also jumps at the size at which the data no longer fit in a
-//! cache.
+//! the growth of the time is too large, the growth is measured again. If the growth is still too large, it is measured
+//! between meshes that are four times as large. The reason is that the time jumps at the size at which the data no
+//! longer fit in a cache.
 
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -44,7 +44,7 @@ const MAX_GROWTH: f64 = 2.3 * 2.3;
 /// The minimum time of a measurement. Meshes are enlarged until the work takes this long.
 const LONG_ENOUGH: Duration = Duration::from_millis(4);
 
-/// The maximum time for the smallest mesh. If the work takes longer, the test fails.
+/// The maximum time for the first mesh that is measured. If the work takes longer, the test fails.
 const TOO_LONG: Duration = Duration::from_secs(20);
 
 /// The number of faces of the first mesh, and of the largest mesh before it is doubled twice.
@@ -83,7 +83,7 @@ const SELECTIONS: &[&str] = &[
     "TagFaces(name: \"new\", faces: Component(All))",
 ];
 
-/// A scene with two faces of many corners.
+/// The name of a scene with two faces of many corners.
 const LARGE_FACES: &str = "a cylinder with caps of many corners";
 
 /// Creates a mesh of about the given number of faces.

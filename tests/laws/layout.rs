@@ -7,8 +7,8 @@ use serde_json::Value;
 
 use crate::{assert_none, root};
 
-/// The direct dependencies that each crate is allowed to have. A crate can also use the dependencies of its direct
-/// dependencies.
+/// The direct dependencies that each crate is allowed to have. A crate can also use everything that its direct
+/// dependencies can use.
 const ALLOWED_DEPENDENCIES: &[(&str, &[&str])] = &[
     ("progress", &[]),
     ("store", &[]),

@@ -149,7 +149,7 @@ fn expected(mesh: &Mesh, oracle: &Polygons, edit: Edit) -> (Result<Polygons, Edi
             if !mesh.has_face(f) {
                 return (Err(EditError::NoSuchFace(f)), euler);
             }
-            // Removes the face, and its edges that have no other face. The vertices are kept.
+            // Deleting a face also removes those of its edges that have no other face. The vertices are kept.
             let sides = mesh.face_half_edges(f);
             let n_removed = sides.filter(|&h| mesh.face(h.twin()).is_none()).count();
             let n_removed = i64::try_from(n_removed).expect("a small number");
@@ -411,8 +411,8 @@ impl Polygons {
         Err(EditError::Vanishes(e))
     }
 
-    /// Whether this is a manifold with the same topology as `before` and no additional coincident elements. Compared to
-    /// `before`, one vertex, `vanished` faces and `vanished` + 1 edges must be missing.
+    /// Whether this polygon list is a manifold with the same topology as `before` and no additional coincident
+    /// elements. Compared to `before`, one vertex, `vanished` faces and `vanished` + 1 edges must be missing.
     fn has_topology_of(&self, before: &Self, vanished: usize) -> bool {
         let [mine, other] = [self, before].map(|polygons| {
             // The three counts are: corners of a face at the same vertex, edges with the same face on both sides, and

@@ -5,10 +5,10 @@
 //! neighbors are close in memory. The input is in memory before the timing starts; the output is written to newly
 //! allocated memory.
 //!
-//! - `build`: from an array of all corners and an array of offsets, which are the indices in the corners at which the
-//!   faces start.
-//! - `from_polygons`: from one list of corners for each triangle. The library first copies these lists into offsets and
-//!   corners.
+//! - `build`: builds the mesh from an array of the vertices of all corners, and an array of offsets: for each face, the
+//!   index of its first corner.
+//! - `from_polygons`: builds the mesh from one list of corners for each triangle. The library first copies these lists
+//!   into offsets and corners.
 //! - `shuffled`: the same triangles and vertices in random order, so that neighbors are far apart in memory.
 //! - `half reversed`: every second triangle has the opposite orientation. The library builds the mesh, searches for the
 //!   triangles to reverse, reverses them, and builds the mesh again.

@@ -63,7 +63,7 @@ fn million_triangles(c: &mut Criterion) {
     }
 }
 
-/// Other readers of OBJ.
+/// Measures how fast other libraries read an OBJ file.
 fn obj_peers(group: &mut Group, path: &Path) {
     measure(group, "read to arrays, tobj", || {
         tobj::load_obj(path, &tobj::LoadOptions::default()).expect("the file is OBJ")

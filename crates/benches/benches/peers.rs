@@ -21,10 +21,10 @@
 //! | tri-mesh | 1 and 4 |
 //!
 //! A split adds a vertex on the edge and connects the vertex to the far corners. alum does not have this edit. The
-//! function `split_edge` of alum leaves two quadrilaterals, which the benchmark splits by two calls of `insert_edge`. A
-//! collapse moves one end of the edge to the other end. The collapse is legal if the topology of the surface stays the
-//! same (the link condition). Meshwright moves both ends to the midpoint instead. tri-mesh makes no checks before a
-//! collapse, so its collapses are not measured. All positions are `f64`.
+//! function `split_edge` of alum leaves two quadrilaterals, which the benchmark splits by two calls of `insert_edge`.
+//! In alum, a collapse moves one end of the edge to the other end. In Meshwright, a collapse moves both ends to the
+//! midpoint. A collapse is legal if the topology of the surface stays the same (the link condition). tri-mesh makes no
+//! checks before a collapse, so its collapses are not measured. All positions are `f64`.
 //!
 //! In this benchmark, Meshwright prefetches the memory of the next edits. Meshwright also checks in each edit whether
 //! the mesh has an open journal (a record for undoing edits), attribute columns, or dead elements (deleted elements

@@ -41,7 +41,7 @@ const MAX_WIDTH: u32 = 100;
 ///
 /// # Errors
 ///
-/// If writing fails.
+/// Returns an error if writing fails.
 pub(crate) fn show(image: &Image) -> io::Result<()> {
     let is_terminal = io::stdout().is_terminal();
     let protocol = Protocol::of(is_terminal, |name| std::env::var(name).ok());

@@ -1,5 +1,6 @@
 //! Keys of steps. The key of a step depends on the step, on all steps before it, and on the input files of these steps.
-//! If the key is unchanged, the editor uses the result that it has stored for the step.
+//! If the key of a step is unchanged, the editor and the engine in the browser reuse the result that they have stored
+//! for the step.
 
 use std::path::{Path, PathBuf};
 
@@ -24,8 +25,8 @@ pub struct StepKeys {
 }
 
 impl StepKeys {
-    /// Returns the keys of a recipe that was read and checked. The keys do not depend on files that the forecast does
-    /// not list, such as the material files of a model.
+    /// Returns the keys of a recipe that was read and checked. Of the files that the steps read, only those that the
+    /// forecast lists change the keys. The forecast does not list, for example, the material files of a model.
     pub fn of(loaded: &Loaded) -> Self {
         let recipe = &loaded.recipe;
         let store = &*loaded.files.store;

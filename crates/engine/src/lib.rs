@@ -8,9 +8,9 @@
 //!                                      ^ `--run_from(step, scene)--> Outcome
 //! ```
 //!
-//! A [`Listener`] receives the scene after each step if the listener wants scenes. To cancel the run, return false from
-//! the method [`advance`](op::Progress::advance) of the listener, or use the listener [`Cancel`] and call
-//! [`Cancel::set`] from another thread.
+//! A [`Listener`] receives the scene after each step if its method [`wants_scenes`](Listener::wants_scenes) returns
+//! true. To cancel the run, return false from the method [`advance`](op::Progress::advance) of the listener, or use the
+//! listener [`Cancel`] and call [`Cancel::set`] from another thread.
 //!
 //! # Examples
 //!
@@ -88,7 +88,7 @@ pub struct Options<'a> {
     pub out: &'a Path,
     /// The memory budget for meshes, in bytes. Defaults to [`BUDGET`].
     pub budget: u64,
-    /// Whether a step that loses data, such as an attribute, is an error. Losses that the recipe allows with
+    /// Whether it is an error if a step loses data, such as an attribute. Losses that the recipe allows with
     /// `on_loss: Allow([..])` are never errors. Defaults to false.
     pub strict: bool,
 }

@@ -19,8 +19,8 @@ pub struct Loaded {
     pub budget: u64,
     /// The forecast of the scene after each step.
     pub forecast: Forecast,
-    /// Whether the recipe was read without errors. Even if this is true, the checks after reading have possibly found
-    /// errors.
+    /// Whether the recipe was read without errors. Even then, the recipe can have errors that the checks after reading
+    /// have found: see [`has_errors`](Self::has_errors).
     pub is_read: bool,
     /// All errors and warnings from reading and checking, in the order of the text.
     pub diagnostics: Vec<Diagnostic>,
@@ -36,7 +36,7 @@ pub struct Run<'a> {
 }
 
 impl Loaded {
-    /// Whether the recipe has errors, so that it cannot run.
+    /// Whether the recipe has errors. A recipe with errors cannot run.
     pub fn has_errors(&self) -> bool {
         self.n_errors() > 0
     }

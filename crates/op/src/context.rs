@@ -54,7 +54,7 @@ impl<'a> Context<'a> {
     ///
     /// # Errors
     ///
-    /// Returns [`OpError::Cancelled`] if the run was canceled. The operation returns this error at once.
+    /// Returns [`OpError::Cancelled`] if the run was canceled. The operation must then return this error at once.
     pub fn advance(&self, what: &str, done: u64, total: u64) -> Result<(), OpError> {
         Ok(self.progress.report(what, done, total)?)
     }

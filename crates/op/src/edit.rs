@@ -57,7 +57,8 @@ pub enum Seams {
     /// Refuse the edit.
     #[default]
     Refuse,
-    /// Edit anyway. Each corner at the edge gets the values of one side of the seam.
+    /// Edit anyway. For each corner at the edge, the values of one side of the seam are kept, and the values of the
+    /// other side are lost.
     Drop,
 }
 

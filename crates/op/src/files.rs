@@ -96,7 +96,7 @@ impl FileLog {
     }
 
     fn lock(&self) -> std::sync::MutexGuard<'_, Vec<FileUse>> {
-        // A panic while the lock is held leaves no partial entry.
+        // If a thread panicked while it held the lock, the list is still valid, so the panic is ignored.
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
@@ -191,7 +191,7 @@ impl Files {
     /// relative to the output folder, as in the recipe. A full path would name the temporary folder into which a run
     /// writes.
     pub fn output_error(&self, error: impl fmt::Display) -> OpError {
-        // The path of the folder ends with a separator, unless it is empty.
+        // The path of the folder ends with a separator (unless it is empty), so that the separator is removed, too.
         let folder = self.output.join("").display().to_string();
         let mut text = error.to_string();
         if !folder.is_empty() {

@@ -48,8 +48,8 @@ pub trait MeshOperation:
         Vec::new()
     }
 
-    /// Returns the problems that the mesh of the object `name` would cause in this step. `name` is an object that the
-    /// operation [`reads`](Self::reads), and `mesh` is the plan of its mesh.
+    /// Returns the problems that the mesh of the object `name` would cause in this step. `name` is one of the names
+    /// that [`reads`](Self::reads) returns, and `mesh` is the plan of this object's mesh.
     fn plan_reading(&self, name: &str, mesh: &MeshPlan) -> Vec<Problem> {
         let _ = (name, mesh);
         Vec::new()
@@ -191,8 +191,8 @@ impl<T: MeshOperation> Operation for T {
             }
         }
         for (name, change) in changes {
-            // The change can contain a whole mesh. It is dropped here so that its memory is free before compacting
-            // allocates memory.
+            // `change` is the record for undoing the step, and can contain a whole mesh. The record is dropped here so
+            // that its memory is free before `compact` allocates memory.
             drop(change);
             mesh_mut(scene, name)?.compact();
         }
@@ -228,7 +228,8 @@ fn apply_to<T: MeshOperation>(
     mesh.begin();
     let done = operation.apply(mesh, cx);
     cx.clear_object();
-    // An operation that assigns a new mesh to `*mesh` instead of calling `Mesh::replace` discards the journal.
+    // If an operation assigns a new mesh to `*mesh` instead of calling `Mesh::replace`, the journal is lost, and
+    // nothing can be rolled back.
     let is_recording = mesh.is_recording();
     let mut report = match done {
         Ok(report) => report,

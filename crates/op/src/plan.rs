@@ -77,8 +77,8 @@ impl Range {
         }
     }
 
-    /// Returns the range of this count minus `n`. An end that would be negative is 0. The upper end `max` of this range
-    /// must be a known limit, not `u64::MAX`.
+    /// Returns the range of this count minus `n`. An end that would be negative is 0. `self.max` must be a known limit,
+    /// not `u64::MAX`.
     #[must_use]
     pub const fn less(self, n: u64) -> Self {
         Self {
@@ -220,8 +220,8 @@ impl MeshPlan {
         self.degrees == Range::exactly(3)
     }
 
-    /// Returns the possible number of corners of some of the faces. `faces` is the number of these faces. The result is
-    /// at most twice the number of edges of the mesh.
+    /// Returns how many corners some of the faces have together, as a range. `faces` is the number of these faces. The
+    /// result is at most twice the number of edges of the mesh.
     pub fn corners_of(&self, faces: Range) -> Range {
         faces.times(self.degrees).capped(self.edges.by(2).max)
     }
@@ -384,9 +384,9 @@ pub struct Plan {
     /// it. All lower numbers are taken. This map and `index_by_name` are always cleared together.
     taken_numbers: HashMap<String, u64>,
     is_edited: bool,
-    /// The files that the steps planned so far read.
+    /// The files that are read by the steps planned so far.
     pub inputs: Vec<PathBuf>,
-    /// The files that the steps planned so far write.
+    /// The files that are written by the steps planned so far.
     outputs: IndexSet<PathBuf>,
     /// The data that the current step certainly loses. Lost attributes of changed meshes are not included: the crate
     /// `recipe` finds them by comparing the plans before and after the step.
@@ -459,8 +459,8 @@ impl Plan {
     /// Returns the first of the names `name`, `name.2`, `name.3` and so on that no object has.
     pub fn free_name(&mut self, name: &str) -> String {
         self.fill_index();
-        // The map has the last number that was given to a name. Removing an object clears the map, so all lower numbers
-        // are still taken.
+        // `taken_numbers` contains the last number that was chosen for this name. All lower numbers are still taken,
+        // because removing an object clears this map.
         let first = self.taken_numbers.get(name).copied().unwrap_or(1);
         let is_free = |(_, name): &(u64, String)| !self.index_by_name.contains_key(name);
         let (number, free) = numbered(name, first)
@@ -525,7 +525,7 @@ impl Plan {
         &self.graph
     }
 
-    /// Calls `change` with the nodes, unless there are no nodes.
+    /// Calls `change` with the graph of the nodes, unless the graph is empty.
     pub fn edit_graph(&mut self, change: impl FnOnce(&mut Graph)) {
         if !self.graph.is_empty() {
             change(Arc::make_mut(&mut self.graph));
@@ -570,7 +570,7 @@ impl Plan {
         Some(problem.help(format!("objects at this point: {known}")))
     }
 
-    /// Returns the files that the steps planned so far write, in the order of the steps.
+    /// Returns the files that are written by the steps planned so far, in the order of the steps.
     pub fn outputs(&self) -> &IndexSet<PathBuf> {
         &self.outputs
     }

@@ -114,7 +114,8 @@ impl Registry {
         self
     }
 
-    /// Adds an operation, and removes each operation whose current or earlier name is the name of the new operation.
+    /// Removes each operation whose current or earlier name is the name of the new operation, and then adds the new
+    /// operation.
     #[must_use]
     pub fn with_override<T: Operation>(mut self) -> Self {
         self.entries

@@ -64,8 +64,8 @@ pub struct Loss {
     pub code: String,
     /// The number of lost values, elements or other items, if it is known.
     pub count: Option<u64>,
-    /// The object or the file that lost the data. The name is empty if the loss concerns the whole scene, such as its
-    /// animations.
+    /// The name of the object or file that lost the data. The name is empty if the loss concerns the whole scene, such
+    /// as its animations.
     pub object: String,
     /// The name of the lost data, such as the name of an attribute. Recipes use this name to allow the loss.
     pub name: String,

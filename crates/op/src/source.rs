@@ -10,8 +10,8 @@ use crate::plan::numbered;
 use crate::{Context, MeshPlan, OpError, Plan, PlannedGeometry, Problem, Report, Vector};
 
 /// The largest number of edges of a mesh that is built from polygons. Each edge is a side of at most two faces, so the
-/// faces have at most two corners for each edge. Each corner can need two half-edges. The largest possible id of a
-/// half-edge is 2^32 - 2.
+/// faces have at most two corners for each edge. Each corner can need two half-edges, so each edge can need four. The
+/// largest possible id of a half-edge is 2^32 - 2.
 const MAX_EDGES: u64 = (u32::MAX as u64 - 1) / 4;
 
 /// A mesh that a step creates. A `Source` consists of the name of the new object, the planned element counts of its

@@ -28,7 +28,7 @@ pub trait Progress: Sync {
     ///
     /// # Errors
     ///
-    /// [`Cancelled`] if the computation must stop.
+    /// Returns [`Cancelled`] if the listener cancels the computation.
     fn report(&self, task: &str, done: u64, total: u64) -> Result<(), Cancelled> {
         if self.advance(task, done, total) {
             Ok(())
@@ -73,7 +73,7 @@ impl<'a> Meter<'a> {
     ///
     /// # Errors
     ///
-    /// [`Cancelled`] if the computation must stop.
+    /// Returns [`Cancelled`] if the listener cancels the computation.
     pub fn add(&self, n: usize) -> Result<(), Cancelled> {
         let before = self.done.fetch_add(n as u64, Relaxed);
         let done = before + n as u64;
@@ -88,7 +88,7 @@ impl<'a> Meter<'a> {
     ///
     /// # Errors
     ///
-    /// [`Cancelled`] if the computation must stop.
+    /// Returns [`Cancelled`] if the listener cancels the computation.
     pub fn finish(&self) -> Result<(), Cancelled> {
         self.done.store(self.total, Relaxed);
         self.add(0)

@@ -44,7 +44,7 @@ pub(crate) enum Part {
 }
 
 impl Array {
-    /// Views a part of a mesh. `None` if the mesh does not have the attribute.
+    /// Returns a view of a part of a mesh; `None` if the part is an attribute that the mesh does not have.
     pub(crate) fn of(mesh: &Arc<Mesh>, part: Part) -> Option<Self> {
         let (dtype, columns) = match &part {
             Part::Positions => ("float64", 3),

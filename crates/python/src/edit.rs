@@ -9,7 +9,8 @@ use pyo3::prelude::*;
 use crate::errors::edit_error;
 use crate::mesh_views::{Mesh, number};
 
-/// A copy of a mesh that is being edited. A refused edit raises an error and changes nothing.
+/// A mesh that is being edited. It is a copy, so the original mesh never changes. A refused edit raises an error and
+/// changes nothing.
 #[pyclass(frozen, module = "meshwright._core")]
 pub(crate) struct Editor(Mutex<Kernel>);
 

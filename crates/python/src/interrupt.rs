@@ -13,7 +13,7 @@ use op::Progress;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
-/// The time between two checks for signals. The progress is shown at the same interval.
+/// The time between two checks for signals. The progress callback is called at the same interval.
 const INTERVAL: Duration = Duration::from_millis(40);
 
 /// The id of the process in which the worker threads were started. If this process is forked, its threads do not exist
@@ -49,8 +49,8 @@ impl Listener for Monitor {
 ///
 /// # Errors
 ///
-/// Raises the exception that Ctrl-C or the callback raised. Raises `RuntimeError` in a forked process if its parent
-/// process has already run work.
+/// Raises the exception that Ctrl-C or the callback raised. Raises `MemoryError` if the system has no memory for a
+/// large array. Raises `RuntimeError` in a forked process if its parent process has already run work.
 pub(crate) fn run<T: Send>(
     py: Python<'_>,
     callback: Option<&Bound<'_, PyAny>>,

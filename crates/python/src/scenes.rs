@@ -147,8 +147,8 @@ impl Scene {
             .ok_or_else(|| PyTypeError::new_err(format!("{name:?} is {kind}, expected a mesh")))
     }
 
-    /// The ids of the elements of a mesh that a selection matches. If no domain (kind of elements) is given, the
-    /// selection must be valid for exactly one domain.
+    /// Evaluates a selection on the mesh of an object. Returns the ids of the selected elements. If no domain (kind of
+    /// elements) is given, the selection must be valid for exactly one domain.
     fn select(
         &self,
         py: Python<'_>,

@@ -22,8 +22,8 @@ pub struct Timing {
 ///
 /// # Errors
 ///
-/// [`PictureError::Encode`] if there are no images, the sizes of the images differ, or a keyword is invalid;
-/// [`PictureError::Cancelled`] if the listener cancels the work.
+/// Returns [`PictureError::Encode`] if there are no images, the sizes of the images differ, or a keyword is invalid.
+/// Returns [`PictureError::Cancelled`] if the listener cancels the work.
 pub fn to_apng(
     frames: &[Image],
     timing: Timing,
@@ -53,8 +53,8 @@ pub fn to_apng(
 ///
 /// # Errors
 ///
-/// [`PictureError::Encode`] if there are no images, the sizes of the images differ, or a side is longer than 65535
-/// pixels; [`PictureError::Cancelled`] if the listener cancels the work.
+/// Returns [`PictureError::Encode`] if there are no images, the sizes of the images differ, or a side is longer than
+/// 65535 pixels. Returns [`PictureError::Cancelled`] if the listener cancels the work.
 pub fn to_gif(
     frames: &[Image],
     timing: Timing,

@@ -99,7 +99,7 @@ impl Camera {
     ///
     /// # Errors
     ///
-    /// The errors of [`View::new`].
+    /// Returns the errors of [`View::new`].
     pub fn extreme_points(
         &self,
         points: &impl Fn(&mut dyn FnMut(DVec3)),
@@ -138,7 +138,7 @@ impl Camera {
     ///
     /// # Errors
     ///
-    /// The errors of [`View::new`].
+    /// Returns the errors of [`View::new`].
     pub fn check(&self) -> Result<(), PictureError> {
         View::new(self, &|_| {}, [1, 1]).map(drop)
     }
@@ -317,8 +317,8 @@ impl View {
     ///
     /// # Errors
     ///
-    /// [`PictureError::Camera`] if a number of the camera is out of its range or not finite, or if the camera has no
-    /// direction because `from` and `to` are equal.
+    /// Returns [`PictureError::Camera`] if a number of the camera is out of its range or not finite, or if the camera
+    /// has no direction because `from` and `to` are equal.
     pub fn new(
         camera: &Camera,
         points: &impl Fn(&mut dyn FnMut(DVec3)),

@@ -36,7 +36,8 @@ pub fn difference(expected: &Image, found: &Image, tolerance: u8) -> Option<Imag
 ///
 /// # Errors
 ///
-/// [`PictureError::Unreadable`] with the index of the file: 0 for `found`, 1 for `expected`.
+/// Returns [`PictureError::Unreadable`] if a file cannot be decoded. The error contains the index of the file: 0 for
+/// `found`, 1 for `expected`.
 pub fn compare(
     found: &[u8],
     expected: &[u8],

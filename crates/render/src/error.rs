@@ -58,7 +58,7 @@ impl PictureError {
     ///
     /// # Errors
     ///
-    /// [`PictureError::Budget`] if `needed` exceeds `budget`.
+    /// Returns [`PictureError::Budget`] if `needed` exceeds `budget`.
     pub fn check_budget(needed: u64, budget: u64) -> Result<(), Self> {
         if needed > budget {
             return Err(Self::Budget { needed, budget });

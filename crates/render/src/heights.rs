@@ -23,7 +23,7 @@ impl Heights {
     ///
     /// # Errors
     ///
-    /// The errors of [`Image::decode`].
+    /// Returns the errors of [`Image::decode`].
     pub fn decode(bytes: &[u8]) -> Result<Self, PictureError> {
         if let Some((info, samples)) = gray_16(bytes) {
             let pixels = samples.as_chunks::<4>().0.iter();

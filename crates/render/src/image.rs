@@ -33,7 +33,7 @@ impl Image {
     ///
     /// # Errors
     ///
-    /// [`PictureError::Size`] if a side is 0 or longer than [`LARGEST_SIDE`].
+    /// Returns [`PictureError::Size`] if a side is 0 or longer than [`LARGEST_SIDE`].
     pub fn filled(width: u32, height: u32, color: [u8; 4]) -> Result<Self, PictureError> {
         let n = checked_size(width, height)?;
         Ok(Self {
@@ -47,8 +47,8 @@ impl Image {
     ///
     /// # Errors
     ///
-    /// [`PictureError::Size`] if a side is 0 or longer than [`LARGEST_SIDE`]; [`PictureError::Decode`] if the file is
-    /// not a PNG or JPEG file, or cannot be decoded.
+    /// Returns [`PictureError::Size`] if a side is 0 or longer than [`LARGEST_SIDE`]. Returns [`PictureError::Decode`]
+    /// if the file is not a PNG or JPEG file, or cannot be decoded.
     pub fn decode(bytes: &[u8]) -> Result<Self, PictureError> {
         if bytes.starts_with(b"\xff\xd8") {
             Self::from_jpeg(bytes)
@@ -61,8 +61,8 @@ impl Image {
     ///
     /// # Errors
     ///
-    /// [`PictureError::Size`] if a side is 0 or longer than [`LARGEST_SIDE`]; [`PictureError::Decode`] if the file is
-    /// not a PNG or JPEG file, or its header cannot be decoded.
+    /// Returns [`PictureError::Size`] if a side is 0 or longer than [`LARGEST_SIDE`]. Returns [`PictureError::Decode`]
+    /// if the file is not a PNG or JPEG file, or its header cannot be decoded.
     pub fn size(bytes: &[u8]) -> Result<[u32; 2], PictureError> {
         let [width, height] = if bytes.starts_with(b"\xff\xd8") {
             jpeg_size(&jpeg_decoder(bytes)?)
@@ -82,8 +82,8 @@ impl Image {
     ///
     /// # Errors
     ///
-    /// [`PictureError::Size`] if a side is 0 or longer than [`LARGEST_SIDE`]; [`PictureError::Decode`] if the file is
-    /// not a PNG file, or is broken.
+    /// Returns [`PictureError::Size`] if a side is 0 or longer than [`LARGEST_SIDE`]. Returns [`PictureError::Decode`]
+    /// if the file is not a PNG file, or is broken.
     pub fn from_png(bytes: &[u8]) -> Result<Self, PictureError> {
         let (info, samples) = png_samples(bytes)?;
         Ok(Self {
@@ -126,7 +126,7 @@ impl Image {
     ///
     /// # Errors
     ///
-    /// [`PictureError::Encode`] if the image has no pixels or a keyword is invalid.
+    /// Returns [`PictureError::Encode`] if the image has no pixels or a keyword is invalid.
     pub fn to_png(&self, texts: &[(&str, &str)]) -> Result<Vec<u8>, PictureError> {
         self.to_png_with_progress(texts, &NoProgress)
     }
@@ -135,7 +135,7 @@ impl Image {
     ///
     /// # Errors
     ///
-    /// The errors of [`Self::to_png`], and [`PictureError::Cancelled`] if the listener cancels the work.
+    /// Returns the errors of [`Self::to_png`]. Returns [`PictureError::Cancelled`] if the listener cancels the work.
     pub fn to_png_with_progress(
         &self,
         texts: &[(&str, &str)],
@@ -202,7 +202,7 @@ pub(crate) fn decoder(bytes: &[u8]) -> png::Decoder<Cursor<&[u8]>> {
 ///
 /// # Errors
 ///
-/// The errors of [`Image::from_png`].
+/// Returns the errors of [`Image::from_png`].
 pub(crate) fn png_samples(bytes: &[u8]) -> Result<(png::OutputInfo, Vec<u8>), PictureError> {
     let failed = |error: png::DecodingError| PictureError::Decode(error.to_string());
     let mut reader = decoder(bytes).read_info().map_err(failed)?;
@@ -267,7 +267,7 @@ fn rounded(sample: u16) -> u8 {
 ///
 /// # Errors
 ///
-/// [`PictureError::Size`] if a side is 0 or longer than [`LARGEST_SIDE`].
+/// Returns [`PictureError::Size`] if a side is 0 or longer than [`LARGEST_SIDE`].
 pub fn checked_size(width: u32, height: u32) -> Result<usize, PictureError> {
     let allowed = 1..=LARGEST_SIDE;
     if allowed.contains(&width) && allowed.contains(&height) {

@@ -83,9 +83,9 @@ pub use texture::{Alpha, Texture, TextureCache};
 ///
 /// # Errors
 ///
-/// [`PictureError::Budget`] if the budget is too small for the pixels, for the drawing and its textures (see
-/// [`build_within`]), or for rendering. The memory for the pixels is checked first. Also the errors of [`build()`],
-/// [`View::new`] and [`render`].
+/// Returns [`PictureError::Budget`] if the budget is too small for the pixels, for the drawing and its textures (see
+/// [`build_within`]), or for rendering. The memory for the pixels is checked first. Also returns the errors of
+/// [`build()`], [`View::new`] and [`render`].
 pub fn picture(
     scene: &scene::Scene,
     camera: &Camera,

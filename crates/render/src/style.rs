@@ -130,7 +130,8 @@ impl Style {
     ///
     /// # Errors
     ///
-    /// [`PictureError::Style`] with the name of the first number that is out of its range.
+    /// Returns [`PictureError::Style`] if a number is out of its range. The error contains the name of the first such
+    /// number.
     pub fn check(&self) -> Result<(), PictureError> {
         let mut numbers = vec![
             ("sharp", self.sharp, 180.0),

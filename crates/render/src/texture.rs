@@ -109,7 +109,7 @@ impl Texture {
     ///
     /// # Errors
     ///
-    /// The errors of [`Image::decode`].
+    /// Returns the errors of [`Image::decode`].
     pub fn decode(
         bytes: &[u8],
         sampler: Sampler,

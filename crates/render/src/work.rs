@@ -37,7 +37,7 @@ impl<'a> Work<'a> {
     ///
     /// # Errors
     ///
-    /// [`PictureError::Cancelled`] if the listener cancels the work, or has canceled the work before.
+    /// Returns [`PictureError::Cancelled`] if the listener cancels the work, or has canceled the work before.
     pub(crate) fn add(&self, amount: u64) -> Result<(), PictureError> {
         let mut done = self.done.lock().unwrap_or_else(PoisonError::into_inner);
         let sum = done.map(|done| done.saturating_add(amount).min(self.total));

@@ -42,8 +42,8 @@ type Result<T> = std::result::Result<T, Error>;
 ///
 /// # Errors
 ///
-/// The first syntax error of the text. If the text has no syntax error, an error that says why its value does not
-/// have type `T`.
+/// Returns the first syntax error of the text. If there is none, returns an error that says why the value does not have
+/// type `T`.
 ///
 /// ```
 /// #[derive(serde::Deserialize)]
@@ -97,7 +97,7 @@ impl Value {
         self.locate(seed.deserialize(self))
     }
 
-    /// Returns the parentheses of `name(..)` with their content, without the name. Returns any other value unchanged.
+    /// If the value is `name(..)`, returns the parentheses and their content. Otherwise, returns the value unchanged.
     fn without_name(&self, name: &str) -> &Self {
         match &self.kind {
             ValueKind::Call(call) if &*call.name.text == name => &call.body,
@@ -420,7 +420,7 @@ impl<'de> EnumAccess<'de> for Variant<'de> {
 }
 
 impl<'de> Variant<'de> {
-    /// Returns the part in parentheses.
+    /// Returns the parameters of the variant: the part in parentheses.
     fn body(&self) -> Result<&'de Value> {
         match &self.0.kind {
             ValueKind::Call(call) => Ok(&call.body),

@@ -14,7 +14,7 @@ pub struct EditOverlap(pub Span);
 ///
 /// # Errors
 ///
-/// [`EditOverlap`] if two spans overlap, or a span is out of range or splits a character.
+/// Returns [`EditOverlap`] if two spans overlap, or a span is out of range or splits a character.
 ///
 /// # Examples
 ///

@@ -26,7 +26,7 @@ pub enum TokenKind {
     BlockComment,
     /// `name` or `r#name`.
     Ident,
-    /// Text that starts like a number, up to the next character that cannot be part of one.
+    /// Text that starts like a number, up to the next character that cannot be part of a number.
     Number,
     /// `".."`.
     String,
@@ -112,7 +112,7 @@ pub struct Lexer<'s> {
     at: usize,
     /// Whether a `"` string must end in the line in which it starts.
     lines_end_strings: bool,
-    /// The rest of the text has no end of a raw string with this number of hashes or more.
+    /// No raw string with this number of hashes or more ends in the rest of the text.
     unclosed_hashes: usize,
 }
 

@@ -33,7 +33,8 @@ pub(super) enum Closing {
     Matching,
     /// The closing bracket is mistyped: a bracket of a different kind would close the innermost open bracket.
     Mistyped,
-    /// The closing bracket matches an outer open bracket, so the closing bracket of the innermost one is missing.
+    /// The closing bracket matches an outer open bracket, so the closing bracket of the innermost open bracket is
+    /// missing.
     Missing,
     /// The closing bracket has no matching open bracket.
     Stray,

@@ -66,7 +66,7 @@ pub struct Node {
     /// The weights of the morph targets of the object. If empty, the weights of the [label](MeshLabel::weights) are
     /// used.
     pub weights: Vec<f64>,
-    /// Data of other programs, as JSON.
+    /// Application-specific data (`extras` in glTF), as JSON.
     pub extras: Option<String>,
 }
 
@@ -75,7 +75,8 @@ pub struct Node {
 pub struct MeshLabel {
     /// The name of the mesh, which can differ from the name of the object.
     pub name: Option<String>,
-    /// Data of other programs, as JSON. The member `targetNames` has the names of the morph targets.
+    /// Application-specific data (`extras` in glTF), as JSON. The member `targetNames` has the names of the morph
+    /// targets.
     pub extras: Option<String>,
     /// The default weights of the morph targets, one for each target.
     pub weights: Vec<f64>,

@@ -38,7 +38,7 @@ pub struct Material {
     pub double_sided: bool,
     /// Whether the base color is drawn without lighting.
     pub unlit: bool,
-    /// Data of other programs, as JSON.
+    /// Application-specific data (`extras` in glTF), as JSON.
     pub extras: Option<String>,
 }
 

@@ -132,7 +132,7 @@ fn remove_all(folder: &Path) -> io::Result<()> {
 ///
 /// # Errors
 ///
-/// [`StoreError`] if the file does not exist or cannot be written. The file is then unchanged.
+/// Returns [`StoreError`] if the file does not exist or cannot be written. The file is then unchanged.
 pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
     let replaced = || -> io::Result<()> {
         let real = path.canonicalize()?;

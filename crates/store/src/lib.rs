@@ -40,15 +40,15 @@ pub trait Store: Debug + Send + Sync {
     ///
     /// # Errors
     ///
-    /// [`StoreError`] if the file is not a regular file or cannot be read, for example because it does not exist or
-    /// does not fit in memory.
+    /// Returns [`StoreError`] if the file is not a regular file or cannot be read, for example because it does not
+    /// exist or does not fit in memory.
     fn read_up_to(&self, path: &Path, limit: u64) -> Result<Vec<u8>, StoreError>;
 
     /// Reads at most `limit` bytes from the beginning of a file, which can also be a pipe or a device.
     ///
     /// # Errors
     ///
-    /// [`StoreError`] if the file cannot be read.
+    /// Returns [`StoreError`] if the file cannot be read.
     fn read_stream(&self, path: &Path, limit: u64) -> Result<Vec<u8>, StoreError> {
         self.read_up_to(path, limit)
     }
@@ -64,21 +64,21 @@ pub trait Store: Debug + Send + Sync {
     ///
     /// # Errors
     ///
-    /// [`StoreError`] if the path does not exist.
+    /// Returns [`StoreError`] if the path does not exist.
     fn canonical(&self, path: &Path) -> Result<PathBuf, StoreError>;
 
     /// Returns the paths of all files and folders in a folder, sorted.
     ///
     /// # Errors
     ///
-    /// [`StoreError`] if the folder does not exist or cannot be listed.
+    /// Returns [`StoreError`] if the folder does not exist or cannot be listed.
     fn list(&self, folder: &Path) -> Result<Vec<PathBuf>, StoreError>;
 
     /// Creates a folder and its missing parents. Does nothing if the folder exists.
     ///
     /// # Errors
     ///
-    /// [`StoreError`] if the folder cannot be created.
+    /// Returns [`StoreError`] if the folder cannot be created.
     fn make_folder(&self, folder: &Path) -> Result<(), StoreError>;
 
     /// Creates an empty folder with a new name, inside `folder` or, if `folder` is `None`, in the default
@@ -87,21 +87,21 @@ pub trait Store: Debug + Send + Sync {
     ///
     /// # Errors
     ///
-    /// [`StoreError`] if the folder cannot be created.
+    /// Returns [`StoreError`] if the folder cannot be created.
     fn make_temporary(&self, folder: Option<&Path>) -> Result<PathBuf, StoreError>;
 
     /// Removes a folder with its content.
     ///
     /// # Errors
     ///
-    /// [`StoreError`] if the folder or a part of its content could not be removed.
+    /// Returns [`StoreError`] if the folder or a part of its content could not be removed.
     fn remove_folder(&self, folder: &Path) -> Result<(), StoreError>;
 
     /// Removes a folder if it is empty.
     ///
     /// # Errors
     ///
-    /// [`StoreError`] if the folder is not empty or cannot be removed.
+    /// Returns [`StoreError`] if the folder is not empty or cannot be removed.
     fn remove_empty_folder(&self, folder: &Path) -> Result<(), StoreError> {
         if self.list(folder)?.is_empty() {
             return self.remove_folder(folder);
@@ -115,21 +115,21 @@ pub trait Store: Debug + Send + Sync {
     ///
     /// # Errors
     ///
-    /// [`StoreError`] if the file cannot be written, or if a folder has this name.
+    /// Returns [`StoreError`] if the file cannot be written, or if a folder has this name.
     fn create(&self, path: &Path) -> Result<Box<dyn NewFile + '_>, StoreError>;
 
     /// Renames a file. An existing file with the new name is replaced.
     ///
     /// # Errors
     ///
-    /// [`StoreError`] with the new name if the file cannot be renamed.
+    /// Returns [`StoreError`] with the new name if the file cannot be renamed.
     fn rename(&self, from: &Path, to: &Path) -> Result<(), StoreError>;
 
     /// Reads a regular file.
     ///
     /// # Errors
     ///
-    /// The errors of [`read_up_to`](Self::read_up_to).
+    /// Returns the errors of [`read_up_to`](Self::read_up_to).
     fn read(&self, path: &Path) -> Result<Vec<u8>, StoreError> {
         self.read_up_to(path, u64::MAX)
     }
@@ -138,7 +138,7 @@ pub trait Store: Debug + Send + Sync {
     ///
     /// # Errors
     ///
-    /// [`StoreError`] if the file cannot be written. After an error, an existing file is unchanged.
+    /// Returns [`StoreError`] if the file cannot be written. After an error, an existing file is unchanged.
     fn write(&self, path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
         self.make_folder(folder_of(path))?;
         let mut file = self.create(path)?;
@@ -191,7 +191,7 @@ pub trait NewFile: Write + Send {
     ///
     /// # Errors
     ///
-    /// The error of the operating system.
+    /// Returns the error of the operating system.
     fn sync(&mut self) -> io::Result<()> {
         Ok(())
     }
@@ -200,7 +200,7 @@ pub trait NewFile: Write + Send {
     ///
     /// # Errors
     ///
-    /// [`StoreError`] if the file cannot be moved. After an error, an existing file is unchanged.
+    /// Returns [`StoreError`] if the file cannot be moved. After an error, an existing file is unchanged.
     fn commit(self: Box<Self>) -> Result<(), StoreError>;
 }
 
@@ -282,7 +282,7 @@ fn check_target(store: &dyn Store, path: &Path) -> Result<(), StoreError> {
 ///
 /// # Errors
 ///
-/// [`StoreError`] if a folder cannot be listed.
+/// Returns [`StoreError`] if a folder cannot be listed.
 pub fn files_below(store: &dyn Store, folder: &Path) -> Result<Vec<PathBuf>, StoreError> {
     let mut files = Vec::new();
     let mut folders = vec![folder.to_owned()];

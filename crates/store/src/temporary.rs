@@ -19,7 +19,7 @@ impl<'s> TemporaryFolder<'s> {
     ///
     /// # Errors
     ///
-    /// [`StoreError`] if the folder cannot be created.
+    /// Returns [`StoreError`] if the folder cannot be created.
     pub fn new(store: &'s dyn Store, inside: Option<&Path>) -> Result<Self, StoreError> {
         let missing = inside.into_iter().flat_map(Path::ancestors);
         let missing =

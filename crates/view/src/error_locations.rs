@@ -48,7 +48,7 @@ const TANGENT: f64 = 0.221_694_662_642_939_43;
 ///
 /// # Errors
 ///
-/// The errors of [`Shot::draw`].
+/// Returns the errors of [`Shot::draw`].
 pub fn draw_error_locations(
     scene: &Scene,
     locations: &[ErrorLocation],

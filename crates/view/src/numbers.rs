@@ -112,7 +112,7 @@ impl ColorBy {
     ///
     /// # Errors
     ///
-    /// [`PictureError::Style`] if no mesh has this quantity.
+    /// Returns [`PictureError::Style`] if no mesh has this quantity.
     pub fn numbers(&self, scene: &Scene, targets: &[Mesh]) -> Result<Numbers, PictureError> {
         let mut numbers = Vec::new();
         for object in scene.objects() {

@@ -142,8 +142,8 @@ impl Layout {
 ///
 /// # Errors
 ///
-/// [`PictureError::Size`] if a side is longer than [`LARGEST_SIDE`](render::LARGEST_SIDE), or the sheet has no size
-/// because there are no images and no gap.
+/// Returns [`PictureError::Size`] if a side is longer than [`LARGEST_SIDE`](render::LARGEST_SIDE), or the sheet has no
+/// size because there are no images and no gap.
 pub fn sheet_size(
     cells: &[Cell],
     headings: Headings,
@@ -162,8 +162,8 @@ pub fn sheet_size(
 ///
 /// # Errors
 ///
-/// [`PictureError::Size`] under the same conditions as [`sheet_size`]; [`PictureError::Budget`] if the sheet needs more
-/// than `budget` bytes. The sizes are checked before memory is allocated.
+/// Returns [`PictureError::Size`] under the same conditions as [`sheet_size`]. Returns [`PictureError::Budget`] if the
+/// sheet needs more than `budget` bytes. The sizes are checked before memory is allocated.
 pub fn sheet(cells: &[Cell], style: &SheetStyle, budget: u64) -> Result<Image, PictureError> {
     sheet_with_headings(cells, Headings::default(), style, budget)
 }
@@ -173,7 +173,7 @@ pub fn sheet(cells: &[Cell], style: &SheetStyle, budget: u64) -> Result<Image, P
 ///
 /// # Errors
 ///
-/// The errors of [`sheet`].
+/// Returns the errors of [`sheet`].
 pub fn sheet_with_headings(
     cells: &[Cell],
     headings: Headings,
@@ -238,7 +238,7 @@ fn label(text: &str, style: &SheetStyle, position: DVec2, max_width: f64) -> Opt
 ///
 /// # Errors
 ///
-/// [`PictureError::Size`] if a side is 0 or longer than [`LARGEST_SIDE`](render::LARGEST_SIDE).
+/// Returns [`PictureError::Size`] if a side is 0 or longer than [`LARGEST_SIDE`](render::LARGEST_SIDE).
 pub fn notice(
     reason: &str,
     [width, height]: [u32; 2],

@@ -55,7 +55,7 @@ impl<'s> Subject<'s> {
     ///
     /// # Errors
     ///
-    /// The errors of [`render::build_within`].
+    /// Returns the errors of [`render::build_within`].
     pub fn new(
         scene: &'s Scene,
         caption: &'s str,
@@ -125,7 +125,7 @@ impl Shot<'_> {
     ///
     /// # Errors
     ///
-    /// [`PictureError::Budget`] if the budget is too small.
+    /// Returns [`PictureError::Budget`] if the budget is too small.
     pub fn check_budget(&self, n_scenes: usize) -> Result<(), PictureError> {
         let needed = self.image_bytes(n_scenes);
         PictureError::check_budget(needed.saturating_add(pixel_bytes(self.size)), self.budget)
@@ -141,7 +141,7 @@ impl Shot<'_> {
     ///
     /// # Errors
     ///
-    /// [`PictureError::Camera`] if a camera is invalid.
+    /// Returns [`PictureError::Camera`] if a camera is invalid.
     pub fn extent(&self, subject: Subject) -> Result<Extent, PictureError> {
         let mut points = Vec::new();
         for camera in self.cameras {
@@ -159,9 +159,9 @@ impl Shot<'_> {
     ///
     /// # Errors
     ///
-    /// [`PictureError::Budget`] if the budget is too small; [`PictureError::Camera`] if a camera is invalid;
-    /// [`PictureError::Cancelled`] if the listener cancels the work; [`PictureError::Size`] if the views side by side
-    /// are too large for one image. The budget is checked before anything is drawn.
+    /// Returns [`PictureError::Budget`] if the budget is too small, [`PictureError::Camera`] if a camera is invalid,
+    /// [`PictureError::Cancelled`] if the listener cancels the work, and [`PictureError::Size`] if the views side by
+    /// side are too large for one image. The budget is checked before anything is drawn.
     pub fn draw(
         &self,
         subjects: &[Subject],

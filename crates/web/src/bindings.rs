@@ -136,7 +136,7 @@ impl Session {
         self.0.arrays(object).map(View)
     }
 
-    /// Returns the placement of each instance of a mesh: 16 numbers that map the mesh to the scene.
+    /// Returns the placement of each instance of a mesh: the 16 numbers of the matrix that maps the mesh to the scene.
     pub fn placements(&self, object: &str) -> Vec<f64> {
         self.0.placements(object)
     }

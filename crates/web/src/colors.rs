@@ -47,7 +47,7 @@ impl Colors {
     ///
     /// # Errors
     ///
-    /// [`PictureError::Style`] if no mesh has this quantity.
+    /// Returns [`PictureError::Style`] if no mesh has this quantity.
     pub fn new(scene: &Scene, quantity: Quantity) -> Result<Self, PictureError> {
         let numbers = ColorBy::new(quantity).numbers(scene, &[])?;
         let meshes = numbers.colorings.iter().filter_map(|coloring| {

@@ -1,4 +1,4 @@
-//! The results of the last run, so that the next run starts at the first step that changed.
+//! Keeps the results of the last run, so that the next run can start at the first step that changed.
 
 use std::collections::HashSet;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -34,11 +34,13 @@ impl Kept {
     pub(crate) fn start(&mut self, loaded: &Loaded, keys: &StepKeys) -> (usize, Scene) {
         let known = self.steps.iter().zip(&keys.steps);
         let known = known.take_while(|((before, _), now)| before == *now);
-        // A step that writes files always runs again, because these files record the values of all parameters.
+        // A step that writes files always runs again: its files record the values of all parameters, but its key does
+        // not depend on all of them.
         let forecast = &loaded.forecast.steps;
         let writes = forecast.iter().position(|step| step.n_outputs > 0);
         let first = known.count().min(writes.unwrap_or(usize::MAX));
-        // An expectation is checked only if the step before it runs.
+        // An expectation is checked only if the step before it runs. The run therefore starts at that step or earlier,
+        // unless the expectation is known to hold.
         let expectations = loaded.recipe.expectations.iter().zip(&keys.expectations);
         let unknown = expectations.filter(|(_, key)| !self.held.contains(*key));
         let first = unknown
@@ -129,7 +131,7 @@ mod tests {
             kept.add_scene(scene);
         }
         let is_kept = || -> Vec<bool> { kept.scenes().after.iter().map(Option::is_some).collect() };
-        // If a scene has the same mesh as the scene before it, it needs no memory for the mesh.
+        // A scene that shares its mesh with the scene before it needs no memory for the mesh.
         kept.scenes().keep_last(3 * one - 1);
         assert_eq!(is_kept(), [true; 3]);
         kept.scenes().keep_last(2 * one - 1);

@@ -65,10 +65,10 @@ impl Session {
     ///
     /// # Errors
     ///
-    /// [`StoreError`] if the path is the path of a folder, or a part of the path is a file.
+    /// Returns [`StoreError`] if the path is the path of a folder, or a part of the path is a file.
     pub fn write(&mut self, path: &str, bytes: &[u8]) -> Result<(), StoreError> {
-        // The key of a step, which tells whether the step must run again, does not cover all files that the step reads,
-        // such as the materials of a model. So no result is kept.
+        // A step runs again if its key has changed. However, the key does not depend on all files that the step reads,
+        // such as the material files of a model. Therefore, no result is kept when a file is written.
         self.kept = Kept::default();
         self.store.write(path.as_ref(), bytes)
     }
@@ -83,7 +83,7 @@ impl Session {
     ///
     /// # Errors
     ///
-    /// [`StoreError`] if the file does not exist.
+    /// Returns [`StoreError`] if the file does not exist.
     pub fn read(&self, path: &str) -> Result<Vec<u8>, StoreError> {
         self.store.read(path.as_ref())
     }
@@ -95,8 +95,8 @@ impl Session {
     ///
     /// - `problems`, each with `severity`, `file`, `line`, `column`, `message`, `help` and `range` (the start and the
     ///   exclusive end in UTF-16 code units)
-    /// - `parameters`, each with `name`, `type`, `value`, `doc`, the limits `min` and `max`, and the allowed names
-    ///   `of`; a value that does not exist is `null`
+    /// - `parameters`, each with `name`, `type`, `value`, `doc`, `min` and `max` (the limits), and `of` (the allowed
+    ///   names); a value that does not exist is `null`
     /// - `presets`, the names of the presets
     /// - `steps`, each with `label`, `operation` and `line` (`null` if the step is in a called recipe)
     /// - `peak_bytes`, the largest memory of all meshes after any step; `null` if unknown
@@ -217,7 +217,7 @@ impl Session {
     ///
     /// # Errors
     ///
-    /// [`PictureError`] if the picture is too large.
+    /// Returns a [`PictureError`] if the picture is too large.
     pub fn picture(
         &self,
         size: [u32; 2],
@@ -251,8 +251,8 @@ impl Session {
         Some(Arrays::new(mesh))
     }
 
-    /// Returns the placements of a mesh of the last run. The placement of an instance maps the space of the mesh to the
-    /// scene, and consists of 16 numbers, column by column. A skinned mesh has the placement of its first joint.
+    /// Returns the placements of a mesh of the last run. The placement of an instance is the matrix that maps the space
+    /// of the mesh to the scene: 16 numbers, column by column. A skinned mesh has the placement of its first joint.
     pub fn placements(&self, object: &str) -> Vec<f64> {
         let instances = self.scene.instances().into_iter();
         let own = instances.filter(|instance| instance.object.name == object);
@@ -273,7 +273,7 @@ impl Session {
     ///
     /// # Errors
     ///
-    /// [`PictureError::Style`] if no mesh has this quantity.
+    /// Returns [`PictureError::Style`] if no mesh has this quantity.
     pub fn colors(&self, quantity: Quantity) -> Result<Colors, PictureError> {
         Colors::new(&self.scene, quantity)
     }

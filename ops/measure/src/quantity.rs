@@ -200,7 +200,7 @@ impl MeasureOf {
 ///
 /// # Errors
 ///
-/// [`OpError::Refused`] if a quantity is outside of the range of floating-point numbers.
+/// Returns [`OpError::Refused`] if a quantity is outside of the range of floating-point numbers.
 fn restored(scaled: &Scaled, mut values: Vec<f64>, dimension: i32) -> Result<Vec<f64>, OpError> {
     for x in &mut values {
         let restored = scaled.restored(*x, dimension);

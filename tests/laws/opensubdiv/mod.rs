@@ -270,24 +270,25 @@ fn assert_positions(case: &str, expected_values: &[([f64; 3], usize)]) {
 
 #[test]
 fn the_stored_results_of_small_meshes_equal_those_computed_by_hand() {
-    // With Loop subdivision, an old vertex p of valence 3 has the weight 7/16, and each neighbor has the weight 3/16.
-    // In the tetrahedron, the sum of the three neighbors of p is -p. For the new vertex on an edge, each end has the
-    // weight 3/8, and each of the two opposite vertices has the weight 1/8.
+    // In the new position of an old vertex p of valence 3, Loop subdivision gives p the weight 7/16 and each neighbor
+    // the weight 3/16. In the tetrahedron, the sum of the three neighbors of p is -p. In the position of the new vertex
+    // on an edge, each end has the weight 3/8, and each of the two opposite vertices has the weight 1/8.
     let quarter = [0.0, 0.0, 0.25];
     assert_positions(
         "known_tetrahedron",
         &[(quarter, 3), ([0.25; 3], 1), ([0.0, 0.25, 0.25], 6)],
     );
-    // With Catmull-Clark subdivision, an old vertex p of the cube has the weight 1/3, and each neighbor and each face
-    // point has the weight 1/9. In the cube, the sum of the three neighbors of p is p. The sum of the three face points
-    // is also p.
+    // In the new position of an old vertex p of the cube, Catmull-Clark subdivision gives p the weight 1/3, and each
+    // neighbor and each face point the weight 1/9. In the cube, the sum of the three neighbors of p is p. The sum of
+    // the three face points is also p.
     let [near, corner, far] = [[0.0, 0.0, 1.0], [5.0 / 9.0; 3], [0.0, 0.75, 0.75]];
     assert_positions("known_cube", &[(near, 6), (corner, 8), (far, 12)]);
     // With sharpness 1/2, each position is halfway between the results of the smooth rule and the sharp rule. The sharp
     // rule keeps corners, and puts new vertices at the midpoints of edges.
     let [corner, far] = [[7.0 / 9.0; 3], [0.0, 0.875, 0.875]];
     assert_positions("known_sharp_cube", &[(near, 6), (corner, 8), (far, 12)]);
-    // On a boundary without corners, a vertex has the weight 3/4, and its two neighbors have the weight 1/8.
+    // In the new position of a vertex on a boundary without corners, the vertex has the weight 3/4, and each of its two
+    // neighbors on the boundary has the weight 1/8.
     let [corner, far] = [[0.0, 0.75, 0.75], [0.0, 0.0, 1.0]];
     assert_positions("known_square", &[([0.0; 3], 1), (corner, 4), (far, 4)]);
     // The uvs of the square are the positions of its corners, and the rule `CornersOnly` keeps these uvs.

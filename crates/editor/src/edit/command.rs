@@ -347,7 +347,7 @@ impl Editor {
     ///
     /// # Errors
     ///
-    /// As [`apply`](Self::apply).
+    /// Returns the errors of [`apply`](Self::apply).
     pub fn preview(&mut self, command: &Command) -> Result<(), CommandError> {
         let steps = self.steps_of(command)?;
         let edits = text::insert_steps(self.text(), &self.outline, self.cursor(), &steps)?;

@@ -49,7 +49,7 @@ pub enum TextError {
 ///
 /// # Errors
 ///
-/// [`TextError::Overlap`] if the edits overlap or are out of range.
+/// Returns [`TextError::Overlap`] if the edits overlap or are out of range.
 pub(crate) fn apply(text: &str, edits: Edits) -> Result<String, TextError> {
     Ok(ron_tree::replace(text, edits)?)
 }

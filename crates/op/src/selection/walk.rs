@@ -8,8 +8,8 @@ use mesh::{Domain, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 use crate::{OpError, Refusal};
 
 /// Returns one flag for each edge of the mesh: whether the edge is in `edges` or on an edge loop through one of them.
-/// At an interior vertex with four edges, an edge loop continues with the opposite edge. At every other vertex, it
-/// ends. An edge loop that starts at a boundary edge follows the boundary instead.
+/// At an interior vertex with four edges, an edge loop continues with the opposite edge. At every other vertex, the
+/// loop ends. An edge loop that starts at a boundary edge follows the boundary instead.
 pub(super) fn edge_loops(mesh: &Mesh, edges: &[EdgeId]) -> Vec<bool> {
     follow(mesh, edges, |h| {
         if mesh.is_boundary_edge(h.edge()) {
@@ -75,7 +75,8 @@ pub(super) fn shortest_path(
     let mut distance = vec![f64::INFINITY; n];
     let mut arrival: Vec<Option<HalfEdgeId>> = vec![None; n];
     let mut is_done = vec![false; n];
-    // The bit patterns of non-negative numbers have the same order as the numbers.
+    // The heap compares the bit patterns of the distances. For non-negative floating-point numbers, the bit patterns
+    // have the same order as the numbers.
     let mut heap = BinaryHeap::from([Reverse((0_u64, from))]);
     distance[from.index()] = 0.0;
     while let Some(Reverse((_, v))) = heap.pop() {

@@ -135,8 +135,8 @@ pub const PALETTE: [Color; 6] = [
 ///
 /// # Errors
 ///
-/// [`PictureError::Style`] if a number of the style is out of its range, an overlay does not match its object, a mesh
-/// has too many elements for labels, or Bezier patches cannot be tessellated.
+/// Returns [`PictureError::Style`] if a number of the style is out of its range, an overlay does not match its object,
+/// a mesh has too many elements for labels, or Bezier patches cannot be tessellated.
 pub fn build<'s>(
     scene: &'s Scene,
     style: &Style,
@@ -152,9 +152,9 @@ pub fn build<'s>(
 ///
 /// # Errors
 ///
-/// [`PictureError::Budget`] if the triangles and lines, or the textures, certainly exceed the budget. The size of the
-/// triangles and lines is checked before anything is allocated, and the size of a texture before it is decoded. Also
-/// the errors of [`build()`].
+/// Returns [`PictureError::Budget`] if the triangles and lines, or the textures, certainly exceed the budget. The size
+/// of the triangles and lines is checked before anything is allocated, and the size of a texture before it is decoded.
+/// Also returns the errors of [`build()`].
 pub fn build_within<'s>(
     scene: &'s Scene,
     style: &Style,

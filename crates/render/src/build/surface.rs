@@ -14,7 +14,7 @@ impl Builder<'_, '_> {
     ///
     /// # Errors
     ///
-    /// [`PictureError::Budget`] if the texture needs too much memory.
+    /// Returns [`PictureError::Budget`] if the texture needs too much memory.
     pub(super) fn surface(&mut self, material: &scene::Material) -> Result<Surface, PictureError> {
         let [r, g, b, base] = material.base_color.map(narrow);
         // The alpha of the material, and how the alpha of its texture is used (glTF 2.0 specification, 3.9.4).

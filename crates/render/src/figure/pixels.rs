@@ -21,7 +21,7 @@ use crate::{Image, PictureError};
 ///
 /// # Errors
 ///
-/// [`PictureError::Size`] if a side is 0 or longer than [`LARGEST_SIDE`](crate::LARGEST_SIDE) pixels.
+/// Returns [`PictureError::Size`] if a side is 0 or longer than [`LARGEST_SIDE`](crate::LARGEST_SIDE) pixels.
 pub fn pixels(svg: &Svg, scale: f64, background: [u8; 4]) -> Result<Image, PictureError> {
     let (width, height) = pixel_size(svg, scale)?;
     let mut image = Image::filled(width, height, background)?;
@@ -33,7 +33,7 @@ pub fn pixels(svg: &Svg, scale: f64, background: [u8; 4]) -> Result<Image, Pictu
 ///
 /// # Errors
 ///
-/// [`PictureError::Size`] if a side is 0 or longer than [`LARGEST_SIDE`](crate::LARGEST_SIDE) pixels.
+/// Returns [`PictureError::Size`] if a side is 0 or longer than [`LARGEST_SIDE`](crate::LARGEST_SIDE) pixels.
 pub fn pixel_size(svg: &Svg, scale: f64) -> Result<(u32, u32), PictureError> {
     // NaN and negative numbers become 0, and a side of 0 is refused.
     let [width, height] = [svg.width, svg.height].map(|x| whole_u32((x * scale).round()));

@@ -137,8 +137,8 @@ const DEPTH_MAP_COST: u64 = 400;
 ///
 /// # Errors
 ///
-/// [`PictureError::Size`] if a side of the picture is 0 or too long; [`PictureError::Cancelled`] if the listener
-/// cancels the work.
+/// Returns [`PictureError::Size`] if a side of the picture is 0 or too long. Returns [`PictureError::Cancelled`] if the
+/// listener cancels the work.
 pub fn render(
     drawing: &Drawing,
     view: &View,

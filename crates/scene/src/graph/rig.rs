@@ -20,7 +20,7 @@ pub struct Skin {
     pub inverse_bind_matrices: Option<usize>,
     /// The index of the node that is the root of the joints, for programs that need this root.
     pub skeleton: Option<usize>,
-    /// Data of other programs, as JSON.
+    /// Application-specific data (`extras` in glTF), as JSON.
     pub extras: Option<String>,
 }
 
@@ -33,7 +33,7 @@ pub struct Animation {
     pub samplers: Vec<AnimationSampler>,
     /// The channels. Each channel applies a sampler to a property of a node.
     pub channels: Vec<Channel>,
-    /// Data of other programs, as JSON.
+    /// Application-specific data (`extras` in glTF), as JSON.
     pub extras: Option<String>,
 }
 
@@ -46,7 +46,7 @@ pub struct AnimationSampler {
     pub output: usize,
     /// How values between keyframes are computed.
     pub interpolation: Interpolation,
-    /// Data of other programs, as JSON.
+    /// Application-specific data (`extras` in glTF), as JSON.
     pub extras: Option<String>,
 }
 
@@ -71,7 +71,7 @@ pub struct Channel {
     pub node: usize,
     /// The property of the node.
     pub property: AnimatedProperty,
-    /// Data of other programs, as JSON.
+    /// Application-specific data (`extras` in glTF), as JSON.
     pub extras: Option<String>,
 }
 

@@ -15,7 +15,7 @@ use crate::flip_edges::goal::{Goal, Quad};
 ///
 /// # Errors
 ///
-/// [`OpError::Cancelled`]. After this error, it is possible that some edges are already flipped.
+/// Returns [`OpError::Cancelled`] if the run was canceled. Some edges have possibly been flipped before.
 pub(crate) fn flip_until(
     mesh: &mut Mesh,
     edges: &[EdgeId],

@@ -149,7 +149,7 @@ const MIN_DRAWING_WIDTH: f64 = 32.0;
 ///
 /// # Errors
 ///
-/// [`PictureError::Style`] if
+/// Returns [`PictureError::Style`] if
 ///
 /// - there are no panels, or more than [`MAX_PANELS`],
 /// - a curve has more than [`MAX_DRAWN`] control points, or more than [`MAX_CONSTRUCTED`] if its levels are drawn,

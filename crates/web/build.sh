@@ -67,10 +67,12 @@ package() {
     "$work/bindgen/debug/meshwright-bindgen" "$1/$target/web/meshwright_web.wasm" "$2"
     "$work/tools/node_modules/.bin/wasm-opt" -O1 -o "$2/core_bg.wasm" "$2/core_bg.wasm"
     cp crates/web/package/* LICENSE-APACHE LICENSE-MIT "$2"
-    node crates/web/tests/size.mjs "$2/core_bg.wasm"
 }
 
 package "$work/target" "$out"
+# The compression uses one processor for about a minute.
+node crates/web/tests/size.mjs "$out/core_bg.wasm" &
+compression=$!
 node crates/web/tests/scenes.mjs "$out"
 
 # Threads also need shared memory, and a standard library that was compiled with atomic operations.
@@ -82,8 +84,10 @@ if [ -n "${compiler:-}" ]; then
     done
     CARGO_TARGET_DIR=$work/target "${compiler[@]}" "${build[@]}" -- "${flags[@]}"
     package "$work/target" "$work/threads"
+    node crates/web/tests/size.mjs "$work/threads/core_bg.wasm"
 else
     rm -rf "$work/threads"
     echo "the engine with threads is not built: the sources of the standard library are missing"
 fi
+wait "$compression"
 crates/web/page/build.sh

@@ -84,12 +84,12 @@ pub fn pick_control_point(scene: &Scene, view: &Projection, pixel: DVec2) -> Opt
 }
 
 impl Editor {
-    /// Moves a control point of a curve or patch in the scene at the step cursor, which is a position between two steps
-    /// of the recipe. At the cursor, the text gets a step `MoveControlPoint` or `MovePatchPoint`. The new position `to`
-    /// is in the space of the object, in which curves lie in the plane z = 0. If the step before the cursor already
-    /// moves the same control point, the parameter `to` of that step is changed instead. If the user drags the same
-    /// control point several times, the text thus gets only one step. If `is_preview` is true, the movement is only
-    /// previewed, and the text does not change.
+    /// Moves a control point of a curve or patch. The step cursor is a position between two steps of the recipe; the
+    /// scene there contains the point. At the cursor, the text gets a step `MoveControlPoint` or `MovePatchPoint`. The
+    /// new position `to` is in the space of the object, in which curves lie in the plane z = 0. If the step before the
+    /// cursor already moves the same control point, the parameter `to` of that step is changed instead. If the user
+    /// drags the same control point several times, the text thus gets only one step. If `is_preview` is true, the
+    /// movement is only previewed, and the text does not change.
     ///
     /// # Errors
     ///

@@ -110,8 +110,8 @@ pub enum FaceVarying {
     /// Like `None`, but a value at a vertex does not change if only one face at this vertex has the value.
     CornersOnly,
     /// Like `CornersOnly`, but values also do not change at a vertex with three or more different values. At a vertex
-    /// with two different values, each value belongs to a set of faces. Neither value changes if one of these sets is
-    /// not contiguous, or if a sharp edge runs between two faces of the same set.
+    /// with two different values, each value belongs to a set of faces. Both values stay unchanged if one of these
+    /// sets is not contiguous, or if a sharp edge runs between two faces of the same set.
     CornersPlus1,
     /// Like `CornersPlus1`, but values also do not change at the ends of seams. If one value at a vertex does not
     /// change, no value at this vertex changes.

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 #[serde(rename = "Vector")]
 struct Coordinates(f64, f64, f64);
 
-/// The error for three numbers that are not a valid value of their type.
+/// The error for three numbers that are not a valid vector of the requested type, such as a direction of length 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("expected finite {0}")]
 pub struct BadVector(&'static str);

@@ -48,7 +48,8 @@ fn encode_block(elements: &[u8], before: &[u8]) -> Vec<u8> {
     out
 }
 
-/// Encodes the differences of one byte of consecutive elements. The number of differences is a multiple of [`GROUP`].
+/// Encodes differences. Entry i is the difference between a byte of element i and the byte at the same place in the
+/// element before. The number of differences is a multiple of [`GROUP`].
 fn encode_groups(differences: &[u8], out: &mut Vec<u8>) {
     let groups = differences.as_chunks::<GROUP>().0;
     let kinds = out.len();

@@ -25,8 +25,9 @@ pub struct StepKeys {
 }
 
 impl StepKeys {
-    /// Returns the keys of a recipe that was read and checked. Of the files that the steps read, only those that the
-    /// forecast lists change the keys. The forecast does not list, for example, the material files of a model.
+    /// Returns the keys of a recipe that was read and checked. The keys depend on the contents
+    /// of the input files, but only of those in the forecast. The forecast does not list, for example, the material
+    /// files of a model.
     pub fn of(loaded: &Loaded) -> Self {
         let recipe = &loaded.recipe;
         let store = &*loaded.files.store;

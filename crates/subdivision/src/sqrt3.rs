@@ -206,7 +206,7 @@ impl<'a> Sqrt3<'a> {
         if mesh.face(h).is_none() {
             let inner = h.twin();
             let (origin, next) = match self.side(inner) {
-                // The half-edge runs from y to x, and ends where the half-edge from x to a starts.
+                // The half-edge runs from y to x. The next one runs from x to a.
                 Side::Cut => (self.end(mesh.next(inner)), self.spoke(inner).twin()),
                 _ => (mesh.origin(h), mesh.next(h)),
             };

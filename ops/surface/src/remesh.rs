@@ -211,18 +211,13 @@ impl MeshOperation for Remesh {
                 Err(OpError::refused(Refusal::NotTriangle, message).about([f]))
             }
             Err(RemeshError::TooManyFaces { needed, max }) => {
-                let most = if max == 1 {
-                    "1 is"
-                } else {
-                    &format!("{max} are")
-                };
                 let needed = if needed.is_finite() {
                     format!("up to about {} faces", readable(needed.round()))
                 } else {
                     "too many faces to count".to_owned()
                 };
                 let message = format!(
-                    "the target lengths need {needed} during remeshing, but at most {most} possible; use a longer target length"
+                    "the target lengths need {needed} during remeshing, but the mesh can have at most {max}; use a longer target length"
                 );
                 Err(OpError::Budget(message))
             }

@@ -77,7 +77,7 @@ pub(crate) fn set(mesh: &mut Mesh, uv: &str, uvs: Vec<DVec2>, report: &mut Repor
     for (domain, name) in outdated {
         mesh.remove_column(domain, &name);
         report.notes.push(format!(
-            "removed the attribute `{name}`, because it stores how a morph target changes the replaced values of `{uv}`"
+            "removed the attribute `{name}`, because it stores how a morph target changes the old values of `{uv}`"
         ));
     }
 }

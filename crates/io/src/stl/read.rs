@@ -134,7 +134,7 @@ fn set_tags(polygons: &mut Polygons, solids: &[(String, Range<usize>)], notes: &
         "solids without facets left out",
     );
     let what = format!(
-        "names of solids left out: each name becomes a face tag, and a mesh with this number of faces can have at most {room} of these tags"
+        "names of solids left out, because only the first {room} of them can become face tags of a mesh with this number of faces"
     );
     notes.left_out("too-many-names", too_many, None, what);
 }

@@ -144,7 +144,7 @@ mod tests {
 
     /// Draws the unit square, seen from above, so that it fills a picture of `side` times `side` pixels.
     fn draw(material: Material, side: u32) -> Vec<[u8; 4]> {
-        // At this distance, the picture of an orthographic `LookAt` is 1 unit high (see the documentation of `LookAt`).
+        // The height of an orthographic picture depends on the distance of `LookAt`. At this distance, it is 1 unit.
         let distance = 0.5 / libm::tan(15.0_f64.to_radians());
         let camera = Camera::LookAt {
             from: [0.5, 0.5, distance],

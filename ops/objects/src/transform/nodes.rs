@@ -127,8 +127,8 @@ fn move_roots(graph: &Graph, maps: &mut [Option<DAffine3>], affine: &DAffine3) {
     }
 }
 
-/// Inserts a parent above each animated node that moves, because the animation replaces the placement of the node. The
-/// parent moves instead. Returns the number of new nodes.
+/// Inserts a parent above each animated node that the step moves. The animation replaces the placement of the node, so
+/// the parent is moved instead. Returns the number of new nodes.
 fn insert_parents(graph: &mut Graph, maps: &mut Vec<Option<DAffine3>>) -> usize {
     let mut animated = graph.animated_flags();
     if !animated.contains(&true) {

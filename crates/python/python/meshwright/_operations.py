@@ -52,14 +52,15 @@ class SceneOperations:
         ``.bzc`` (a Bezier curve) and ``.mws`` (a complete scene). Files in all of these formats except ``.glb`` and
         ``.mws`` can be compressed with gzip. The name of a compressed file ends with ``.gz``, as in ``a.obj.gz``. An
         OBJ file becomes one object of the scene. Objects and groups inside an OBJ file become tags (named sets) of
-        faces: a line ``o hat`` gives the tag ``o="hat"``, and a line ``g hat`` gives the tag ``hat``. Each mesh of a
-        glTF file that a node references becomes an object. If exactly one node references the mesh, the object gets the
-        name of the node, otherwise the name of the mesh. Unless ``placements`` is ``Bake``, the scene keeps the nodes,
-        cameras, lights, skins, morph targets and animations of the glTF file. In a COLLADA file (``.dae``), each node
-        with a mesh becomes an object. The report lists and counts the content of the file that the scene cannot store.
-        Image files of materials are read from the folder of the model or of its material library. If two successive
-        corners of a face are at the same vertex, the second one is removed. A face is left out if it then has fewer
-        than three corners or still contains a vertex twice.
+        faces: a line ``o hat`` gives the tag ``o="hat"``, and a line ``g hat`` gives the tag ``hat``. With
+        ``placements="Keep"`` (the default), each mesh of a glTF file becomes an object if at least one node references
+        the mesh. If exactly one node references the mesh, the object gets the name of the node. If several nodes
+        reference the mesh, the object gets the name of the mesh. With ``placements="Keep"``, the scene also keeps the
+        nodes, cameras, lights, skins, morph targets and animations of the glTF file. In a COLLADA file (``.dae``), each
+        node with a mesh becomes an object. If the scene cannot store some of the content of the file, the report lists
+        and counts this content. Image files of materials are read from the folder of the model or of its material
+        library. If two successive corners of a face are at the same vertex, the second of these corners is removed. If
+        the face then has fewer than three corners or still contains a vertex twice, the face is left out.
 
         Example: ``scene.load(path="teapot.bez")``, in a recipe ``Load(path: "teapot.bez")``
 
@@ -78,13 +79,13 @@ class SceneOperations:
             ``"Keep"``: Keep the orientation of every face.
         :param duplicates: What to do with a face that has the same vertices as an earlier face, in the same or in the
             opposite order around the face. Defaults to ``"Keep"``.
-            ``"Keep"``: Keep them.
+            ``"Keep"``: Keep the elements.
             ``"Drop"``: Leave the elements out, and list them in the report.
         :param degenerate: What to do with zero-area faces. Defaults to ``"Keep"``.
-            ``"Keep"``: Keep them.
+            ``"Keep"``: Keep the elements.
             ``"Drop"``: Leave the elements out, and list them in the report.
         :param isolated: What to do with vertices without a face. Defaults to ``"Keep"``.
-            ``"Keep"``: Keep them.
+            ``"Keep"``: Keep the elements.
             ``"Drop"``: Leave the elements out, and list them in the report.
         :param placements: What to do with the nodes of a glTF or ``.mws`` file. If the nodes are kept, later operations
             such as ``smooth()`` change a mesh in its own coordinate system, without the transforms of the nodes. The
@@ -117,9 +118,9 @@ class SceneOperations:
         ``.csv`` file is a table of the positions and attributes of vertices, faces or corners. An ``.npz`` file stores
         the arrays of a mesh for the Python library ``NumPy``. ``load()`` cannot read ``.csv`` and ``.npz`` files. If
         ``path`` ends with ``.gz``, as in ``a.obj.gz``, the file is compressed with gzip. Files in the formats ``.glb``,
-        ``.mws`` and ``.npz`` cannot be compressed with gzip. The report lists the content of the objects that the
-        format cannot store. The file is created only if all steps of the recipe succeed and all expectations of the
-        recipe (checks of the result) are met.
+        ``.mws`` and ``.npz`` cannot be compressed with gzip. If the format cannot store some of the content of the
+        objects, the report lists this content. The file is created only if all steps of the recipe succeed and all
+        expectations of the recipe (checks of the result) are met.
 
         Example: ``scene.save(path="a.obj")``, in a recipe ``Save(path: "a.obj")``
 
@@ -129,8 +130,8 @@ class SceneOperations:
             becomes ``bunny.glb`` if the parameter ``input`` is ``models/bunny.obj``.
         :param images: What to do with the images of materials. If omitted, images are embedded in ``.glb`` files. For
             ``.gltf`` and ``.obj``, the image files of the model that was loaded are copied to the folder of the output
-            file. If images are embedded in the loaded model, a ``.gltf`` file also embeds them. For ``.obj``, they are
-            written to separate files, because OBJ cannot embed images.
+            file. If images are embedded in the loaded model, a ``.gltf`` file also embeds them. For ``.obj``, embedded
+            images are written to separate files, because OBJ cannot embed images.
             ``"Embed"``: Store the images in the file or, for ``.gltf``, in its ``.bin`` file.
             ``"Copy"``: Write the images to files in the folder of the written file.
             ``"Keep"``: Write only the paths of the images, as in the original model.
@@ -152,14 +153,15 @@ class SceneOperations:
             ``"color"``: The number of bits of each component of a color. Defaults to 8.
         :param weight_sets: For a skinned mesh in a ``.gltf`` or ``.glb`` file, the largest number of sets of joints for
             each vertex. A set has four joints and their weights, so with 2, for example, up to eight joints move a
-            vertex. If omitted, the number of sets in the file from which the mesh was read, or 1 if this number is not
-            known.
+            vertex. If omitted, the limit is the number of sets in the file from which the mesh was read, or 1 if this
+            number is not known.
         :param rows: For ``.csv``, the elements that have a row in the table: vertices, faces or corners. If omitted,
             vertices.
             ``"Vertices"``: Vertices.
             ``"Faces"``: Faces.
             ``"Corners"``: The corners of the faces, face by face.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         :warns meshwright.LossWarning: If the format cannot store some of the data. The text lists what is lost.
         """
@@ -178,11 +180,13 @@ class SceneOperations:
 
         The id of each vertex is the index of its point in ``points``, and the id of each face is its index in
         ``faces``. If connected faces have opposite orientations, the faces with the less frequent orientation are
-        reversed. No face is reversed if the orientations of the connected faces cannot be made to agree. If the faces
-        do not form a manifold, edges and vertices are split. A split edge keeps two faces with consistent orientations.
-        Each other face at this edge gets a copy of the edge. A split vertex keeps one fan of faces (faces that are
-        connected by edges at the vertex). Each other fan gets a copy of the vertex. The copies of vertices get the
-        highest ids. The report and the command ``check`` list the reversed and split elements.
+        reversed. If the orientations of the connected faces cannot be made to agree, as in a Moebius strip, none of
+        these faces is reversed. Two kinds of edges are split: edges with more than two faces, and edges whose two faces
+        still have opposite orientations. At a split edge, faces with consistent orientations stay connected in pairs.
+        Each pair, and each face that is left over, gets its own copy of the edge. A vertex is split if its faces form
+        several fans (groups of faces that are connected by edges at the vertex). One fan keeps the vertex, and each
+        other fan gets a copy of the vertex. The copies of vertices get the highest ids. The report and the command
+        ``check`` list the reversed and split elements.
 
         Example: ``scene.polygons(name="new", points=[(0, 0, 0), (1, 0, 0), (0, 1, 0)], faces=[[0, 1, 2]])``, in a
         recipe ``Polygons(name: "new", points: [(0, 0, 0), (1, 0, 0), (0, 1, 0)], faces: [[0, 1, 2]])``
@@ -339,9 +343,10 @@ class SceneOperations:
     ) -> Self:
         """Creates a torus of quadrilaterals around the z axis.
 
-        The vertices form ``around`` rings, one for each cross section of the tube. Each ring has ``across`` vertices.
-        With i and j counted from 0, vertex j of ring i has the id ``i * across + j``. Ring 0 is in the direction +x
-        from the center of the torus. Vertex 0 of each ring is the vertex farthest from the axis.
+        The vertices form rings, one for each cross section of the tube. The number of rings is ``around``, and each
+        ring has ``across`` vertices. With i and j counted from 0, vertex j of ring i has the id ``i * across + j``.
+        Ring 0 is in the direction +x from the center of the torus. Vertex 0 of each ring is the vertex farthest from
+        the axis.
 
         Example: ``scene.torus(name="new", around=7, across=5, major=2, minor=0.5)``, in a recipe ``Torus(name: "new",
         around: 7, across: 5, major: 2, minor: 0.5)``
@@ -374,9 +379,9 @@ class SceneOperations:
         """Creates a cylinder around the z axis.
 
         The vertices of the rim at -z come first, and then the vertices of the rim at +z. The first vertex of each rim
-        is in the direction +x from the axis, and the others follow counter-clockwise, seen from +z. The first
-        ``around`` faces are rectangles. With ``caps=True``, two polygons with ``around`` corners follow: first the cap
-        at -z, then the cap at +z.
+        is in the direction +x from the axis, and the others follow counter-clockwise, seen from +z. The rectangles
+        around the axis are the faces with the lowest ids. With ``caps=True``, the two caps follow: first the cap at -z,
+        then the cap at +z. Each cap is one polygon.
 
         Example: ``scene.cylinder(name="new", around=6, radius=1, height=2, caps=True)``, in a recipe ``Cylinder(name:
         "new", around: 6, radius: 1, height: 2, caps: true)``
@@ -435,13 +440,14 @@ class SceneOperations:
     ) -> Self:
         """Turns Bezier patches into a mesh.
 
-        Acts on the objects that the operation lists in ``on``. Without ``on``, a method of a scene acts on all objects
-        that consist of Bezier patches. Each object becomes one mesh of the same name. Every patch is divided into
-        ``segments`` x ``segments`` cells. Elements of earlier patches have lower ids. Different patches share no
-        vertices. If two patches have the same control points on a common side, their vertices on this side have bitwise
-        equal positions, so that ``weld(distance=0)`` joins the patches. A side whose points coincide, as at the pole of
-        a teapot's lid, becomes one vertex. Patches without area give no faces. The report counts these patches. The
-        mesh has UVs only with ``uvs=True``, and normals only with ``normals=True``.
+        The operation acts on the objects that its parameter ``on`` lists. Without ``on``, a method of a scene acts on
+        all objects that consist of Bezier patches. Each object becomes one mesh of the same name. Every patch is
+        divided into ``segments`` x ``segments`` cells. Vertices, edges and faces of earlier patches have lower ids.
+        Different patches share no vertices. If two patches have the same control points on a common side, their
+        vertices on this side have bitwise equal positions, so that ``weld(distance=0)`` joins the patches. If all
+        points of a side coincide, as at the pole of a teapot's lid, the side becomes one vertex. Patches without area
+        give no faces. The report counts the patches without area. The mesh has UVs only with ``uvs=True``, and normals
+        only with ``normals=True``.
 
         Example: ``scene.tessellate(segments=3)``, in a recipe ``Tessellate(segments: 3)``
 
@@ -454,7 +460,8 @@ class SceneOperations:
             vertex. The UVs of different patches overlap, because each patch covers the whole square from 0 to 1.
             Defaults to ``False``.
         :param normals: Whether to store the exact unit normals of the patches as vertex normals. Defaults to ``False``.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Tessellate', {'segments': segments, 'faces': faces, 'uvs': uvs, 'normals': normals}, on, id, progress)
@@ -476,7 +483,8 @@ class SceneOperations:
         Example: ``scene.sample_curve(segments=1)``, in a recipe ``SampleCurve(segments: 1)``
 
         :param segments: The number of straight segments of each polyline.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('SampleCurve', {'segments': segments}, on, id, progress)
@@ -492,15 +500,16 @@ class SceneOperations:
         """Replaces each curve with polylines that show the levels of de Casteljau's algorithm.
 
         A curve with n control points becomes n polylines in the plane z = 0. The first polyline is the control polygon
-        with n points. The points of each later polyline divide the segments of the polyline before it in the ratio t :
-        1 - t, so the number of points decreases by one. The last polyline has a single point, the point of the curve at
-        ``t``.
+        with n points. The points of each later polyline divide the segments of the previous polyline in the ratio t : 1
+        - t, so each polyline has one point fewer than the previous polyline. The last polyline has a single point, the
+        point of the curve at ``t``.
 
         Example: ``scene.curve_levels(t=0)``, in a recipe ``CurveLevels(t: 0)``
 
         :param t: The curve parameter at which the algorithm computes a point, from 0 (the start of the curve) to 1 (the
             end).
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('CurveLevels', {'t': t}, on, id, progress)
@@ -525,7 +534,8 @@ class SceneOperations:
         :param index: The index of the control point, from 0. Every curve on which the operation acts must have a
             control point with this index.
         :param to: The new position: ``(x, y)`` in the plane z = 0, in scene units.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('MoveControlPoint', {'index': index, 'to': to}, on, id, progress)
@@ -541,11 +551,11 @@ class SceneOperations:
     ) -> Self:
         """Moves one control point of Bezier patches.
 
-        Acts on the objects that the operation lists in ``on``. Without ``on``, a method of a scene acts on all objects
-        that consist of patches. Control points of the same object that are at the same position move together, so that
-        patches with a common side stay joined. The point of a patch at the parameters (u, v) moves by B(u) C(v) d.
-        Here, d is the displacement of the control point, and B and C are the Bernstein polynomials of its column and
-        its row. The report counts the changed objects.
+        The operation acts on the objects that its parameter ``on`` lists. Without ``on``, a method of a scene acts on
+        all objects that consist of Bezier patches. Control points of the same object that are at the same position move
+        together, so that patches with a common side stay joined. The point of a patch at the parameters (u, v) moves by
+        B(u) C(v) d. Here, d is the displacement of the control point, and B and C are the Bernstein polynomials of its
+        column and its row. The report counts the changed objects.
 
         Example: ``scene.move_patch_point(index=5, to=(1, 2, 0.5))``, in a recipe ``MovePatchPoint(index: 5, to: (1, 2,
         0.5))``
@@ -554,7 +564,8 @@ class SceneOperations:
             is the row and c is the column, all counted from 0. Every object on which the operation acts must have a
             control point with this index.
         :param to: The new position ``(x, y, z)``, in scene units.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('MovePatchPoint', {'index': index, 'to': to}, on, id, progress)
@@ -611,9 +622,9 @@ class SceneOperations:
     ) -> Self:
         """Renames an object.
 
-        The order of the objects does not change. Objects from a glTF file can have separate names for the object, its
-        nodes and its mesh. If the name of a node or of the mesh is the old name of the object, this name also changes
-        to the new name.
+        The order of the objects does not change. If an object comes from a glTF file, the object, its nodes and its
+        mesh each have a name, and these names can differ. A node or mesh with the old name of the object also gets the
+        new name. If no node has the old name, the mesh always gets the new name.
 
         Example: ``scene.rename(from_="mesh", to="new")``, in a recipe ``Rename(from: "mesh", to: "new")``
 
@@ -640,14 +651,14 @@ class SceneOperations:
         result contains a copy of the mesh for each of these nodes. The points of each copy are transformed by the
         transform of the node. The result keeps a skin only if all skinned parts have the same skin and each of them has
         exactly one node. In this case, the result also keeps the node of the first skinned part, and parts without a
-        skin follow the first joint of the skin. Otherwise, skinned parts are joined in their current pose, and no node
-        places the result. The names and default weights of morph targets are kept if all parts with morph targets have
-        the same names and default weights.
+        skin follow the first joint of the skin. If no skin is kept, skinned parts are joined in their current pose, and
+        the result has no node, because its points are already at their positions in the scene. The names and default
+        weights of morph targets are kept if they are the same in all parts that have morph targets.
 
-        If a part lacks an attribute that another part has, the elements of this part get the value zero. Missing
-        material indices become -1 (no material). If a part has no normals, the normals of all parts are dropped and
-        reported as lost. If an attribute of a part has a different type than in earlier parts, the attribute of this
-        part is dropped and reported as lost. Equal materials become one material.
+        If a part (one of the joined meshes) lacks an attribute that another part has, the attribute gets the value zero
+        in the part that lacks it. Missing material indices become -1 (no material). If a part has no normals, the
+        normals of all parts are dropped and reported as lost. If an attribute of a part has a different type than in
+        earlier parts, the attribute of this part is dropped and reported as lost. Equal materials become one material.
 
         Example: ``scene.join(objects=["mesh", "other"], name="joined")``, in a recipe ``Join(objects: ["mesh",
         "other"], name: "joined")``
@@ -717,9 +728,9 @@ class SceneOperations:
         changes the transforms of these nodes instead of the points. The descendants of these nodes move with them. A
         skinned mesh follows its joints, so with ``space="Scene"``, the operation moves the joints. If the transform of
         a node is animated, the animation would overwrite the change. The operation therefore gives this node a new
-        parent and moves the parent. If ``space`` is ``Scene``, ``on:`` is omitted and ``about`` is not ``Center``, root
-        nodes without an object also move, such as the nodes of cameras and lights. The operation fails if a curve would
-        leave the plane z = 0.
+        parent and moves the parent. Root nodes without an object, such as the nodes of cameras and lights, also move if
+        three conditions hold: ``space`` is ``Scene``, the operation has no ``on``, and ``about`` is not ``Center``. The
+        operation fails if a curve would leave the plane z = 0.
 
         Ids do not change. If the points of a mesh change, the normals, tangents and deltas of morph targets of this
         mesh are also transformed. Other attributes do not change. If the points are mirrored (one or three negative
@@ -727,7 +738,7 @@ class SceneOperations:
         reversed face, the first corner stays first, and the other corners follow in reverse order. In mirrored patches,
         u and v are exchanged, so that the same side of the surface remains the outside. Attributes with the edit rule
         ``Drop``, such as tangents of corners, are removed by every step that changes the connectivity. Mirroring the
-        points removes them too.
+        points reverses the faces, so it also removes the attributes with this rule.
 
         Example: ``scene.transform(scale=(2, 1, 1), rotate=[{"axis": "Z", "angle": 90}], move=(3, 1, 0))``, in a recipe
         ``Transform(scale: (2, 1, 1), rotate: [(axis: Z, angle: 90)], move: (3, 1, 0))``
@@ -746,7 +757,8 @@ class SceneOperations:
         :param space: The coordinate system in which objects are scaled, rotated and moved. Defaults to ``"Scene"``.
             ``"Scene"``: The space of the scene.
             ``"Object"``: The own space of each object.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Transform', {'scale': scale, 'rotate': rotate, 'move': move, 'about': about, 'space': space}, on, id, progress)
@@ -772,8 +784,8 @@ class SceneOperations:
         later operation. If no node placed the object before the operation, the object is no longer visible at its
         original position, only at the points.
 
-        Without ``object``, the result is a mesh that consists of the points and has no faces. The vertex normals of
-        this mesh are the normals of the surface at the points.
+        Without ``object``, the result is a mesh whose vertices are the chosen points. The mesh has no faces. Its vertex
+        normals are the normals of the surface at the points.
 
         Example: ``scene.scatter(surface="mesh", count=20, seed=7)``, in a recipe ``Scatter(surface: "mesh", count: 20,
         seed: 7)``
@@ -807,23 +819,25 @@ class SceneOperations:
 
         Two vertices are linked if they are at most ``distance`` apart. Vertices that are connected by a chain of links
         merge into one, even if the ends of the chain are farther apart than ``distance``. Of the vertices that merge,
-        the vertex with the lowest id remains, with its position and values. The others are removed, so the ids of later
-        vertices change. If several edges then join the same two vertices, they become one edge with the values of the
-        edge with the lowest id. Corner values, such as UVs, stay with the corners of the faces, so UV seams are kept.
+        the vertex with the lowest id remains, with its position and values. The other vertices are removed, so vertices
+        with higher ids get new ids. If several edges then join the same two vertices, they become one edge with the
+        values of the edge with the lowest id. Corner values, such as UVs, stay with the corners of the faces, so UV
+        seams are kept.
 
         If neighboring corners of a face merge, the face loses a corner. A face is removed if it has fewer than three
         corners left or would contain a vertex twice. After the merge, neighboring faces can have opposite orientations.
         If all orientations in a connected part of the mesh can be made to agree, the operation reverses the faces with
         the less frequent orientation. If faces are reversed, the report counts them, and the normals of vertices and
         corners are dropped. If the result is still not a manifold, vertices and edges are copied. For example, if three
-        faces share an edge, the third face gets a copy of the edge. The report counts the copies. If no vertices merge,
-        the mesh does not change.
+        faces share an edge, one of these faces gets a copy of the edge. The report counts the copies. If no vertices
+        merge, the mesh does not change.
 
         Example: ``scene.weld(distance=0)``, in a recipe ``Weld(distance: 0)``
 
         :param distance: The largest distance between linked vertices, in scene units. With 0, only vertices at equal
             positions merge.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Weld', {'distance': distance}, on, id, progress)
@@ -849,7 +863,8 @@ class SceneOperations:
 
         :param faces: The faces to reverse. The faces must form whole connected components. Defaults to ``"All"``.
             ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Reverse', {'faces': faces}, on, id, progress)
@@ -867,11 +882,12 @@ class SceneOperations:
         A quadrilateral is cut along its shorter diagonal. If both diagonals have the same length, the quadrilateral is
         cut along the diagonal that contains its vertex with the lowest id. Two lengths count as the same if the
         relative difference of their squares is at most 1e-12. A diagonal is bad if one of its two triangles has zero
-        area or is turned over: clockwise where the face is counter-clockwise. If the diagonal chosen so far is bad and
-        the other one is not, the other one is used. A quadrilateral with a reflex corner (an angle above 180 degrees)
-        is therefore cut at that corner. A diagonal is a duplicate if its ends are also joined by an edge or by a
-        diagonal of another face. A duplicate is replaced with the other diagonal if the other one is equally good and
-        not itself a duplicate. The report counts the duplicates that remain.
+        area or is turned over: clockwise where the face is counter-clockwise. If the diagonal that was chosen by length
+        or id is bad and the other diagonal is not bad, the other diagonal is used. A quadrilateral with a reflex corner
+        (an angle above 180 degrees) is therefore cut at that corner. A diagonal is a duplicate if its ends are also
+        joined by an edge or by a diagonal of another face. A duplicate is replaced with the other diagonal if the other
+        diagonal is not a duplicate, and if either both diagonals are bad or neither is bad. The report counts the
+        duplicates that remain.
 
         A face with more than four corners is projected along its normal. The projected face is cut by ear clipping, or
         into monotone pieces if it has more than 4096 corners. Then diagonals are flipped until the triangulation is a
@@ -880,15 +896,16 @@ class SceneOperations:
         corners. A face that cannot be triangulated in this way becomes a triangle fan around its vertex with the lowest
         id. The report counts these faces.
 
-        In the list of faces, the triangles of a face take the place of this face, so the ids of later faces change. The
-        triangles have the values of the face. Vertices and edges keep their ids. A corner of a triangle has the values
-        of the old face's corner at the same vertex.
+        In the list of faces, the triangles of a face take the place of this face, so faces with higher ids get new ids.
+        The triangles have the values of the face. Vertices and edges keep their ids. A corner of a triangle has the
+        values of the old face's corner at the same vertex.
 
         Example: ``scene.triangulate()``, in a recipe ``Triangulate()``
 
         :param faces: The faces to cut. Defaults to ``"All"``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a
             value of ``meshwright.sel``.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Triangulate', {'faces': faces}, on, id, progress)
@@ -916,16 +933,17 @@ class SceneOperations:
         new corner of a face gets its values from the corner of the other face at the same vertex. All other corners
         keep their values.
 
-        If a face beside the edge has more than three corners, consider the polygon that the two faces form together.
-        Each end of the edge moves to the next corner of this polygon, counter-clockwise. With ``until="Delaunay"`` or
-        ``until="Valence"``, only edges between two triangles are flipped.
+        If a face beside the edge has more than three corners, the edge turns inside the polygon that the two faces form
+        together: each end of the edge moves to the next corner of this polygon, counter-clockwise. With
+        ``until="Delaunay"`` or ``until="Valence"``, only edges between two triangles are flipped.
 
-        With ``until="Delaunay"`` or ``until="Valence"``, an edge is flipped only if the flip improves the mesh. The
-        operation makes several passes over the edges. It stops after a pass that flips no edge, or after ``passes``
-        passes. Flips with ``until="Delaunay"`` or ``until="Valence"`` neither fold the surface nor create zero-area
-        triangles. If a flip that would improve the mesh is refused, the edge is left unchanged, and the operation does
-        not fail. The report counts the refused flips for each reason. The report also states the number of passes, and
-        whether the operation stopped because of the limit ``passes``.
+        With ``until="Delaunay"`` or ``until="Valence"``, an edge is flipped only if the flip improves the angles of the
+        triangles (``Delaunay``) or the numbers of edges at the vertices (``Valence``). The operation makes several
+        passes over the edges. It stops after a pass that flips no edge, or after ``passes`` passes. Flips with
+        ``until="Delaunay"`` or ``until="Valence"`` neither fold the surface nor create zero-area triangles. If a flip
+        that would improve the mesh is refused, the edge is left unchanged, and the operation does not fail. The report
+        counts the refused flips for each reason. The report also states the number of passes, and whether the operation
+        stopped because of the limit ``passes``.
 
         On a surface that is not flat, a flip changes the shape. To keep creases and other edges, exclude them from
         ``edges``. For example, ``sel.Flat(below=30)`` selects only edges at which the surface bends by less than 30
@@ -950,7 +968,8 @@ class SceneOperations:
             Defaults to ``"Refuse"``.
             ``"Refuse"``: Refuse the edit.
             ``"Drop"``: Edit anyway.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('FlipEdges', {'edges': edges, 'until': until, 'passes': passes, 'on_refusal': on_refusal, 'seams': seams}, on, id, progress)
@@ -984,7 +1003,8 @@ class SceneOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
                 element.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('SplitEdges', {'edges': edges, 'at': at, 'on_refusal': on_refusal}, on, id, progress)
@@ -1036,7 +1056,8 @@ class SceneOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
                 element.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('CollapseEdges', {'edges': edges, 'at': at, 'on_refusal': on_refusal}, on, id, progress)
@@ -1075,7 +1096,8 @@ class SceneOperations:
             Defaults to ``"Refuse"``.
             ``"Refuse"``: Refuse the edit.
             ``"Drop"``: Edit anyway.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('DissolveEdges', {'edges': edges, 'on_refusal': on_refusal, 'seams': seams}, on, id, progress)
@@ -1095,12 +1117,12 @@ class SceneOperations:
 
         A selected edge and both of its ends are removed, and a new face replaces the edge. On both sides, the new face
         extends up to the distance ``width`` from the old edge. An edge that is not selected, but shares an end with a
-        selected edge, is shortened at this end. If the two edges are not neighboring sides of a face, the new end is at
-        the distance ``width`` from the old end. If they are, the new end is where the distance from the selected edge
-        is ``width``, but at most four times ``width`` from the old end. If two selected edges are neighboring sides of
-        a face, a new vertex inside this face replaces the corner between them. If three or more new vertices replace an
-        old vertex, another new face joins the new vertices. All edges are beveled together, so a cube that is beveled
-        at all edges keeps all of its symmetries.
+        selected edge, is shortened at this end. If the two edges are neighboring sides of a face, the new end is where
+        the distance from the selected edge is ``width``, but at most four times ``width`` from the old end. If the two
+        edges are not neighboring sides of a face, the new end is at the distance ``width`` from the old end. If two
+        selected edges are neighboring sides of a face, a new vertex inside this face replaces the corner between them.
+        If three or more new vertices replace an old vertex, another new face joins the new vertices. All selected edges
+        are beveled at once, so a cube that is beveled at all edges keeps all of its symmetries.
 
         The ends of the edges are removed, so the ids of the vertices after them change. New vertices get the highest
         ids. Faces keep their ids. New faces get the highest ids: first the faces that replace edges, in order of these
@@ -1111,10 +1133,10 @@ class SceneOperations:
         of these faces is used, but the choice is the same in every run. New edges have zero values (no crease, no
         tags). Normals are dropped.
 
-        An edge cannot be beveled if it is on the boundary (``Boundary``), or if one of its ends has only one other edge
-        and this other edge is not selected (``FewEdges``). If the bevels at the two ends of any edge would overlap, the
-        selected edges at these ends cannot be beveled (``OutsideEdge``). If the result would not be manifold, no edge
-        is beveled (``NonManifold``).
+        An edge cannot be beveled if it is on the boundary (reason: ``Boundary``), or if one of its ends has only one
+        other edge and this other edge is not selected (reason: ``FewEdges``). If the bevels at the two ends of any edge
+        would overlap, the selected edges at these ends cannot be beveled (reason: ``OutsideEdge``). If the result would
+        not be manifold, no edge is beveled (reason: ``NonManifold``).
 
         Example: ``scene.bevel_edges(edges=sel.Between(0, 2), width=0.25)``, in a recipe ``BevelEdges(edges: Between(0,
         2), width: 0.25)``
@@ -1128,7 +1150,8 @@ class SceneOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
                 element.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('BevelEdges', {'edges': edges, 'width': width, 'fraction': fraction, 'on_refusal': on_refusal}, on, id, progress)
@@ -1145,12 +1168,13 @@ class SceneOperations:
     ) -> Self:
         """Makes edges and vertices sharp for subdivision.
 
-        Sets the edge attribute ``crease`` of the selected edges and the vertex attribute ``corner`` of the selected
-        vertices to ``sharpness``. Elements that are not selected keep their values, or get 0 if the attribute did not
-        exist before the operation. With sharpness s, Loop and Catmull-Clark subdivision keep an edge or a vertex sharp
-        in the first s levels and smooth it in later levels. For example, an edge with sharpness 2.5 is sharp in the
-        first two levels. In the third level, the positions are halfway between the sharp and the smooth result. An edge
-        with sharpness 10 stays sharp, however many levels follow. Boundary edges are always sharp.
+        The operation sets two attributes to ``sharpness``: the edge attribute ``crease`` of the selected edges, and the
+        vertex attribute ``corner`` of the selected vertices. Elements that are not selected keep their values, or get 0
+        if the attribute did not exist before the operation. With sharpness s, Loop and Catmull-Clark subdivision keep
+        an edge or a vertex sharp in the first s levels and smooth it in later levels. For example, an edge with
+        sharpness 2.5 is sharp in the first two levels. In the third level, the positions are halfway between the sharp
+        and the smooth result. An edge with sharpness 10 stays sharp, however many levels follow. Boundary edges are
+        always sharp.
 
         At least one of ``edges`` and ``vertices`` must be given. The geometry does not change. The report counts the
         elements whose value changed.
@@ -1164,7 +1188,8 @@ class SceneOperations:
             ``meshwright.sel``.
         :param vertices: The vertices to change. If omitted, no vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or
             a value of ``meshwright.sel``.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Crease', {'edges': edges, 'vertices': vertices, 'sharpness': sharpness}, on, id, progress)
@@ -1202,7 +1227,8 @@ class SceneOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
                 element.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('PokeFaces', {'faces': faces, 'distance': distance, 'on_refusal': on_refusal}, on, id, progress)
@@ -1226,7 +1252,8 @@ class SceneOperations:
         zero values (no crease, no tags).
 
         A cut is refused if the two vertices are the same or are already joined by an edge. A cut is also refused if no
-        face has both vertices as corners, or if several faces do, because the cut would then be ambiguous.
+        face has both vertices as corners. If several faces have both vertices as corners, the cut is refused because it
+        is ambiguous.
 
         Example: ``scene.split_faces(between=[])``, in a recipe ``SplitFaces(between: [])``
 
@@ -1235,7 +1262,8 @@ class SceneOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
                 element.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('SplitFaces', {'between': between, 'on_refusal': on_refusal}, on, id, progress)
@@ -1258,10 +1286,11 @@ class SceneOperations:
         edges or vertices together with their faces, select the faces with ``sel.FacesBeside("edges")`` or
         ``sel.FacesAround("vertices")``.
 
-        The removal is refused if the remaining faces around a vertex would form several fans that meet only at that
-        vertex. In this case, the operation with ``on_refusal="Skip"`` tries to remove the faces one by one, in order of
-        their ids. The operation repeats these attempts until no more selected faces can be removed. The report counts
-        the selected faces that remain as refused.
+        The removal is refused if the remaining faces around a vertex would form several fans (groups of faces that are
+        connected across edges) that meet only at that vertex. In this case, the operation with ``on_refusal="Skip"``
+        tries to remove the faces one by one, in order of their ids. The operation repeats these attempts until no more
+        selected faces can be removed. Selected faces that still cannot be removed are kept, and the report counts them
+        as refused.
 
         Example: ``scene.delete_faces(faces="All")``, in a recipe ``DeleteFaces(faces: All)``
 
@@ -1272,7 +1301,8 @@ class SceneOperations:
             ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
                 element.
         :param keep_vertices: Whether to keep vertices that are left without an edge. Defaults to ``False``.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('DeleteFaces', {'faces': faces, 'on_refusal': on_refusal, 'keep_vertices': keep_vertices}, on, id, progress)
@@ -1329,7 +1359,8 @@ class SceneOperations:
                 towards the viewer. Rotations by multiples of 90 degrees have no rounding errors.
         :param tag: The name of a tag for the moved faces and their side faces. Faces that already have the tag keep it.
             If omitted, no faces are tagged.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('ExtrudeFaces', {'faces': faces, 'by': by, 'scale': scale, 'rotate': rotate, 'tag': tag}, on, id, progress)
@@ -1369,7 +1400,8 @@ class SceneOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
                 element.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('InsetFaces', {'faces': faces, 'fraction': fraction, 'on_refusal': on_refusal}, on, id, progress)
@@ -1387,12 +1419,12 @@ class SceneOperations:
     ) -> Self:
         """Shrinks and raises faces, and surrounds each face with a ring of faces.
 
-        Works like ``inset_faces()``, and also moves the inner face along its normal. Each face is beveled separately,
-        even if selected faces share edges. The shrunk inner face keeps the id of the selected face, and existing
-        vertices do not move. For a face with n corners, the operation adds n vertices, 2 n edges and n faces with four
-        corners. New vertices and faces get the highest ids. They are numbered in order of the selected faces, and
-        counter-clockwise around each face from its first corner. A zero-area face has no normal, so its inner face is
-        not raised.
+        The operation works like ``inset_faces()``, and also moves the inner face along its normal. Each face is beveled
+        separately, even if selected faces share edges. The shrunk inner face keeps the id of the selected face, and
+        existing vertices do not move. For a face with n corners, the operation adds n vertices, 2 n edges and n faces
+        with four corners. New vertices and faces get the highest ids. They are numbered in order of the selected faces,
+        and counter-clockwise around each face from its first corner. A zero-area face has no normal, so its inner face
+        is not raised.
 
         Attribute values at a new corner or vertex are interpolated with the parameter ``fraction``: from the value at
         the outer corner (0) to the mean of the values at all corners of the face (1). The faces of the ring have the
@@ -1414,7 +1446,8 @@ class SceneOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
                 element.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('BevelFaces', {'faces': faces, 'fraction': fraction, 'distance': distance, 'on_refusal': on_refusal}, on, id, progress)
@@ -1431,18 +1464,18 @@ class SceneOperations:
     ) -> Self:
         """Removes vertices and merges the faces around them.
 
-        Vertices are removed in order of their ids. Each removal is checked against the mesh as edited so far. If a
-        vertex has three or more edges, all faces around it become one face. The merged face replaces the face with the
-        lowest id and has its values. If the vertex is on the boundary, its two boundary edges also become one edge. If
-        the vertex has only two edges, these edges become one edge, and each face beside this edge loses a corner. When
-        two edges become one, the edge with the lower id is kept, with its values. The remaining elements keep their
-        order and their values but get new ids. Normals are dropped.
+        Vertices are removed in order of their ids. Each removal is checked against the mesh that the earlier removals
+        have produced. If a vertex has three or more edges, all faces around it become one face. The merged face
+        replaces the face with the lowest id and has its values. If the vertex is on the boundary, its two boundary
+        edges also become one edge. If the vertex has only two edges, these edges become one edge, and each face beside
+        this edge loses a corner. When two edges become one, the edge with the lower id is kept, with its values. The
+        remaining elements keep their order and their values but get new ids. Normals are dropped.
 
         A vertex cannot be removed if it is isolated or has a single edge. It also cannot be removed if a neighboring
         vertex would be left with a single edge, which ends inside a face. A removal is also refused if a face would
-        contain a vertex twice or have fewer than three corners. The same applies if a new edge would join two vertices
-        that an edge already joins. At a seam, texture coordinates or other corner values differ between the two sides
-        of an edge. A vertex at a seam is removed only if ``seams`` is ``Drop``.
+        contain a vertex twice or have fewer than three corners, or if a new edge would join two vertices that an edge
+        already joins. A vertex on a seam (an edge whose corner values, such as UVs, differ between its two sides) is
+        removed only if ``seams`` is ``Drop``.
 
         Example: ``scene.dissolve_vertices(vertices=sel.Vertices([1]))``, in a recipe ``DissolveVertices(vertices:
         Vertices([1]))``
@@ -1456,7 +1489,8 @@ class SceneOperations:
         :param seams: What to do at seams. Defaults to ``"Refuse"``.
             ``"Refuse"``: Refuse the edit.
             ``"Drop"``: Edit anyway.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('DissolveVertices', {'vertices': vertices, 'on_refusal': on_refusal, 'seams': seams}, on, id, progress)
@@ -1501,7 +1535,8 @@ class SceneOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
                 element.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('BevelVertices', {'vertices': vertices, 'fraction': fraction, 'on_refusal': on_refusal}, on, id, progress)
@@ -1517,8 +1552,9 @@ class SceneOperations:
         """Computes a unit normal for every vertex, from the faces around it.
 
         The normals are written to the vertex attribute ``normal``, which is replaced if it exists. Corner normals are
-        removed, because they would contradict the vertex normals. A vertex gets the zero vector if it has no faces or
-        only zero-area faces, or if the normals of its faces cancel each other out. The report counts these vertices.
+        removed, because they would contradict the vertex normals. The normal of a vertex is the zero vector if the
+        vertex has no faces or only zero-area faces, or if the normals of its faces cancel each other out. The report
+        counts these vertices.
 
         Example: ``scene.vertex_normals()``, in a recipe ``VertexNormals()``
 
@@ -1526,7 +1562,8 @@ class SceneOperations:
             ``"Area"``: The area of the face.
             ``"Angle"``: The angle of the face at the vertex.
             ``"Uniform"``: The same weight for all faces.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('VertexNormals', {'weight': weight}, on, id, progress)
@@ -1547,13 +1584,14 @@ class SceneOperations:
         ``.gltf`` files store the attribute as ``TANGENT``. For the computation, polygons are triangulated in the same
         way as for ``.glb`` and ``.gltf`` files. Later operations that change the shape or the faces remove the
         tangents, except a ``transform()`` that does not mirror the points. If the texture coordinates define no
-        direction at a corner, the corner gets an arbitrary tangent. An example is a face whose corners all have the
-        same texture coordinates. The report counts these corners.
+        direction at a corner, the corner gets an arbitrary tangent. This happens, for example, if all corners of a face
+        have the same texture coordinates. The report counts the corners with an arbitrary tangent.
 
         Example: ``scene.tangents()``, in a recipe ``Tangents()``
 
         :param uv: The name of the attribute with the texture coordinates for the normal map. Defaults to ``uv``.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Tangents', {'uv': uv}, on, id, progress)
@@ -1574,7 +1612,7 @@ class SceneOperations:
         A hole is a boundary loop: a closed loop of edges, each of which has a face on one side only. The outer rim of
         an open sheet is also a boundary loop; use ``around`` or ``max_edges`` to exclude it. No vertices are added, and
         existing elements keep their ids. With ``with_="Face"``, a hole with n edges gets one face with n corners. With
-        ``with_="Triangles"``, it gets n - 2 triangles and n - 3 new edges.
+        ``with_="Triangles"``, the hole gets n - 2 triangles and n - 3 new edges.
 
         For holes with up to 500 edges, the triangles have the smallest possible total area. A hole with more than 500
         edges is filled one triangle at a time. Each triangle cuts off the corner of the remaining hole whose two
@@ -1600,7 +1638,8 @@ class SceneOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
                 element.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('FillHoles', {'around': around, 'max_edges': max_edges, 'with': with_, 'on_refusal': on_refusal}, on, id, progress)
@@ -1616,16 +1655,17 @@ class SceneOperations:
     ) -> Self:
         """Joins two holes with a band of faces.
 
-        A hole is a boundary loop. Each hole is given by one of its vertices. The band starts at a new edge that joins
-        the two given vertices, and runs once around both holes. Let n and m be the numbers of edges of the two holes,
-        where n is at least m. The band then consists of m quadrilaterals and n - m evenly spread triangles. The
-        operation adds n edges and no vertices. Both holes can be in one connected part of the mesh, which then gets a
-        tunnel or a handle. They can also be in two separate parts of the mesh, which then become connected. To bridge
-        holes of two objects, first use ``join()`` to make one mesh of the objects.
+        A hole is a boundary loop: a closed loop of edges, each of which has a face on one side only. The parameter
+        ``first`` gives a vertex of one hole, and the parameter ``second`` gives a vertex of the other hole. The band
+        starts at a new edge that joins these two vertices, and runs once around both holes. Let n and m be the numbers
+        of edges of the two holes, where n is at least m. The band then consists of m quadrilaterals and n - m evenly
+        spread triangles. The operation adds n edges and no vertices. Both holes can be in one connected part of the
+        mesh, which then gets a tunnel or a handle. They can also be in two separate parts of the mesh, which then
+        become connected. To bridge holes of two objects, first use ``join()`` to make one mesh of the objects.
 
         Each new face copies the attribute values of the adjacent face at the hole with more edges. If both holes have
-        the same number of edges, the adjacent face at the hole of ``first`` is used. A new corner has the values of an
-        existing corner at the same vertex. Normals are dropped.
+        the same number of edges, the values come from the adjacent face at the hole of the vertex ``first``. A new
+        corner has the values of an existing corner at the same vertex. Normals are dropped.
 
         The operation is refused if one of the given vertices is not on the boundary (reason: ``NotBoundary``), or if
         both are on the same hole (reason: ``WrongPlace``). The operation is also refused if a new edge would join two
@@ -1636,7 +1676,8 @@ class SceneOperations:
 
         :param first: The id of a vertex on the first hole.
         :param second: The id of a vertex on the second hole. A new edge joins this vertex to the vertex ``first``.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('BridgeLoops', {'first': first, 'second': second}, on, id, progress)
@@ -1659,10 +1700,10 @@ class SceneOperations:
         but ``stitch()`` merges only the ends of edges that it joins.
 
         When two vertices become one, the vertex with the lower id is kept, with its position and values. When two edges
-        become one, the edge with the lower id is kept, with its values. The other vertex or edge is removed, so the ids
-        of all later vertices or edges change. Faces and corners do not change, so an edge whose sides have different
-        UVs becomes a seam. If a hole with only two edges remains beside a joined edge, the two edges of this hole are
-        also joined.
+        become one, the edge with the lower id is kept, with its values. The other vertex or edge is removed, so all
+        vertices or edges with higher ids get new ids. Faces and corners do not change, so an edge whose sides have
+        different UVs becomes a seam. If a hole with only two edges remains beside a joined edge, the two edges of this
+        hole are also joined.
 
         A pair of edges cannot be joined if both edges belong to the same face (reason: ``SameFace``), or if two other
         edges would then join the same two vertices (reason: ``DuplicateEdge``). A pair also cannot be joined if both
@@ -1673,12 +1714,13 @@ class SceneOperations:
 
         :param distance: The largest distance between corresponding ends of two edges, in scene units. With 0, only ends
             at equal positions are joined.
-        :param on_refusal: What to do when a pair cannot be joined, or when an edge coincides with several edges.
-            Defaults to ``"Error"``.
+        :param on_refusal: What to do when a pair of coinciding edges cannot be joined, or when an edge coincides with
+            several edges. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
                 element.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Stitch', {'distance': distance, 'on_refusal': on_refusal}, on, id, progress)
@@ -1695,11 +1737,11 @@ class SceneOperations:
         """Opens the mesh along edges.
 
         The edges can form paths, loops and trees. A closed loop can separate a region of faces from the rest of the
-        mesh. Each cut edge becomes two boundary edges, one for each side of the cut. If the cuts divide the faces
-        around a vertex into several groups, each group gets a separate copy of the vertex. The group that contains the
-        face with the lowest id keeps the old vertex, and the other copies get the highest ids. Faces keep their ids,
-        and no vertex moves. Copies of vertices and edges have the values of the originals. Corners keep their values.
-        ``stitch()`` is the inverse operation: it joins the two sides of a cut again.
+        mesh. Each cut edge becomes two boundary edges, one for each side of the cut. Cuts can divide the faces around a
+        vertex into several groups. The group that contains the face with the lowest id then keeps the old vertex, and
+        each other group gets a copy of the vertex. The copies get the highest ids. Faces keep their ids, and no vertex
+        moves. Copies of vertices and edges have the values of the originals. Corners keep their values. ``stitch()`` is
+        the inverse operation: it joins the two sides of a cut again.
 
         An edge on the boundary cannot be cut (reason: ``Boundary``). An edge also cannot be cut if neither of its ends
         is on the boundary or on another edge to cut (reason: ``DuplicateEdge``). The two sides of such a cut would
@@ -1713,7 +1755,8 @@ class SceneOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
                 element.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Cut', {'edges': edges, 'on_refusal': on_refusal}, on, id, progress)
@@ -1742,7 +1785,8 @@ class SceneOperations:
         :param name: The name of the tag. The name must not be empty and must not start or end with whitespace.
         :param vertices: The vertices to tag. If the selection is empty, the tag exists but no vertex has it. ``"All"``,
             ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('TagVertices', {'name': name, 'vertices': vertices}, on, id, progress)
@@ -1769,7 +1813,8 @@ class SceneOperations:
         :param name: The name of the tag. The name must not be empty and must not start or end with whitespace.
         :param edges: The edges to tag. If the selection is empty, the tag exists but no edge has it. ``"All"``,
             ``"Boundary"``, or a value of ``meshwright.sel``.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('TagEdges', {'name': name, 'edges': edges}, on, id, progress)
@@ -1796,7 +1841,8 @@ class SceneOperations:
         :param name: The name of the tag. The name must not be empty and must not start or end with whitespace.
         :param faces: The faces to tag. If the selection is empty, the tag exists but no face has it. ``"All"``,
             ``"Boundary"``, ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('TagFaces', {'name': name, 'faces': faces}, on, id, progress)
@@ -1824,9 +1870,9 @@ class SceneOperations:
         triangles.
 
         Vertex attributes are smoothed with the same weights as the positions. Texture coordinates and other corner
-        values are smoothed according to ``face_varying``, and seams are kept. When an edge or a triangle is split, its
-        parts copy its attribute values, such as tags and materials. Normals are dropped, because they would be wrong.
-        An edge or a vertex to which ``crease()`` gave the sharpness s stays sharp for s levels.
+        values are smoothed as the parameter ``face_varying`` specifies, and seams are kept. When an edge or a triangle
+        is split, its parts copy its attribute values, such as tags and materials. Normals are dropped, because they
+        would be wrong. An edge or a vertex to which ``crease()`` gave the sharpness s stays sharp for s levels.
 
         Example: ``scene.loop_subdivide(levels=2)``, in a recipe ``LoopSubdivide(levels: 2)``
 
@@ -1852,7 +1898,8 @@ class SceneOperations:
                 decreases by 1.
         :param face_varying: How texture coordinates and other corner values are smoothed. Defaults to ``"All"``.
             ``"None"``: Values are smoothed everywhere.
-            ``"CornersOnly"``: Like ``None_``, but if only one face has a value at a vertex, this value does not change.
+            ``"CornersOnly"``: Like ``None_``, but a value at a vertex does not change if only one face at this vertex
+                has the value.
             ``"CornersPlus1"``: Like ``CornersOnly``, but values also do not change at a vertex with three or more
                 different values.
             ``"CornersPlus2"``: Like ``CornersPlus1``, but values also do not change at the ends of seams.
@@ -1865,7 +1912,8 @@ class SceneOperations:
             refined faces does not move. The documentation of the Rust function ``subdivision::refine_faces`` describes
             the ids of new elements. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
             ``meshwright.sel``.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('LoopSubdivide', {'levels': levels, 'until': until, 'weights': weights, 'boundary': boundary, 'creasing': creasing, 'face_varying': face_varying, 'to_limit': to_limit, 'faces': faces}, on, id, progress)
@@ -1893,9 +1941,9 @@ class SceneOperations:
         faces and, in each face, in the order of its corners.
 
         Vertex attributes are smoothed with the same weights as the positions. Texture coordinates and other corner
-        values are smoothed according to ``face_varying``, and seams are kept. When an edge or a face is split, its
-        parts copy its attribute values, such as tags and materials. Normals are dropped, because they would be wrong.
-        An edge or a vertex to which ``crease()`` gave the sharpness s stays sharp for s levels.
+        values are smoothed as the parameter ``face_varying`` specifies, and seams are kept. When an edge or a face is
+        split, its parts copy its attribute values, such as tags and materials. Normals are dropped, because they would
+        be wrong. An edge or a vertex to which ``crease()`` gave the sharpness s stays sharp for s levels.
 
         Example: ``scene.catmull_clark(levels=2)``, in a recipe ``CatmullClark(levels: 2)``
 
@@ -1916,7 +1964,8 @@ class SceneOperations:
                 decreases by 1.
         :param face_varying: How texture coordinates and other corner values are smoothed. Defaults to ``"All"``.
             ``"None"``: Values are smoothed everywhere.
-            ``"CornersOnly"``: Like ``None_``, but if only one face has a value at a vertex, this value does not change.
+            ``"CornersOnly"``: Like ``None_``, but a value at a vertex does not change if only one face at this vertex
+                has the value.
             ``"CornersPlus1"``: Like ``CornersOnly``, but values also do not change at a vertex with three or more
                 different values.
             ``"CornersPlus2"``: Like ``CornersPlus1``, but values also do not change at the ends of seams.
@@ -1928,7 +1977,8 @@ class SceneOperations:
             on common edges as additional corners. The surface outside the refined faces does not move. The
             documentation of the Rust function ``subdivision::refine_faces`` describes the ids of new elements.
             ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('CatmullClark', {'levels': levels, 'until': until, 'boundary': boundary, 'creasing': creasing, 'face_varying': face_varying, 'to_limit': to_limit, 'faces': faces}, on, id, progress)
@@ -1973,7 +2023,8 @@ class SceneOperations:
             vertices on common edges as additional corners. The documentation of the Rust function
             ``subdivision::refine_faces`` describes the ids of new elements. ``"All"``, ``"Boundary"``,
             ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Midpoint', {'levels': levels, 'until': until, 'into': into, 'faces': faces}, on, id, progress)
@@ -1997,8 +2048,8 @@ class SceneOperations:
 
         Vertex attributes are interpolated with the same weights as the positions. Corner values are interpolated
         linearly, separately in each old triangle. When an edge or a triangle is split, its parts copy its attribute
-        values, such as tags and materials. Normals are dropped, because they would be wrong. Sharpness has no effect
-        and is copied unchanged.
+        values, such as tags and materials. Normals are dropped, because they would be wrong. The sharpness that
+        ``crease()`` sets has no effect and is copied unchanged.
 
         Example: ``scene.butterfly(levels=1)``, in a recipe ``Butterfly(levels: 1)``
 
@@ -2008,7 +2059,8 @@ class SceneOperations:
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
                 than ``below``.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Butterfly', {'levels': levels, 'until': until}, on, id, progress)
@@ -2046,7 +2098,8 @@ class SceneOperations:
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
                 than ``below``.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Sqrt3', {'levels': levels, 'until': until}, on, id, progress)
@@ -2084,7 +2137,8 @@ class SceneOperations:
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
                 than ``below``.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('DooSabin', {'levels': levels, 'until': until}, on, id, progress)
@@ -2108,7 +2162,8 @@ class SceneOperations:
         of the bounding box, or at most 1e-14 times the largest absolute coordinate. Every edge has two half-edges. When
         an edge is cut, the part at the start of the half-edge with the lower id keeps the id of the edge. When a face
         is cut, the part with the first corner keeps the id of the face. New elements get the highest ids. Where an edge
-        crosses the plane, attributes are interpolated. At a seam, the two sides are interpolated separately.
+        crosses the plane, attributes are interpolated. At a seam (an edge whose corner values, such as UVs, differ
+        between its two sides), the corner values of each side are interpolated separately.
 
         With ``keep="Front"``, the part of the mesh behind the plane is removed. With ``keep="Back"``, the part in front
         of the plane is removed. A face that lies in the plane belongs to the back if its normal points to the front,
@@ -2128,7 +2183,8 @@ class SceneOperations:
             ``"Back"``: The side of the plane that the normal of the plane points away from.
         :param tag: The name of a tag for the edges on the plane. Edges that already have the tag keep it. If omitted,
             no edges are tagged.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Bisect', {'point': point, 'normal': normal, 'keep': keep, 'tag': tag}, on, id, progress)
@@ -2150,7 +2206,7 @@ class SceneOperations:
         onto the plane, so that the result is symmetric. Faces that lie in the plane are removed, because they would
         become walls inside the result. The halves are joined at the vertices on the plane that are on the boundary of
         the kept half. Where the surface only touches the plane, without a boundary there, the halves are not joined.
-        The report counts the faces that are removed whole. Faces that the plane cuts are not counted.
+        The report counts the faces that are removed completely, but not the faces that the plane cuts.
 
         The elements of the kept half come first, in their old order. The elements of the mirror image follow.
         Attributes are copied, so both halves have the same texture coordinates, tags and joint weights. Normals and
@@ -2164,7 +2220,8 @@ class SceneOperations:
         :param from_: The half that is kept and mirrored. Defaults to ``"Front"``.
             ``"Front"``: The side of the plane that the normal of the plane points to.
             ``"Back"``: The side of the plane that the normal of the plane points away from.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Symmetrize', {'point': point, 'normal': normal, 'from': from_}, on, id, progress)
@@ -2188,16 +2245,16 @@ class SceneOperations:
         Edges are collapsed, starting with the edges whose collapse changes the surface least. A collapse merges the two
         ends of an edge into one vertex. The change is measured by the squared distance of this vertex to the planes of
         the original triangles around the merged vertices (Garland, Heckbert, 1997). The operation ends when the number
-        of faces given by ``faces`` or ``ratio`` is reached. It also ends when every remaining collapse would change one
-        of the properties below or could exceed ``error``. At least one of ``faces``, ``ratio`` and ``error`` must be
-        given, but not both ``faces`` and ``ratio``. All faces must be triangles.
+        of faces given by ``faces`` or ``ratio`` is reached. It also ends when every remaining collapse would change a
+        property that must be kept (see the list below) or could exceed ``error``. At least one of ``faces``, ``ratio``
+        and ``error`` must be given, but not both ``faces`` and ``ratio``. All faces must be triangles.
 
         The following properties are kept:
 
         - Topology: the numbers of holes, handles and separate parts do not change.
         - Lines: lines consist of boundary edges, seams of texture coordinates or normals, edges between faces with
-          different tags or materials, tagged edges, creases, and the edges of ``features``. A line can lose vertices,
-          but its ends, and the vertices where lines meet, keep their exact positions.
+          different tags or materials, tagged edges, creases, and the edges that ``features`` selects. A line can lose
+          vertices, but its ends, and the vertices where lines meet, keep their exact positions.
         - Attributes: changes of texture coordinates, normals, colors and other numbers count as changes of the surface
           (Hoppe, 1999), and new vertices get the values that fit best. Values are never mixed across a line, and no
           triangle is turned over in the texture. Stored normals are kept, so that a simplified mesh is shaded like the
@@ -2238,7 +2295,8 @@ class SceneOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
                 element.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Simplify', {'faces': faces, 'ratio': ratio, 'error': error, 'features': features, 'pin': pin, 'intersections': intersections, 'on_refusal': on_refusal}, on, id, progress)
@@ -2257,9 +2315,10 @@ class SceneOperations:
         """Makes levels of detail: simplified copies of an object.
 
         The copies are named after the object, for example ``rock_lod1``, ``rock_lod2`` and so on. Each copy is made as
-        with ``simplify()``, which keeps attributes, materials and lines. The first copy is made from the object, and
-        each further copy from the previous copy. If the scene has nodes that reference the object, each of these nodes
-        gets one sibling node for each copy. The sibling node references the copy and has the same transform.
+        with ``simplify()``, which keeps attributes, materials and lines such as boundaries, seams and creases. The
+        first copy is made from the object, and each further copy from the previous copy. If the scene has nodes that
+        reference the object, each of these nodes gets one sibling node for each copy. The sibling node references the
+        copy and has the same transform.
 
         Example: ``scene.lods(from_="mesh", ratios=[0.5, 0.25])``, in a recipe ``Lods(from: "mesh", ratios: [0.5,
         0.25])``
@@ -2308,10 +2367,10 @@ class SceneOperations:
 
         - Topology: the numbers of holes, handles and separate parts do not change.
         - Lines: lines consist of boundary edges, seams of texture coordinates or normals, edges between faces with
-          different tags or materials, tagged edges, creases, and the edges of ``features``. Vertices on a line can only
-          slide along this line. The ends of lines, the vertices where lines meet, and corners where a line turns by
-          more than 40 degrees keep their exact positions. Sharp edges that are not on a line are rounded. To keep sharp
-          edges, select them with ``features``.
+          different tags or materials, tagged edges, creases, and the edges that ``features`` selects. Vertices on a
+          line can only slide along this line. The ends of lines, the vertices where lines meet, and corners where a
+          line turns by more than 40 degrees keep their exact positions. Sharp edges that are not on a line are rounded.
+          To keep sharp edges, select them with ``features``.
         - Attributes: each vertex and corner gets the values of the original surface at its position. Values are never
           interpolated across a line.
         - Vertex tags: a new vertex gets a tag if all old vertices around its position have the tag. Usually, these old
@@ -2333,8 +2392,8 @@ class SceneOperations:
         Example: ``scene.remesh(length=0.5)``, in a recipe ``Remesh(length: 0.5)``
 
         :param length: The target length of edges, in scene units.
-        :param curvature: Target lengths that follow the curvature of the surface, instead of one target length for all
-            edges.
+        :param curvature: Target lengths that depend on the curvature of the surface, instead of one target length for
+            all edges.
             ``"error"``: The intended largest distance between the original surface and the new triangles, in scene
                 units. This distance is not guaranteed. To guarantee a distance, use the other parameter ``error``,
                 which belongs to the operation itself: ``remesh(error=..)``.
@@ -2355,7 +2414,8 @@ class SceneOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
                 element.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Remesh', {'length': length, 'curvature': curvature, 'features': features, 'error': error, 'pin': pin, 'passes': passes, 'on_refusal': on_refusal}, on, id, progress)
@@ -2410,7 +2470,8 @@ class SceneOperations:
         :param keep_volume: Whether to restore the original volume of the mesh after smoothing. To restore the volume,
             the operation shifts all vertices that it is allowed to move by the same distance along their normals. The
             mesh must be closed. Defaults to ``False``.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Smooth', {'by': by, 'passes': passes, 'vertices': vertices, 'pin': pin, 'boundary': boundary, 'keep_volume': keep_volume}, on, id, progress)
@@ -2430,16 +2491,16 @@ class SceneOperations:
         The operation copies vertex, corner and face attributes from the object ``from_`` to elements of the same kind
         in the changed mesh. For each element, the operation finds the nearest point on the surface of ``from_``, and
         the face that contains this point. Numbers and vectors of vertices and corners are interpolated inside this
-        face. Whole numbers, tags, and attributes that edits do not interpolate are copied from the corner of this face
-        that is nearest to the point. Values of faces are copied from this face. If the changed mesh already has the
-        attribute with the same type of values, the attribute is overwritten. If the type of values differs, the
+        face. Whole numbers, tags, and other attributes that are never interpolated are copied from the corner of this
+        face that is nearest to the point. Values of faces are copied from this face. If the changed mesh already has
+        the attribute with the same type of values, the attribute is overwritten. If the type of values differs, the
         operation fails. If the operation does not name its objects with ``on``, it changes all meshes except ``from_``.
 
-        All corners of a face take their values from the same side of a seam of the source object. No triangle is
-        therefore stretched across the seam in the texture. Usually the side that is nearest to the center of the face
-        is used. Seams divide the source object into charts. Where parts of the source object intersect, the chart that
-        is nearest to the center can be far from the corners of the face. If the chart that is nearest to a corner is
-        much nearer to the whole face, this chart is used instead.
+        All corners of a face of the changed mesh take their values from the same side of a seam of the source object.
+        No triangle is therefore stretched across the seam in the texture. Usually the side that is nearest to the
+        center of the face is used. Seams divide the source object into charts. Where parts of the source object
+        intersect, the chart that is nearest to the center can be far from the corners of the face. If the chart that is
+        nearest to a corner is much nearer to the whole face, this chart is used instead.
 
         Elements that are farther from the source object than ``within`` keep their values, or get zeros if the
         attribute is new. All corners of a face are treated alike. If one of the corners or the center of the face is
@@ -2453,7 +2514,8 @@ class SceneOperations:
         :param attributes: The names of the attributes, for example ``["uv", "color"]``.
         :param within: The largest distance from the object ``from_`` at which an element takes values, in scene units.
             If omitted, there is no limit.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Transfer', {'from': from_, 'attributes': attributes, 'within': within}, on, id, progress)
@@ -2496,7 +2558,8 @@ class SceneOperations:
             ``choice.Scale(..)``: Scales along x, y and z about the mean of the positions of the selected vertices.
         :param falloff: The distance from the selected vertices at which the movement has fallen to 0, in scene units.
             If omitted, only the selected vertices move.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('MoveVertices', {'vertices': vertices, 'by': by, 'falloff': falloff}, on, id, progress)
@@ -2534,7 +2597,8 @@ class SceneOperations:
             the vertex inwards.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Displace', {'by': by, 'distance': distance, 'vertices': vertices}, on, id, progress)
@@ -2555,13 +2619,13 @@ class SceneOperations:
     ) -> Self:
         """Bends a mesh, so that an axis becomes an arc of a circle.
 
-        Vertices at or below ``from_`` do not move. Between ``from_`` and ``to``, the axis becomes an arc of the same
-        length. The direction of the arc turns by ``angle`` from one end to the other. The part above ``to`` moves
-        rigidly with the end of the arc. Vertices between the axis and the center of the circle move closer together,
-        and vertices on the other side of the axis move apart. The distance between the center of the circle and the
-        axis is (to - from) / angle, with the angle in radians. Parts of the mesh that lie beyond the center of the
-        circle, as seen from the axis, turn inside out. Source: Barr, "Global and Local Deformations of Solid
-        Primitives", 1984.
+        The parameters ``from_`` and ``to`` are coordinates along the axis. Vertices at or below ``from_`` do not move.
+        Between ``from_`` and ``to``, the axis becomes an arc of the same length. The direction of the arc turns by
+        ``angle`` from one end to the other. The part above ``to`` moves rigidly with the end of the arc. Vertices
+        between the axis and the center of the circle move closer together, and vertices on the other side of the axis
+        move apart. The distance between the center of the circle and the axis is (to - from) / angle, with the angle in
+        radians. Parts of the mesh that lie beyond the center of the circle, as seen from the axis, turn inside out.
+        Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
 
         Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch
         with the surface. Only vertices move, so refine the mesh first if its faces are large.
@@ -2586,7 +2650,8 @@ class SceneOperations:
             coordinate of the mesh along the axis. Must not be less than ``from_``.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Bend', {'axis': axis, 'angle': angle, 'towards': towards, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, on, id, progress)
@@ -2606,11 +2671,11 @@ class SceneOperations:
     ) -> Self:
         """Rotates vertices around an axis, by an angle that grows along the axis.
 
-        The angle grows linearly from 0 at ``from_`` to ``angle`` at ``to``. Vertices below ``from_`` do not move, and
-        vertices above ``to`` rotate by ``angle``. A twist of a smooth surface would keep the volume exactly. The volume
-        of a mesh changes slightly, because its edges stay straight, but the change is small if the mesh is fine. A
-        second twist with the opposite angle and the same other parameters undoes the first twist. Source: Barr, "Global
-        and Local Deformations of Solid Primitives", 1984.
+        Along the axis, the angle grows linearly from 0 at the coordinate ``from_`` to ``angle`` at the coordinate
+        ``to``. Vertices below ``from_`` do not move, and vertices above ``to`` rotate by ``angle``. A twist of a smooth
+        surface would keep the volume exactly. The volume of a mesh changes slightly, because its edges stay straight,
+        but the change is small if the mesh is fine. A second twist with the opposite angle and the same other
+        parameters undoes the first twist. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
 
         Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch
         with the surface. Only vertices move, so refine the mesh first if its faces are large.
@@ -2629,7 +2694,8 @@ class SceneOperations:
             coordinate of the mesh along the axis. Must not be less than ``from_``.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Twist', {'axis': axis, 'angle': angle, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, on, id, progress)
@@ -2649,9 +2715,9 @@ class SceneOperations:
     ) -> Self:
         """Scales vertices towards or away from an axis, by a factor that changes along the axis.
 
-        The factor changes linearly from 1 at ``from_`` to ``factor`` at ``to``. Vertices below ``from_`` do not move,
-        and vertices above ``to`` are scaled by ``factor``. Coordinates along the axis do not change. Source: Barr,
-        "Global and Local Deformations of Solid Primitives", 1984.
+        Along the axis, the factor changes linearly from 1 at the coordinate ``from_`` to ``factor`` at the coordinate
+        ``to``. Vertices below ``from_`` do not move, and vertices above ``to`` are scaled by ``factor``. Coordinates
+        along the axis do not change. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
 
         Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch
         with the surface. Only vertices move, so refine the mesh first if its faces are large.
@@ -2671,7 +2737,8 @@ class SceneOperations:
             coordinate of the mesh along the axis. Must not be less than ``from_``.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Taper', {'axis': axis, 'factor': factor, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, on, id, progress)
@@ -2695,8 +2762,8 @@ class SceneOperations:
         point in the box is the weighted sum of the new positions of all control points, with Bernstein polynomials as
         weights (Sederberg, Parry, "Free-Form Deformation of Solid Geometric Models", 1986). If all control points move
         by the same offset, the whole box moves by this offset. If only one control point moves, the points in the box
-        move in the same direction, but less far. Only a point at a corner of the box moves as far as the control point
-        at this corner.
+        move in the same direction, but less far. If this control point is at a corner of the box, the point of the box
+        at the same corner moves exactly as far as the control point.
 
         Vertices outside the box do not move. Normals and tangents are dropped. Faces, element ids and other attributes
         do not change, so textures stretch with the surface. Only vertices move, so refine the mesh first if its faces
@@ -2715,7 +2782,8 @@ class SceneOperations:
             of the mesh is used.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Lattice', {'size': size, 'moves': moves, 'min': min, 'max': max, 'vertices': vertices}, on, id, progress)
@@ -2759,7 +2827,8 @@ class SceneOperations:
             value of ``meshwright.sel``.
         :param distance: The largest distance that a vertex is allowed to move, in scene units. If omitted, there is no
             limit.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Project', {'onto': onto, 'along': along, 'vertices': vertices, 'pin': pin, 'distance': distance}, on, id, progress)
@@ -2780,7 +2849,7 @@ class SceneOperations:
         show it in a picture (``picture()``), and save it to files (``save()``). If a later operation changes the mesh,
         the quantity is not computed again. Positions and other attributes do not change. Quantities are computed from
         the coordinates that the mesh stores. The transforms of the nodes that place the mesh in the scene are not
-        applied. The report states the lowest, the mean and the highest value of each object.
+        applied. For each object, the report states the lowest, the mean and the highest value.
 
         If the mesh already has an attribute of this name, the attribute is replaced. The operation fails if the
         existing attribute belongs to a different kind of element, or does not hold one floating-point number for each
@@ -2816,7 +2885,8 @@ class SceneOperations:
         :param missing: The value for elements at which the quantity is not defined. For example, a vertex without faces
             has no curvature. The report counts these elements. If omitted, the value is 0 for quantities that can be
             negative, and -1 for all other quantities.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Measure', {'of': of, 'name': name, 'missing': missing}, on, id, progress)
@@ -2842,18 +2912,18 @@ class SceneOperations:
         as the normals of its faces differ from their mean by at most ``max_angle``. Each chart is flattened by a least
         squares conformal map (Levy and others, 2002), which the hybrid method of Liu and others (2008) then improves. A
         chart is cut again if its flattened shape overlaps itself or exceeds ``max_stretch``. A chart is also cut again
-        if its angles are distorted too much. A small circle on the surface becomes an ellipse in the texture. On 95 %
-        of the area of a chart, the ratio of the axes of this ellipse is at most 1.15. All charts of a mesh have the
-        same scale, and no chart is mirrored. No polygon is divided between charts. Each mesh gets its own page, on
-        which the charts are arranged as by ``pack_uvs()``.
+        if its angles are distorted too much. This distortion turns a small circle on the surface into an ellipse in the
+        texture. On at least 95 % of the area of a chart, the longer axis of this ellipse is at most 1.15 times the
+        shorter axis. All charts of a mesh have the same scale, and no chart is mirrored. No polygon is divided between
+        charts. Each mesh gets its own page, on which the charts are arranged as by ``pack_uvs()``.
 
-        The coordinates are written to the corner attribute with the name ``uv``, which is replaced if it exists. Edges
-        at which charts meet become seams of the texture coordinates. Positions, faces and other attributes do not
-        change, but tangents are removed because they depend on the texture coordinates. Zero-area faces also have zero
-        area in the texture. The report counts the faces with zero area in the texture. If a polygon is bent so far that
-        it overlaps itself in the texture, the operation fails and gives the reason ``WrongPlace``. To avoid this
-        failure, triangulate such polygons before this operation. With ``on_refusal="Skip"``, the operation does not
-        fail, and the triangles of such a polygon overlap in the texture.
+        The coordinates are written to the corner attribute that the parameter ``uv`` names. If this attribute already
+        exists, it is replaced. Edges at which charts meet become seams of the texture coordinates. Positions, faces and
+        other attributes do not change, but tangents are removed because they depend on the texture coordinates.
+        Zero-area faces also have zero area in the texture. The report counts the faces with zero area in the texture.
+        If a polygon is bent so far that it overlaps itself in the texture, the operation fails and gives the reason
+        ``WrongPlace``. To avoid this failure, triangulate such polygons before this operation. With
+        ``on_refusal="Skip"``, the operation does not fail, and the triangles of such a polygon overlap in the texture.
 
         Example: ``scene.unwrap(max_angle=60)``, in a recipe ``Unwrap(max_angle: 60)``
 
@@ -2874,7 +2944,8 @@ class SceneOperations:
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
                 element.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Unwrap', {'seams': seams, 'max_angle': max_angle, 'max_stretch': max_stretch, 'page': page, 'padding': padding, 'uv': uv, 'on_refusal': on_refusal}, on, id, progress)
@@ -2908,7 +2979,8 @@ class SceneOperations:
             The size matters only for ``padding``, which is a number of texels. Defaults to ``1024``.
         :param padding: The width of the empty border around each chart, in texels. The distance between two charts is
             at least twice this width. Defaults to 2.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('PackUvs', {'uv': uv, 'page': page, 'padding': padding}, on, id, progress)
@@ -3003,7 +3075,8 @@ class SceneOperations:
         :param images: The folder of texture images that are not stored next to their model. The path is relative to the
             folder of the recipe. If omitted, the folder of the recipe. Missing images are not drawn, and the report
             lists them.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Picture', {'path': path, 'size': size, 'camera': camera, 'views': views, 'columns': columns, 'style': style, 'highlight': highlight, 'highlight_width': highlight_width, 'marks': marks, 'color_by': color_by, 'turntable': turntable, 'images': images}, on, id, progress)
@@ -3049,13 +3122,14 @@ class SceneOperations:
             positions.
         :param width: The width of the figure in SVG pixels. The font size is 12 pixels in narrow panels and up to 19
             pixels in wide panels. Defaults to ``640``.
-        :param columns: The number of panels in each row. If omitted, each row has as many panels as ``t`` has values
-            (with ``by_level``, as the curve has levels), but at most 4.
+        :param columns: The number of panels in each row. If omitted, each row has one panel for each value of ``t``
+            (with ``by_level``, for each level of the curve), but at most 4 panels.
         :param scale: The width and height of one SVG pixel, in pixels of a ``.png`` file. Has no effect on ``.svg``
             files. Defaults to ``2``.
         :param labels: Whether points are labeled with their names. Defaults to ``True``.
         :param legend: Whether there is a legend below the panels. Defaults to ``True``.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('CurveFigure', {'path': path, 't': t, 'by_level': by_level, 'before': before, 'width': width, 'columns': columns, 'scale': scale, 'labels': labels, 'legend': legend}, on, id, progress)
@@ -3093,7 +3167,8 @@ class SceneOperations:
         :param width: The width of the figure in SVG pixels. Defaults to ``640``.
         :param scale: The width and height of one SVG pixel, in pixels of a ``.png`` file. Has no effect on ``.svg``
             files. Defaults to ``2``.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('HalfEdgeFigure', {'path': path, 'faces': faces, 'width': width, 'scale': scale}, on, id, progress)
@@ -3132,7 +3207,8 @@ class SceneOperations:
         :param width: The width of the figure in SVG pixels. Defaults to ``640``.
         :param scale: The width and height of one SVG pixel, in pixels of a ``.png`` file. Has no effect on ``.svg``
             files. Defaults to ``2``.
-        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects that it supports.
+        :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
+            that it supports.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('UvPicture', {'path': path, 'uv': uv, 'fill': fill, 'edges': edges, 'width': width, 'scale': scale}, on, id, progress)
@@ -3170,16 +3246,16 @@ class MeshOperations:
         ``.csv`` file is a table of the positions and attributes of vertices, faces or corners. An ``.npz`` file stores
         the arrays of a mesh for the Python library ``NumPy``. ``load()`` cannot read ``.csv`` and ``.npz`` files. If
         ``path`` ends with ``.gz``, as in ``a.obj.gz``, the file is compressed with gzip. Files in the formats ``.glb``,
-        ``.mws`` and ``.npz`` cannot be compressed with gzip. The report lists the content of the objects that the
-        format cannot store.
+        ``.mws`` and ``.npz`` cannot be compressed with gzip. If the format cannot store some of the content of the
+        objects, the report lists this content.
 
         Example: ``mesh.save(path="a.obj")``
 
         :param path: The file. A relative path is relative to the working directory.
         :param images: What to do with the images of materials. If omitted, images are embedded in ``.glb`` files. For
             ``.gltf`` and ``.obj``, the image files of the model that was loaded are copied to the folder of the output
-            file. If images are embedded in the loaded model, a ``.gltf`` file also embeds them. For ``.obj``, they are
-            written to separate files, because OBJ cannot embed images.
+            file. If images are embedded in the loaded model, a ``.gltf`` file also embeds them. For ``.obj``, embedded
+            images are written to separate files, because OBJ cannot embed images.
             ``"Embed"``: Store the images in the file or, for ``.gltf``, in its ``.bin`` file.
             ``"Copy"``: Write the images to files in the folder of the written file.
             ``"Keep"``: Write only the paths of the images, as in the original model.
@@ -3201,8 +3277,8 @@ class MeshOperations:
             ``"color"``: The number of bits of each component of a color. Defaults to 8.
         :param weight_sets: For a skinned mesh in a ``.gltf`` or ``.glb`` file, the largest number of sets of joints for
             each vertex. A set has four joints and their weights, so with 2, for example, up to eight joints move a
-            vertex. If omitted, the number of sets in the file from which the mesh was read, or 1 if this number is not
-            known.
+            vertex. If omitted, the limit is the number of sets in the file from which the mesh was read, or 1 if this
+            number is not known.
         :param rows: For ``.csv``, the elements that have a row in the table: vertices, faces or corners. If omitted,
             vertices.
             ``"Vertices"``: Vertices.
@@ -3226,12 +3302,13 @@ class MeshOperations:
     ) -> Self:
         """Turns Bezier patches into a mesh.
 
-        Acts on the objects that the operation lists in ``on``. Each object becomes one mesh of the same name. Every
-        patch is divided into ``segments`` x ``segments`` cells. Elements of earlier patches have lower ids. Different
-        patches share no vertices. If two patches have the same control points on a common side, their vertices on this
-        side have bitwise equal positions, so that ``weld(distance=0)`` joins the patches. A side whose points coincide,
-        as at the pole of a teapot's lid, becomes one vertex. Patches without area give no faces. The report counts
-        these patches. The mesh has UVs only with ``uvs=True``, and normals only with ``normals=True``.
+        The operation acts on the objects that its parameter ``on`` lists. Each object becomes one mesh of the same
+        name. Every patch is divided into ``segments`` x ``segments`` cells. Vertices, edges and faces of earlier
+        patches have lower ids. Different patches share no vertices. If two patches have the same control points on a
+        common side, their vertices on this side have bitwise equal positions, so that ``weld(distance=0)`` joins the
+        patches. If all points of a side coincide, as at the pole of a teapot's lid, the side becomes one vertex.
+        Patches without area give no faces. The report counts the patches without area. The mesh has UVs only with
+        ``uvs=True``, and normals only with ``normals=True``.
 
         Example: ``mesh.tessellate(segments=3)``
 
@@ -3280,9 +3357,9 @@ class MeshOperations:
         """Replaces each curve with polylines that show the levels of de Casteljau's algorithm.
 
         A curve with n control points becomes n polylines in the plane z = 0. The first polyline is the control polygon
-        with n points. The points of each later polyline divide the segments of the polyline before it in the ratio t :
-        1 - t, so the number of points decreases by one. The last polyline has a single point, the point of the curve at
-        ``t``.
+        with n points. The points of each later polyline divide the segments of the previous polyline in the ratio t : 1
+        - t, so each polyline has one point fewer than the previous polyline. The last polyline has a single point, the
+        point of the curve at ``t``.
 
         Example: ``mesh.curve_levels(t=0)``
 
@@ -3326,10 +3403,10 @@ class MeshOperations:
     ) -> Self:
         """Moves one control point of Bezier patches.
 
-        Acts on the objects that the operation lists in ``on``. Control points of the same object that are at the same
-        position move together, so that patches with a common side stay joined. The point of a patch at the parameters
-        (u, v) moves by B(u) C(v) d. Here, d is the displacement of the control point, and B and C are the Bernstein
-        polynomials of its column and its row. The report counts the changed objects.
+        The operation acts on the objects that its parameter ``on`` lists. Control points of the same object that are at
+        the same position move together, so that patches with a common side stay joined. The point of a patch at the
+        parameters (u, v) moves by B(u) C(v) d. Here, d is the displacement of the control point, and B and C are the
+        Bernstein polynomials of its column and its row. The report counts the changed objects.
 
         Example: ``mesh.move_patch_point(index=5, to=(1, 2, 0.5))``
 
@@ -3360,9 +3437,9 @@ class MeshOperations:
         changes the transforms of these nodes instead of the points. The descendants of these nodes move with them. A
         skinned mesh follows its joints, so with ``space="Scene"``, the operation moves the joints. If the transform of
         a node is animated, the animation would overwrite the change. The operation therefore gives this node a new
-        parent and moves the parent. If ``space`` is ``Scene``, ``on:`` is omitted and ``about`` is not ``Center``, root
-        nodes without an object also move, such as the nodes of cameras and lights. The operation fails if a curve would
-        leave the plane z = 0.
+        parent and moves the parent. Root nodes without an object, such as the nodes of cameras and lights, also move if
+        three conditions hold: ``space`` is ``Scene``, the operation has no ``on``, and ``about`` is not ``Center``. The
+        operation fails if a curve would leave the plane z = 0.
 
         Ids do not change. If the points of a mesh change, the normals, tangents and deltas of morph targets of this
         mesh are also transformed. Other attributes do not change. If the points are mirrored (one or three negative
@@ -3370,7 +3447,7 @@ class MeshOperations:
         reversed face, the first corner stays first, and the other corners follow in reverse order. In mirrored patches,
         u and v are exchanged, so that the same side of the surface remains the outside. Attributes with the edit rule
         ``Drop``, such as tangents of corners, are removed by every step that changes the connectivity. Mirroring the
-        points removes them too.
+        points reverses the faces, so it also removes the attributes with this rule.
 
         Example: ``mesh.transform(scale=(2, 1, 1), rotate=[{"axis": "Z", "angle": 90}], move=(3, 1, 0))``
 
@@ -3404,17 +3481,18 @@ class MeshOperations:
 
         Two vertices are linked if they are at most ``distance`` apart. Vertices that are connected by a chain of links
         merge into one, even if the ends of the chain are farther apart than ``distance``. Of the vertices that merge,
-        the vertex with the lowest id remains, with its position and values. The others are removed, so the ids of later
-        vertices change. If several edges then join the same two vertices, they become one edge with the values of the
-        edge with the lowest id. Corner values, such as UVs, stay with the corners of the faces, so UV seams are kept.
+        the vertex with the lowest id remains, with its position and values. The other vertices are removed, so vertices
+        with higher ids get new ids. If several edges then join the same two vertices, they become one edge with the
+        values of the edge with the lowest id. Corner values, such as UVs, stay with the corners of the faces, so UV
+        seams are kept.
 
         If neighboring corners of a face merge, the face loses a corner. A face is removed if it has fewer than three
         corners left or would contain a vertex twice. After the merge, neighboring faces can have opposite orientations.
         If all orientations in a connected part of the mesh can be made to agree, the operation reverses the faces with
         the less frequent orientation. If faces are reversed, the report counts them, and the normals of vertices and
         corners are dropped. If the result is still not a manifold, vertices and edges are copied. For example, if three
-        faces share an edge, the third face gets a copy of the edge. The report counts the copies. If no vertices merge,
-        the mesh does not change.
+        faces share an edge, one of these faces gets a copy of the edge. The report counts the copies. If no vertices
+        merge, the mesh does not change.
 
         Example: ``mesh.weld(distance=0)``
 
@@ -3462,11 +3540,12 @@ class MeshOperations:
         A quadrilateral is cut along its shorter diagonal. If both diagonals have the same length, the quadrilateral is
         cut along the diagonal that contains its vertex with the lowest id. Two lengths count as the same if the
         relative difference of their squares is at most 1e-12. A diagonal is bad if one of its two triangles has zero
-        area or is turned over: clockwise where the face is counter-clockwise. If the diagonal chosen so far is bad and
-        the other one is not, the other one is used. A quadrilateral with a reflex corner (an angle above 180 degrees)
-        is therefore cut at that corner. A diagonal is a duplicate if its ends are also joined by an edge or by a
-        diagonal of another face. A duplicate is replaced with the other diagonal if the other one is equally good and
-        not itself a duplicate. The report counts the duplicates that remain.
+        area or is turned over: clockwise where the face is counter-clockwise. If the diagonal that was chosen by length
+        or id is bad and the other diagonal is not bad, the other diagonal is used. A quadrilateral with a reflex corner
+        (an angle above 180 degrees) is therefore cut at that corner. A diagonal is a duplicate if its ends are also
+        joined by an edge or by a diagonal of another face. A duplicate is replaced with the other diagonal if the other
+        diagonal is not a duplicate, and if either both diagonals are bad or neither is bad. The report counts the
+        duplicates that remain.
 
         A face with more than four corners is projected along its normal. The projected face is cut by ear clipping, or
         into monotone pieces if it has more than 4096 corners. Then diagonals are flipped until the triangulation is a
@@ -3475,9 +3554,9 @@ class MeshOperations:
         corners. A face that cannot be triangulated in this way becomes a triangle fan around its vertex with the lowest
         id. The report counts these faces.
 
-        In the list of faces, the triangles of a face take the place of this face, so the ids of later faces change. The
-        triangles have the values of the face. Vertices and edges keep their ids. A corner of a triangle has the values
-        of the old face's corner at the same vertex.
+        In the list of faces, the triangles of a face take the place of this face, so faces with higher ids get new ids.
+        The triangles have the values of the face. Vertices and edges keep their ids. A corner of a triangle has the
+        values of the old face's corner at the same vertex.
 
         Example: ``mesh.triangulate()``
 
@@ -3510,16 +3589,17 @@ class MeshOperations:
         new corner of a face gets its values from the corner of the other face at the same vertex. All other corners
         keep their values.
 
-        If a face beside the edge has more than three corners, consider the polygon that the two faces form together.
-        Each end of the edge moves to the next corner of this polygon, counter-clockwise. With ``until="Delaunay"`` or
-        ``until="Valence"``, only edges between two triangles are flipped.
+        If a face beside the edge has more than three corners, the edge turns inside the polygon that the two faces form
+        together: each end of the edge moves to the next corner of this polygon, counter-clockwise. With
+        ``until="Delaunay"`` or ``until="Valence"``, only edges between two triangles are flipped.
 
-        With ``until="Delaunay"`` or ``until="Valence"``, an edge is flipped only if the flip improves the mesh. The
-        operation makes several passes over the edges. It stops after a pass that flips no edge, or after ``passes``
-        passes. Flips with ``until="Delaunay"`` or ``until="Valence"`` neither fold the surface nor create zero-area
-        triangles. If a flip that would improve the mesh is refused, the edge is left unchanged, and the operation does
-        not fail. The report counts the refused flips for each reason. The report also states the number of passes, and
-        whether the operation stopped because of the limit ``passes``.
+        With ``until="Delaunay"`` or ``until="Valence"``, an edge is flipped only if the flip improves the angles of the
+        triangles (``Delaunay``) or the numbers of edges at the vertices (``Valence``). The operation makes several
+        passes over the edges. It stops after a pass that flips no edge, or after ``passes`` passes. Flips with
+        ``until="Delaunay"`` or ``until="Valence"`` neither fold the surface nor create zero-area triangles. If a flip
+        that would improve the mesh is refused, the edge is left unchanged, and the operation does not fail. The report
+        counts the refused flips for each reason. The report also states the number of passes, and whether the operation
+        stopped because of the limit ``passes``.
 
         On a surface that is not flat, a flip changes the shape. To keep creases and other edges, exclude them from
         ``edges``. For example, ``sel.Flat(below=30)`` selects only edges at which the surface bends by less than 30
@@ -3684,12 +3764,12 @@ class MeshOperations:
 
         A selected edge and both of its ends are removed, and a new face replaces the edge. On both sides, the new face
         extends up to the distance ``width`` from the old edge. An edge that is not selected, but shares an end with a
-        selected edge, is shortened at this end. If the two edges are not neighboring sides of a face, the new end is at
-        the distance ``width`` from the old end. If they are, the new end is where the distance from the selected edge
-        is ``width``, but at most four times ``width`` from the old end. If two selected edges are neighboring sides of
-        a face, a new vertex inside this face replaces the corner between them. If three or more new vertices replace an
-        old vertex, another new face joins the new vertices. All edges are beveled together, so a cube that is beveled
-        at all edges keeps all of its symmetries.
+        selected edge, is shortened at this end. If the two edges are neighboring sides of a face, the new end is where
+        the distance from the selected edge is ``width``, but at most four times ``width`` from the old end. If the two
+        edges are not neighboring sides of a face, the new end is at the distance ``width`` from the old end. If two
+        selected edges are neighboring sides of a face, a new vertex inside this face replaces the corner between them.
+        If three or more new vertices replace an old vertex, another new face joins the new vertices. All selected edges
+        are beveled at once, so a cube that is beveled at all edges keeps all of its symmetries.
 
         The ends of the edges are removed, so the ids of the vertices after them change. New vertices get the highest
         ids. Faces keep their ids. New faces get the highest ids: first the faces that replace edges, in order of these
@@ -3700,10 +3780,10 @@ class MeshOperations:
         of these faces is used, but the choice is the same in every run. New edges have zero values (no crease, no
         tags). Normals are dropped.
 
-        An edge cannot be beveled if it is on the boundary (``Boundary``), or if one of its ends has only one other edge
-        and this other edge is not selected (``FewEdges``). If the bevels at the two ends of any edge would overlap, the
-        selected edges at these ends cannot be beveled (``OutsideEdge``). If the result would not be manifold, no edge
-        is beveled (``NonManifold``).
+        An edge cannot be beveled if it is on the boundary (reason: ``Boundary``), or if one of its ends has only one
+        other edge and this other edge is not selected (reason: ``FewEdges``). If the bevels at the two ends of any edge
+        would overlap, the selected edges at these ends cannot be beveled (reason: ``OutsideEdge``). If the result would
+        not be manifold, no edge is beveled (reason: ``NonManifold``).
 
         Example: ``mesh.bevel_edges(edges=sel.Between(0, 2), width=0.25)``
 
@@ -3732,12 +3812,13 @@ class MeshOperations:
     ) -> Self:
         """Makes edges and vertices sharp for subdivision.
 
-        Sets the edge attribute ``crease`` of the selected edges and the vertex attribute ``corner`` of the selected
-        vertices to ``sharpness``. Elements that are not selected keep their values, or get 0 if the attribute did not
-        exist before the operation. With sharpness s, Loop and Catmull-Clark subdivision keep an edge or a vertex sharp
-        in the first s levels and smooth it in later levels. For example, an edge with sharpness 2.5 is sharp in the
-        first two levels. In the third level, the positions are halfway between the sharp and the smooth result. An edge
-        with sharpness 10 stays sharp, however many levels follow. Boundary edges are always sharp.
+        The operation sets two attributes to ``sharpness``: the edge attribute ``crease`` of the selected edges, and the
+        vertex attribute ``corner`` of the selected vertices. Elements that are not selected keep their values, or get 0
+        if the attribute did not exist before the operation. With sharpness s, Loop and Catmull-Clark subdivision keep
+        an edge or a vertex sharp in the first s levels and smooth it in later levels. For example, an edge with
+        sharpness 2.5 is sharp in the first two levels. In the third level, the positions are halfway between the sharp
+        and the smooth result. An edge with sharpness 10 stays sharp, however many levels follow. Boundary edges are
+        always sharp.
 
         At least one of ``edges`` and ``vertices`` must be given. The geometry does not change. The report counts the
         elements whose value changed.
@@ -3810,7 +3891,8 @@ class MeshOperations:
         zero values (no crease, no tags).
 
         A cut is refused if the two vertices are the same or are already joined by an edge. A cut is also refused if no
-        face has both vertices as corners, or if several faces do, because the cut would then be ambiguous.
+        face has both vertices as corners. If several faces have both vertices as corners, the cut is refused because it
+        is ambiguous.
 
         Example: ``mesh.split_faces(between=[])``
 
@@ -3841,10 +3923,11 @@ class MeshOperations:
         edges or vertices together with their faces, select the faces with ``sel.FacesBeside("edges")`` or
         ``sel.FacesAround("vertices")``.
 
-        The removal is refused if the remaining faces around a vertex would form several fans that meet only at that
-        vertex. In this case, the operation with ``on_refusal="Skip"`` tries to remove the faces one by one, in order of
-        their ids. The operation repeats these attempts until no more selected faces can be removed. The report counts
-        the selected faces that remain as refused.
+        The removal is refused if the remaining faces around a vertex would form several fans (groups of faces that are
+        connected across edges) that meet only at that vertex. In this case, the operation with ``on_refusal="Skip"``
+        tries to remove the faces one by one, in order of their ids. The operation repeats these attempts until no more
+        selected faces can be removed. Selected faces that still cannot be removed are kept, and the report counts them
+        as refused.
 
         Example: ``mesh.delete_faces(faces="All")``
 
@@ -3965,12 +4048,12 @@ class MeshOperations:
     ) -> Self:
         """Shrinks and raises faces, and surrounds each face with a ring of faces.
 
-        Works like ``inset_faces()``, and also moves the inner face along its normal. Each face is beveled separately,
-        even if selected faces share edges. The shrunk inner face keeps the id of the selected face, and existing
-        vertices do not move. For a face with n corners, the operation adds n vertices, 2 n edges and n faces with four
-        corners. New vertices and faces get the highest ids. They are numbered in order of the selected faces, and
-        counter-clockwise around each face from its first corner. A zero-area face has no normal, so its inner face is
-        not raised.
+        The operation works like ``inset_faces()``, and also moves the inner face along its normal. Each face is beveled
+        separately, even if selected faces share edges. The shrunk inner face keeps the id of the selected face, and
+        existing vertices do not move. For a face with n corners, the operation adds n vertices, 2 n edges and n faces
+        with four corners. New vertices and faces get the highest ids. They are numbered in order of the selected faces,
+        and counter-clockwise around each face from its first corner. A zero-area face has no normal, so its inner face
+        is not raised.
 
         Attribute values at a new corner or vertex are interpolated with the parameter ``fraction``: from the value at
         the outer corner (0) to the mean of the values at all corners of the face (1). The faces of the ring have the
@@ -4007,18 +4090,18 @@ class MeshOperations:
     ) -> Self:
         """Removes vertices and merges the faces around them.
 
-        Vertices are removed in order of their ids. Each removal is checked against the mesh as edited so far. If a
-        vertex has three or more edges, all faces around it become one face. The merged face replaces the face with the
-        lowest id and has its values. If the vertex is on the boundary, its two boundary edges also become one edge. If
-        the vertex has only two edges, these edges become one edge, and each face beside this edge loses a corner. When
-        two edges become one, the edge with the lower id is kept, with its values. The remaining elements keep their
-        order and their values but get new ids. Normals are dropped.
+        Vertices are removed in order of their ids. Each removal is checked against the mesh that the earlier removals
+        have produced. If a vertex has three or more edges, all faces around it become one face. The merged face
+        replaces the face with the lowest id and has its values. If the vertex is on the boundary, its two boundary
+        edges also become one edge. If the vertex has only two edges, these edges become one edge, and each face beside
+        this edge loses a corner. When two edges become one, the edge with the lower id is kept, with its values. The
+        remaining elements keep their order and their values but get new ids. Normals are dropped.
 
         A vertex cannot be removed if it is isolated or has a single edge. It also cannot be removed if a neighboring
         vertex would be left with a single edge, which ends inside a face. A removal is also refused if a face would
-        contain a vertex twice or have fewer than three corners. The same applies if a new edge would join two vertices
-        that an edge already joins. At a seam, texture coordinates or other corner values differ between the two sides
-        of an edge. A vertex at a seam is removed only if ``seams`` is ``Drop``.
+        contain a vertex twice or have fewer than three corners, or if a new edge would join two vertices that an edge
+        already joins. A vertex on a seam (an edge whose corner values, such as UVs, differ between its two sides) is
+        removed only if ``seams`` is ``Drop``.
 
         Example: ``mesh.dissolve_vertices(vertices=sel.Vertices([1]))``
 
@@ -4089,8 +4172,9 @@ class MeshOperations:
         """Computes a unit normal for every vertex, from the faces around it.
 
         The normals are written to the vertex attribute ``normal``, which is replaced if it exists. Corner normals are
-        removed, because they would contradict the vertex normals. A vertex gets the zero vector if it has no faces or
-        only zero-area faces, or if the normals of its faces cancel each other out. The report counts these vertices.
+        removed, because they would contradict the vertex normals. The normal of a vertex is the zero vector if the
+        vertex has no faces or only zero-area faces, or if the normals of its faces cancel each other out. The report
+        counts these vertices.
 
         Example: ``mesh.vertex_normals()``
 
@@ -4118,8 +4202,8 @@ class MeshOperations:
         ``.gltf`` files store the attribute as ``TANGENT``. For the computation, polygons are triangulated in the same
         way as for ``.glb`` and ``.gltf`` files. Later operations that change the shape or the faces remove the
         tangents, except a ``transform()`` that does not mirror the points. If the texture coordinates define no
-        direction at a corner, the corner gets an arbitrary tangent. An example is a face whose corners all have the
-        same texture coordinates. The report counts these corners.
+        direction at a corner, the corner gets an arbitrary tangent. This happens, for example, if all corners of a face
+        have the same texture coordinates. The report counts the corners with an arbitrary tangent.
 
         Example: ``mesh.tangents()``
 
@@ -4144,7 +4228,7 @@ class MeshOperations:
         A hole is a boundary loop: a closed loop of edges, each of which has a face on one side only. The outer rim of
         an open sheet is also a boundary loop; use ``around`` or ``max_edges`` to exclude it. No vertices are added, and
         existing elements keep their ids. With ``with_="Face"``, a hole with n edges gets one face with n corners. With
-        ``with_="Triangles"``, it gets n - 2 triangles and n - 3 new edges.
+        ``with_="Triangles"``, the hole gets n - 2 triangles and n - 3 new edges.
 
         For holes with up to 500 edges, the triangles have the smallest possible total area. A hole with more than 500
         edges is filled one triangle at a time. Each triangle cuts off the corner of the remaining hole whose two
@@ -4185,16 +4269,17 @@ class MeshOperations:
     ) -> Self:
         """Joins two holes with a band of faces.
 
-        A hole is a boundary loop. Each hole is given by one of its vertices. The band starts at a new edge that joins
-        the two given vertices, and runs once around both holes. Let n and m be the numbers of edges of the two holes,
-        where n is at least m. The band then consists of m quadrilaterals and n - m evenly spread triangles. The
-        operation adds n edges and no vertices. Both holes can be in one connected part of the mesh, which then gets a
-        tunnel or a handle. They can also be in two separate parts of the mesh, which then become connected. To bridge
-        holes of two objects, first use ``join()`` to make one mesh of the objects.
+        A hole is a boundary loop: a closed loop of edges, each of which has a face on one side only. The parameter
+        ``first`` gives a vertex of one hole, and the parameter ``second`` gives a vertex of the other hole. The band
+        starts at a new edge that joins these two vertices, and runs once around both holes. Let n and m be the numbers
+        of edges of the two holes, where n is at least m. The band then consists of m quadrilaterals and n - m evenly
+        spread triangles. The operation adds n edges and no vertices. Both holes can be in one connected part of the
+        mesh, which then gets a tunnel or a handle. They can also be in two separate parts of the mesh, which then
+        become connected. To bridge holes of two objects, first use ``join()`` to make one mesh of the objects.
 
         Each new face copies the attribute values of the adjacent face at the hole with more edges. If both holes have
-        the same number of edges, the adjacent face at the hole of ``first`` is used. A new corner has the values of an
-        existing corner at the same vertex. Normals are dropped.
+        the same number of edges, the values come from the adjacent face at the hole of the vertex ``first``. A new
+        corner has the values of an existing corner at the same vertex. Normals are dropped.
 
         The operation is refused if one of the given vertices is not on the boundary (reason: ``NotBoundary``), or if
         both are on the same hole (reason: ``WrongPlace``). The operation is also refused if a new edge would join two
@@ -4227,10 +4312,10 @@ class MeshOperations:
         but ``stitch()`` merges only the ends of edges that it joins.
 
         When two vertices become one, the vertex with the lower id is kept, with its position and values. When two edges
-        become one, the edge with the lower id is kept, with its values. The other vertex or edge is removed, so the ids
-        of all later vertices or edges change. Faces and corners do not change, so an edge whose sides have different
-        UVs becomes a seam. If a hole with only two edges remains beside a joined edge, the two edges of this hole are
-        also joined.
+        become one, the edge with the lower id is kept, with its values. The other vertex or edge is removed, so all
+        vertices or edges with higher ids get new ids. Faces and corners do not change, so an edge whose sides have
+        different UVs becomes a seam. If a hole with only two edges remains beside a joined edge, the two edges of this
+        hole are also joined.
 
         A pair of edges cannot be joined if both edges belong to the same face (reason: ``SameFace``), or if two other
         edges would then join the same two vertices (reason: ``DuplicateEdge``). A pair also cannot be joined if both
@@ -4241,8 +4326,8 @@ class MeshOperations:
 
         :param distance: The largest distance between corresponding ends of two edges, in scene units. With 0, only ends
             at equal positions are joined.
-        :param on_refusal: What to do when a pair cannot be joined, or when an edge coincides with several edges.
-            Defaults to ``"Error"``.
+        :param on_refusal: What to do when a pair of coinciding edges cannot be joined, or when an edge coincides with
+            several edges. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
                 element.
@@ -4262,11 +4347,11 @@ class MeshOperations:
         """Opens the mesh along edges.
 
         The edges can form paths, loops and trees. A closed loop can separate a region of faces from the rest of the
-        mesh. Each cut edge becomes two boundary edges, one for each side of the cut. If the cuts divide the faces
-        around a vertex into several groups, each group gets a separate copy of the vertex. The group that contains the
-        face with the lowest id keeps the old vertex, and the other copies get the highest ids. Faces keep their ids,
-        and no vertex moves. Copies of vertices and edges have the values of the originals. Corners keep their values.
-        ``stitch()`` is the inverse operation: it joins the two sides of a cut again.
+        mesh. Each cut edge becomes two boundary edges, one for each side of the cut. Cuts can divide the faces around a
+        vertex into several groups. The group that contains the face with the lowest id then keeps the old vertex, and
+        each other group gets a copy of the vertex. The copies get the highest ids. Faces keep their ids, and no vertex
+        moves. Copies of vertices and edges have the values of the originals. Corners keep their values. ``stitch()`` is
+        the inverse operation: it joins the two sides of a cut again.
 
         An edge on the boundary cannot be cut (reason: ``Boundary``). An edge also cannot be cut if neither of its ends
         is on the boundary or on another edge to cut (reason: ``DuplicateEdge``). The two sides of such a cut would
@@ -4384,9 +4469,9 @@ class MeshOperations:
         triangles.
 
         Vertex attributes are smoothed with the same weights as the positions. Texture coordinates and other corner
-        values are smoothed according to ``face_varying``, and seams are kept. When an edge or a triangle is split, its
-        parts copy its attribute values, such as tags and materials. Normals are dropped, because they would be wrong.
-        An edge or a vertex to which ``crease()`` gave the sharpness s stays sharp for s levels.
+        values are smoothed as the parameter ``face_varying`` specifies, and seams are kept. When an edge or a triangle
+        is split, its parts copy its attribute values, such as tags and materials. Normals are dropped, because they
+        would be wrong. An edge or a vertex to which ``crease()`` gave the sharpness s stays sharp for s levels.
 
         Example: ``mesh.loop_subdivide(levels=2)``
 
@@ -4412,7 +4497,8 @@ class MeshOperations:
                 decreases by 1.
         :param face_varying: How texture coordinates and other corner values are smoothed. Defaults to ``"All"``.
             ``"None"``: Values are smoothed everywhere.
-            ``"CornersOnly"``: Like ``None_``, but if only one face has a value at a vertex, this value does not change.
+            ``"CornersOnly"``: Like ``None_``, but a value at a vertex does not change if only one face at this vertex
+                has the value.
             ``"CornersPlus1"``: Like ``CornersOnly``, but values also do not change at a vertex with three or more
                 different values.
             ``"CornersPlus2"``: Like ``CornersPlus1``, but values also do not change at the ends of seams.
@@ -4452,9 +4538,9 @@ class MeshOperations:
         faces and, in each face, in the order of its corners.
 
         Vertex attributes are smoothed with the same weights as the positions. Texture coordinates and other corner
-        values are smoothed according to ``face_varying``, and seams are kept. When an edge or a face is split, its
-        parts copy its attribute values, such as tags and materials. Normals are dropped, because they would be wrong.
-        An edge or a vertex to which ``crease()`` gave the sharpness s stays sharp for s levels.
+        values are smoothed as the parameter ``face_varying`` specifies, and seams are kept. When an edge or a face is
+        split, its parts copy its attribute values, such as tags and materials. Normals are dropped, because they would
+        be wrong. An edge or a vertex to which ``crease()`` gave the sharpness s stays sharp for s levels.
 
         Example: ``mesh.catmull_clark(levels=2)``
 
@@ -4475,7 +4561,8 @@ class MeshOperations:
                 decreases by 1.
         :param face_varying: How texture coordinates and other corner values are smoothed. Defaults to ``"All"``.
             ``"None"``: Values are smoothed everywhere.
-            ``"CornersOnly"``: Like ``None_``, but if only one face has a value at a vertex, this value does not change.
+            ``"CornersOnly"``: Like ``None_``, but a value at a vertex does not change if only one face at this vertex
+                has the value.
             ``"CornersPlus1"``: Like ``CornersOnly``, but values also do not change at a vertex with three or more
                 different values.
             ``"CornersPlus2"``: Like ``CornersPlus1``, but values also do not change at the ends of seams.
@@ -4554,8 +4641,8 @@ class MeshOperations:
 
         Vertex attributes are interpolated with the same weights as the positions. Corner values are interpolated
         linearly, separately in each old triangle. When an edge or a triangle is split, its parts copy its attribute
-        values, such as tags and materials. Normals are dropped, because they would be wrong. Sharpness has no effect
-        and is copied unchanged.
+        values, such as tags and materials. Normals are dropped, because they would be wrong. The sharpness that
+        ``crease()`` sets has no effect and is copied unchanged.
 
         Example: ``mesh.butterfly(levels=1)``
 
@@ -4662,7 +4749,8 @@ class MeshOperations:
         of the bounding box, or at most 1e-14 times the largest absolute coordinate. Every edge has two half-edges. When
         an edge is cut, the part at the start of the half-edge with the lower id keeps the id of the edge. When a face
         is cut, the part with the first corner keeps the id of the face. New elements get the highest ids. Where an edge
-        crosses the plane, attributes are interpolated. At a seam, the two sides are interpolated separately.
+        crosses the plane, attributes are interpolated. At a seam (an edge whose corner values, such as UVs, differ
+        between its two sides), the corner values of each side are interpolated separately.
 
         With ``keep="Front"``, the part of the mesh behind the plane is removed. With ``keep="Back"``, the part in front
         of the plane is removed. A face that lies in the plane belongs to the back if its normal points to the front,
@@ -4703,7 +4791,7 @@ class MeshOperations:
         onto the plane, so that the result is symmetric. Faces that lie in the plane are removed, because they would
         become walls inside the result. The halves are joined at the vertices on the plane that are on the boundary of
         the kept half. Where the surface only touches the plane, without a boundary there, the halves are not joined.
-        The report counts the faces that are removed whole. Faces that the plane cuts are not counted.
+        The report counts the faces that are removed completely, but not the faces that the plane cuts.
 
         The elements of the kept half come first, in their old order. The elements of the mirror image follow.
         Attributes are copied, so both halves have the same texture coordinates, tags and joint weights. Normals and
@@ -4740,16 +4828,16 @@ class MeshOperations:
         Edges are collapsed, starting with the edges whose collapse changes the surface least. A collapse merges the two
         ends of an edge into one vertex. The change is measured by the squared distance of this vertex to the planes of
         the original triangles around the merged vertices (Garland, Heckbert, 1997). The operation ends when the number
-        of faces given by ``faces`` or ``ratio`` is reached. It also ends when every remaining collapse would change one
-        of the properties below or could exceed ``error``. At least one of ``faces``, ``ratio`` and ``error`` must be
-        given, but not both ``faces`` and ``ratio``. All faces must be triangles.
+        of faces given by ``faces`` or ``ratio`` is reached. It also ends when every remaining collapse would change a
+        property that must be kept (see the list below) or could exceed ``error``. At least one of ``faces``, ``ratio``
+        and ``error`` must be given, but not both ``faces`` and ``ratio``. All faces must be triangles.
 
         The following properties are kept:
 
         - Topology: the numbers of holes, handles and separate parts do not change.
         - Lines: lines consist of boundary edges, seams of texture coordinates or normals, edges between faces with
-          different tags or materials, tagged edges, creases, and the edges of ``features``. A line can lose vertices,
-          but its ends, and the vertices where lines meet, keep their exact positions.
+          different tags or materials, tagged edges, creases, and the edges that ``features`` selects. A line can lose
+          vertices, but its ends, and the vertices where lines meet, keep their exact positions.
         - Attributes: changes of texture coordinates, normals, colors and other numbers count as changes of the surface
           (Hoppe, 1999), and new vertices get the values that fit best. Values are never mixed across a line, and no
           triangle is turned over in the texture. Stored normals are kept, so that a simplified mesh is shaded like the
@@ -4822,10 +4910,10 @@ class MeshOperations:
 
         - Topology: the numbers of holes, handles and separate parts do not change.
         - Lines: lines consist of boundary edges, seams of texture coordinates or normals, edges between faces with
-          different tags or materials, tagged edges, creases, and the edges of ``features``. Vertices on a line can only
-          slide along this line. The ends of lines, the vertices where lines meet, and corners where a line turns by
-          more than 40 degrees keep their exact positions. Sharp edges that are not on a line are rounded. To keep sharp
-          edges, select them with ``features``.
+          different tags or materials, tagged edges, creases, and the edges that ``features`` selects. Vertices on a
+          line can only slide along this line. The ends of lines, the vertices where lines meet, and corners where a
+          line turns by more than 40 degrees keep their exact positions. Sharp edges that are not on a line are rounded.
+          To keep sharp edges, select them with ``features``.
         - Attributes: each vertex and corner gets the values of the original surface at its position. Values are never
           interpolated across a line.
         - Vertex tags: a new vertex gets a tag if all old vertices around its position have the tag. Usually, these old
@@ -4846,8 +4934,8 @@ class MeshOperations:
         Example: ``mesh.remesh(length=0.5)``
 
         :param length: The target length of edges, in scene units.
-        :param curvature: Target lengths that follow the curvature of the surface, instead of one target length for all
-            edges.
+        :param curvature: Target lengths that depend on the curvature of the surface, instead of one target length for
+            all edges.
             ``"error"``: The intended largest distance between the original surface and the new triangles, in scene
                 units. This distance is not guaranteed. To guarantee a distance, use the other parameter ``error``,
                 which belongs to the operation itself: ``remesh(error=..)``.
@@ -4941,16 +5029,16 @@ class MeshOperations:
         The operation copies vertex, corner and face attributes from the mesh ``from_`` to elements of the same kind in
         the changed mesh. For each element, the operation finds the nearest point on the surface of ``from_``, and the
         face that contains this point. Numbers and vectors of vertices and corners are interpolated inside this face.
-        Whole numbers, tags, and attributes that edits do not interpolate are copied from the corner of this face that
-        is nearest to the point. Values of faces are copied from this face. If the changed mesh already has the
+        Whole numbers, tags, and other attributes that are never interpolated are copied from the corner of this face
+        that is nearest to the point. Values of faces are copied from this face. If the changed mesh already has the
         attribute with the same type of values, the attribute is overwritten. If the type of values differs, the
         operation fails. If the operation does not name its objects with ``on``, it changes all meshes except ``from_``.
 
-        All corners of a face take their values from the same side of a seam of the source object. No triangle is
-        therefore stretched across the seam in the texture. Usually the side that is nearest to the center of the face
-        is used. Seams divide the source object into charts. Where parts of the source object intersect, the chart that
-        is nearest to the center can be far from the corners of the face. If the chart that is nearest to a corner is
-        much nearer to the whole face, this chart is used instead.
+        All corners of a face of the changed mesh take their values from the same side of a seam of the source object.
+        No triangle is therefore stretched across the seam in the texture. Usually the side that is nearest to the
+        center of the face is used. Seams divide the source object into charts. Where parts of the source object
+        intersect, the chart that is nearest to the center can be far from the corners of the face. If the chart that is
+        nearest to a corner is much nearer to the whole face, this chart is used instead.
 
         Elements that are farther from the source object than ``within`` keep their values, or get zeros if the
         attribute is new. All corners of a face are treated alike. If one of the corners or the center of the face is
@@ -5060,13 +5148,13 @@ class MeshOperations:
     ) -> Self:
         """Bends a mesh, so that an axis becomes an arc of a circle.
 
-        Vertices at or below ``from_`` do not move. Between ``from_`` and ``to``, the axis becomes an arc of the same
-        length. The direction of the arc turns by ``angle`` from one end to the other. The part above ``to`` moves
-        rigidly with the end of the arc. Vertices between the axis and the center of the circle move closer together,
-        and vertices on the other side of the axis move apart. The distance between the center of the circle and the
-        axis is (to - from) / angle, with the angle in radians. Parts of the mesh that lie beyond the center of the
-        circle, as seen from the axis, turn inside out. Source: Barr, "Global and Local Deformations of Solid
-        Primitives", 1984.
+        The parameters ``from_`` and ``to`` are coordinates along the axis. Vertices at or below ``from_`` do not move.
+        Between ``from_`` and ``to``, the axis becomes an arc of the same length. The direction of the arc turns by
+        ``angle`` from one end to the other. The part above ``to`` moves rigidly with the end of the arc. Vertices
+        between the axis and the center of the circle move closer together, and vertices on the other side of the axis
+        move apart. The distance between the center of the circle and the axis is (to - from) / angle, with the angle in
+        radians. Parts of the mesh that lie beyond the center of the circle, as seen from the axis, turn inside out.
+        Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
 
         Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch
         with the surface. Only vertices move, so refine the mesh first if its faces are large.
@@ -5110,11 +5198,11 @@ class MeshOperations:
     ) -> Self:
         """Rotates vertices around an axis, by an angle that grows along the axis.
 
-        The angle grows linearly from 0 at ``from_`` to ``angle`` at ``to``. Vertices below ``from_`` do not move, and
-        vertices above ``to`` rotate by ``angle``. A twist of a smooth surface would keep the volume exactly. The volume
-        of a mesh changes slightly, because its edges stay straight, but the change is small if the mesh is fine. A
-        second twist with the opposite angle and the same other parameters undoes the first twist. Source: Barr, "Global
-        and Local Deformations of Solid Primitives", 1984.
+        Along the axis, the angle grows linearly from 0 at the coordinate ``from_`` to ``angle`` at the coordinate
+        ``to``. Vertices below ``from_`` do not move, and vertices above ``to`` rotate by ``angle``. A twist of a smooth
+        surface would keep the volume exactly. The volume of a mesh changes slightly, because its edges stay straight,
+        but the change is small if the mesh is fine. A second twist with the opposite angle and the same other
+        parameters undoes the first twist. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
 
         Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch
         with the surface. Only vertices move, so refine the mesh first if its faces are large.
@@ -5152,9 +5240,9 @@ class MeshOperations:
     ) -> Self:
         """Scales vertices towards or away from an axis, by a factor that changes along the axis.
 
-        The factor changes linearly from 1 at ``from_`` to ``factor`` at ``to``. Vertices below ``from_`` do not move,
-        and vertices above ``to`` are scaled by ``factor``. Coordinates along the axis do not change. Source: Barr,
-        "Global and Local Deformations of Solid Primitives", 1984.
+        Along the axis, the factor changes linearly from 1 at the coordinate ``from_`` to ``factor`` at the coordinate
+        ``to``. Vertices below ``from_`` do not move, and vertices above ``to`` are scaled by ``factor``. Coordinates
+        along the axis do not change. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
 
         Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch
         with the surface. Only vertices move, so refine the mesh first if its faces are large.
@@ -5197,8 +5285,8 @@ class MeshOperations:
         point in the box is the weighted sum of the new positions of all control points, with Bernstein polynomials as
         weights (Sederberg, Parry, "Free-Form Deformation of Solid Geometric Models", 1986). If all control points move
         by the same offset, the whole box moves by this offset. If only one control point moves, the points in the box
-        move in the same direction, but less far. Only a point at a corner of the box moves as far as the control point
-        at this corner.
+        move in the same direction, but less far. If this control point is at a corner of the box, the point of the box
+        at the same corner moves exactly as far as the control point.
 
         Vertices outside the box do not move. Normals and tangents are dropped. Faces, element ids and other attributes
         do not change, so textures stretch with the surface. Only vertices move, so refine the mesh first if its faces
@@ -5279,7 +5367,7 @@ class MeshOperations:
         show it in a picture (``picture()``), and save it to files (``save()``). If a later operation changes the mesh,
         the quantity is not computed again. Positions and other attributes do not change. Quantities are computed from
         the coordinates that the mesh stores. The transforms of the nodes that place the mesh in the scene are not
-        applied. The report states the lowest, the mean and the highest value of each object.
+        applied. For each object, the report states the lowest, the mean and the highest value.
 
         If the mesh already has an attribute of this name, the attribute is replaced. The operation fails if the
         existing attribute belongs to a different kind of element, or does not hold one floating-point number for each
@@ -5341,18 +5429,18 @@ class MeshOperations:
         as the normals of its faces differ from their mean by at most ``max_angle``. Each chart is flattened by a least
         squares conformal map (Levy and others, 2002), which the hybrid method of Liu and others (2008) then improves. A
         chart is cut again if its flattened shape overlaps itself or exceeds ``max_stretch``. A chart is also cut again
-        if its angles are distorted too much. A small circle on the surface becomes an ellipse in the texture. On 95 %
-        of the area of a chart, the ratio of the axes of this ellipse is at most 1.15. All charts of a mesh have the
-        same scale, and no chart is mirrored. No polygon is divided between charts. Each mesh gets its own page, on
-        which the charts are arranged as by ``pack_uvs()``.
+        if its angles are distorted too much. This distortion turns a small circle on the surface into an ellipse in the
+        texture. On at least 95 % of the area of a chart, the longer axis of this ellipse is at most 1.15 times the
+        shorter axis. All charts of a mesh have the same scale, and no chart is mirrored. No polygon is divided between
+        charts. Each mesh gets its own page, on which the charts are arranged as by ``pack_uvs()``.
 
-        The coordinates are written to the corner attribute with the name ``uv``, which is replaced if it exists. Edges
-        at which charts meet become seams of the texture coordinates. Positions, faces and other attributes do not
-        change, but tangents are removed because they depend on the texture coordinates. Zero-area faces also have zero
-        area in the texture. The report counts the faces with zero area in the texture. If a polygon is bent so far that
-        it overlaps itself in the texture, the operation fails and gives the reason ``WrongPlace``. To avoid this
-        failure, triangulate such polygons before this operation. With ``on_refusal="Skip"``, the operation does not
-        fail, and the triangles of such a polygon overlap in the texture.
+        The coordinates are written to the corner attribute that the parameter ``uv`` names. If this attribute already
+        exists, it is replaced. Edges at which charts meet become seams of the texture coordinates. Positions, faces and
+        other attributes do not change, but tangents are removed because they depend on the texture coordinates.
+        Zero-area faces also have zero area in the texture. The report counts the faces with zero area in the texture.
+        If a polygon is bent so far that it overlaps itself in the texture, the operation fails and gives the reason
+        ``WrongPlace``. To avoid this failure, triangulate such polygons before this operation. With
+        ``on_refusal="Skip"``, the operation does not fail, and the triangles of such a polygon overlap in the texture.
 
         Example: ``mesh.unwrap(max_angle=60)``
 
@@ -5539,8 +5627,8 @@ class MeshOperations:
             positions.
         :param width: The width of the figure in SVG pixels. The font size is 12 pixels in narrow panels and up to 19
             pixels in wide panels. Defaults to ``640``.
-        :param columns: The number of panels in each row. If omitted, each row has as many panels as ``t`` has values
-            (with ``by_level``, as the curve has levels), but at most 4.
+        :param columns: The number of panels in each row. If omitted, each row has one panel for each value of ``t``
+            (with ``by_level``, for each level of the curve), but at most 4 panels.
         :param scale: The width and height of one SVG pixel, in pixels of a ``.png`` file. Has no effect on ``.svg``
             files. Defaults to ``2``.
         :param labels: Whether points are labeled with their names. Defaults to ``True``.

@@ -332,7 +332,7 @@ def Plain(value: str | Arg | Ron, /) -> Choice:
     """The meaning depends on the parameter.
 
     - In ``picture(style={"shading": ..})``: No lighting: the colors are unchanged.
-    - In ``picture(style={"background": ..})``: This color.
+    - In ``picture(style={"background": ..})``: One color for the whole background.
     """
     return Choice('Plain', value)
 

@@ -53,7 +53,7 @@ def Attribute(
     min: float | Arg | Ron | None = None,
     max: float | Arg | Ron | None = None,
 ) -> Choice:
-    """The values of an attribute, for example one that ``measure()`` stored.
+    """The values of an attribute, for example of an attribute that ``measure()`` stored.
 
     Every mesh must have the attribute. Fails if no element has a value.
 
@@ -414,7 +414,7 @@ def Point(
 ) -> Choice:
     """The position of one point of a polyline.
 
-    The position is in object space, because nodes do not place polylines.
+    The position is in object space, because the nodes of a scene place only meshes.
 
     :param index: The index of the point in the polyline, starting at 0.
     :param is_: The expected position.
@@ -454,7 +454,7 @@ def Same(
         ``expect.Object(..)``: The name of an object of the scene.
         ``expect.File(..)``: The first mesh in a file.
     :param tolerance: The allowed distance between two matching vertices. Defaults to ``0.0``.
-    :param connectivity: Whether the faces must also be the same. Defaults to ``True``.
+    :param connectivity: Whether the faces of the two meshes must also be the same. Defaults to ``True``.
     """
     return Choice('Same', as_=as_, tolerance=tolerance, connectivity=connectivity)
 
@@ -487,9 +487,10 @@ def SymmetricUnder(
     tolerance: float | Arg | Ron | None = None,
     connectivity: bool | Arg | Ron | None = None,
 ) -> Choice:
-    """The number of motions in a symmetry group about the origin that map the mesh onto itself.
+    """The number of motions (rotations and reflections) that map the mesh onto itself.
 
-    If ``eq``, ``min`` and ``max`` are omitted, all motions of the group must map the mesh onto itself.
+    The motions belong to a symmetry group about the origin. If ``eq``, ``min`` and ``max`` are omitted, all motions of
+    the group must map the mesh onto itself.
 
     :param group: The symmetry group.
         ``"CubeRotations"``: The 24 rotations of an axis-aligned cube.
@@ -498,8 +499,8 @@ def SymmetricUnder(
     :param eq: Exactly this number of motions, including the identity.
     :param min: At least this number of motions.
     :param max: At most this number of motions.
-    :param tolerance: The allowed distance between a vertex that was moved by a motion and the vertex onto which it is
-        mapped. Defaults to ``1e-09``.
+    :param tolerance: The allowed distance between the image of a vertex under a motion and the vertex with which the
+        image is matched. Defaults to ``1e-09``.
     :param connectivity: Whether each motion must also map every face onto a face. Defaults to ``True``.
     """
     return Choice('SymmetricUnder', group=group, eq=eq, min=min, max=max, tolerance=tolerance, connectivity=connectivity)
@@ -514,8 +515,8 @@ def Thickness(
 ) -> Choice:
     """The thickness of the solid at each selected vertex, in scene units.
 
-    ``measure(of="Thickness", ..)`` measures it in the same way. The thickness is infinite where the surface has no
-    opposite side, for example on an open sheet. Fails if the selection is empty.
+    ``measure(of="Thickness", ..)`` measures the thickness in the same way. The thickness is infinite where the surface
+    has no opposite side, for example on an open sheet. Fails if the selection is empty.
 
     :param of: Which vertices. Defaults to ``"All"``. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of
         ``meshwright.sel``.

@@ -97,8 +97,8 @@ def Degree(value: int | Arg | Ron, /) -> Choice:
 def EdgeLoop(value: Literal['All', 'Boundary'] | Choice | Arg | Ron, /) -> Choice:
     """The given edges and all edge loops through them.
 
-    At an interior vertex with four edges, an edge loop continues with the opposite edge. At every other vertex, it
-    ends. An edge loop that starts at a boundary edge follows the boundary instead.
+    At an interior vertex with four edges, an edge loop continues with the opposite edge. At every other vertex, the
+    loop ends. An edge loop that starts at a boundary edge follows the boundary instead.
     """
     return Choice('EdgeLoop', value)
 

@@ -77,7 +77,7 @@ pub(crate) fn mesh_name(
             path.display()
         ),
         (true, None) => format!(
-            "`-` has no extension that determines a format: add the format, such as {option} obj"
+            "`-` has no extension that determines the file format: name the format with an option, such as {option} obj"
         ),
         (true, Some(format)) => {
             let extension = format.trim_start_matches('.').to_ascii_lowercase();

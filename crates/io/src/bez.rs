@@ -13,7 +13,6 @@
 
 use bezier::{Curve, Patch};
 use glam::{DVec2, DVec3};
-use mesh::counted;
 use scene::{Geometry, Scene};
 
 use crate::error::Unwritable;
@@ -163,8 +162,8 @@ fn count(cursor: &mut Cursor, what: &str, numbers_each: usize) -> Result<usize, 
         .ok_or_else(|| expected(place, format!("the number of {what} (an integer)"), word))?;
     if !cursor.has_room(n, numbers_each) {
         return Err(place.error(format!(
-            "expected {n} {what}, but the rest of the file is too short ({})",
-            counted(cursor.remaining(), "byte")
+            "the rest of the file is too short for {n} {what} (bytes left: {})",
+            cursor.remaining()
         )));
     }
     Ok(n)

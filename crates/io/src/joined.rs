@@ -144,7 +144,7 @@ fn appended(
         let part = domain_lengths(mesh);
         for (domain, name) in all.append(len, &attributes, part) {
             let reason = format!(
-                "object `{}` has an attribute of the same name with a different type",
+                "the type of this attribute in object `{}` differs from the type in an earlier object",
                 object.name
             );
             losses.add(domain, &name, n_values(mesh, domain), reason);

@@ -285,7 +285,7 @@ fn number_text(value: &Value) -> Result<&str, String> {
 fn not_from_parameter(value: &Value) -> Result<(), String> {
     match &value.kind {
         ValueKind::Call(call) if &*call.name.text == "arg" => Err(format!(
-            "the expected value comes from a parameter, {value}, so the expectation is not updated"
+            "the expected value {value} comes from a parameter, so the expectation is not updated"
         )),
         _ => Ok(()),
     }

@@ -138,7 +138,7 @@ impl MeshOperation for FlipEdges {
             n => {
                 let edges = counted(n, "seam edge");
                 report.note(format!(
-                    "flipped {edges}; each of the two faces at a flipped edge got one new corner, with the attribute values of the other face's corner at the same vertex"
+                    "flipped {edges}; in both faces of each edge, the new corner copies the attribute values of the other face's corner at the same vertex"
                 ))
             }
         })

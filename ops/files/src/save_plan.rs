@@ -187,7 +187,9 @@ impl Writing<'_> {
         let sets = self.save.weight_sets.map_or(1, Count::get);
         let most = 4 * sets as usize;
         if self.format.packs() && joints.len() > most {
-            let what = format!("all joint weights of each vertex except the {most} largest");
+            let what = format!(
+                "the smallest joint weights of vertices that have more than {most} weights"
+            );
             let reason = "`weight_sets` determines the number of joints that are written";
             losses.add(false, Loss::part(object, "influences", what, reason));
         }

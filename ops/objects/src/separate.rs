@@ -84,7 +84,7 @@ impl Operation for Separate {
         };
         if u64::from(count) > mesh.faces.max {
             let message = format!(
-                "\"{}\" has at most {} faces, which is not enough for {count} parts",
+                "the mesh \"{}\" has at most {} faces, which is not enough for {count} parts",
                 self.object, mesh.faces.max
             );
             return vec![Problem::error(message).at(["count"])];

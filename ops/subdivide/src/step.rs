@@ -192,20 +192,20 @@ impl Step<'_> {
         for level in 0.. {
             let (measure, value, below) = match until {
                 Until::EdgeLength { below } => {
-                    ("the longest edge is", longest_edge(mesh), below.get())
+                    ("the longest edge", longest_edge(mesh), below.get())
                 }
                 Until::LimitDistance { below } => {
                     let distance = limit_distance(mesh, self.rules, cx.progress());
-                    let measure = "the largest distance to the limit surface is";
+                    let measure = "the largest distance to the limit surface";
                     (measure, distance.map_err(to_op_error)?, below.get())
                 }
             };
             if value < below {
                 let levels = counted(level, "level");
-                return Ok(format!("{levels}; {measure} {}", readable(value)));
+                return Ok(format!("{levels}; {measure} is {}", readable(value)));
             }
             let state = format!(
-                "after subdivision level {level}, {measure} {}, expected less than {}",
+                "after subdivision level {level}, {measure} is {}, expected less than {}",
                 readable(value),
                 readable(below)
             );

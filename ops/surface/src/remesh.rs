@@ -211,14 +211,16 @@ impl MeshOperation for Remesh {
                 Err(OpError::refused(Refusal::NotTriangle, message).about([f]))
             }
             Err(RemeshError::TooManyFaces { needed, max }) => {
-                let needed = if needed.is_finite() {
-                    format!("up to about {} faces", readable(needed.round()))
+                let message = if needed.is_finite() {
+                    format!(
+                        "remeshing needs up to about {} faces, but the mesh can have at most {max}; use a longer target length",
+                        readable(needed.round())
+                    )
                 } else {
-                    "too many faces to count".to_owned()
+                    format!(
+                        "remeshing needs too many faces to count, but the mesh can have at most {max}; use a longer target length"
+                    )
                 };
-                let message = format!(
-                    "the target lengths need {needed} during remeshing, but the mesh can have at most {max}; use a longer target length"
-                );
                 Err(OpError::Budget(message))
             }
             Err(RemeshError::TooFar { reached, limit }) => {

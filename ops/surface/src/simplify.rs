@@ -222,9 +222,8 @@ impl MeshOperation for Simplify {
                 .refuse(unreached(after, goal, &simplified.blocked), &mut report)?;
         }
         if before as u64 <= goal {
-            let faces = counted(before, "face");
             report = report.note(format!(
-                "a mesh of {faces} does not change, because it already has at most the requested number of faces, {goal}"
+                "the mesh does not change, because its number of faces, {before}, does not exceed the requested number, {goal}"
             ));
         }
         if after < before {
@@ -335,7 +334,7 @@ mod tests {
         assert_eq!(
             report.notes,
             [
-                "a mesh of 20 faces does not change, because it already has at most the requested number of faces, 99"
+                "the mesh does not change, because its number of faces, 20, does not exceed the requested number, 99"
             ]
         );
         let triangle = vec![mesh::DVec3::ZERO, mesh::DVec3::X, mesh::DVec3::Y];

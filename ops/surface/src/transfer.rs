@@ -184,10 +184,10 @@ impl Transfer {
                     && old.values.type_name() != column.values.type_name()
                 {
                     let message = format!(
-                        "the {domain} attribute \"{name}\" of \"{}\" has values of the type \"{}\", but the mesh that receives them already has an attribute of this name with the type \"{}\"",
-                        self.from,
+                        "the {domain} attribute \"{name}\" has the type \"{}\" in \"{from}\", but the type \"{}\" in the mesh that receives the values",
                         column.values.type_name(),
-                        old.values.type_name()
+                        old.values.type_name(),
+                        from = self.from
                     );
                     return Err(OpError::Object(message));
                 }

@@ -65,7 +65,7 @@ pub(crate) fn set(mesh: &mut Mesh, uv: &str, uvs: Vec<DVec2>, report: &mut Repor
         .is_some()
     {
         report.notes.push(
-            "removed the tangents, because they depend on the replaced texture coordinates"
+            "removed the tangents, because they depend on the texture coordinates, which this step replaced"
                 .to_owned(),
         );
     }
@@ -77,7 +77,7 @@ pub(crate) fn set(mesh: &mut Mesh, uv: &str, uvs: Vec<DVec2>, report: &mut Repor
     for (domain, name) in outdated {
         mesh.remove_column(domain, &name);
         report.notes.push(format!(
-            "removed the attribute `{name}`, because it stores how a morph target changes the old values of `{uv}`"
+            "removed the attribute `{name}`, because it stores how a morph target changes `{uv}`, and this step replaced the values of `{uv}`"
         ));
     }
 }

@@ -81,9 +81,9 @@ pub(crate) struct TestArgs {
 
 If a batch was interrupted or has crashed, run the command again to resume the batch. A finished input file
 is not processed again if its outputs exist, and if the recipe, the parameters, the program and the files
-that its run reads are unchanged. The number of parts can differ from that of the earlier command. The state
-of the batch is kept in DIR/batch.jsonl, where DIR is the folder given by --out. With --shard I/N, the state
-is kept in DIR/batch-I-of-N.jsonl.")]
+that the recipe reads are unchanged. The number of parts N in --shard I/N can differ from that of the earlier
+command. The state of the batch is kept in DIR/batch.jsonl, where DIR is the folder given by --out. With
+--shard I/N, the state is kept in DIR/batch-I-of-N.jsonl.")]
 pub(crate) struct BatchArgs {
     /// The recipe
     #[arg(required_unless_present = "merge")]

@@ -63,8 +63,9 @@ pub(crate) fn run(args: &InfoArgs) -> anyhow::Result<bool> {
         let name = animation.name.as_deref().unwrap_or("without a name");
         let channels = counted(animation.channels.len(), "channel");
         let seconds = number(duration(scene.graph(), animation));
-        let unit = if seconds == "1" { "second" } else { "seconds" };
-        print(&format!("animation {name}: {channels}, {seconds} {unit}\n"))?;
+        print(&format!(
+            "animation {name}: {channels}, duration {seconds} s\n"
+        ))?;
     }
     for note in &notes {
         print(&format!("note: {note}\n"))?;

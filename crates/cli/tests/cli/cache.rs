@@ -94,7 +94,7 @@ fn the_cache_shows_its_size_and_can_be_cleared() {
     folder
         .run("cache")
         .with_code(0)
-        .prints(&["folder", "holds  0 bytes: 0 steps"]);
+        .prints(&["folder", "holds 0 bytes: 0 steps"]);
     folder.run("run recipe.ron --cache here").with_code(0);
     let json = folder.run("cache --cache here --format json").json();
     assert_eq!(json["steps"], 5);

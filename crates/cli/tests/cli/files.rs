@@ -298,7 +298,7 @@ fn a_rigged_character_is_converted_and_subdivided() {
             "morph targets      1",
             "skins: 1",
             "animations: 1",
-            "animation walk: 1 channel, 2 seconds",
+            "animation walk: 1 channel, duration 2 s",
         ] {
             assert!(shown.stdout.contains(line), "{line}: {shown:#?}");
         }

@@ -147,9 +147,12 @@ fn the_format_of_a_pipe_must_be_named() {
     };
     refused(
         "info -",
-        "`-` has no extension that determines a format: add the format, such as --from obj",
+        "`-` has no extension that determines the file format: name the format with an option, such as --from obj",
     );
-    refused("convert in.obj -", "add the format, such as --to obj");
+    refused(
+        "convert in.obj -",
+        "name the format with an option, such as --to obj",
+    );
     refused("info - --from xyz", "--from xyz: expected one of obj, gltf");
     refused("info in.obj --from obj", "--from applies only to `-`");
     refused(

@@ -81,12 +81,12 @@ fn a_parameter_that_cannot_be_set_is_an_error() {
         ),
         (
             "levels=5",
-            "error: the value set for the parameter `levels` is not allowed: 5 is above the maximum 4",
+            "error: the value that was set for the parameter `levels` is not allowed: 5 is above the maximum 4",
             "",
         ),
         (
             "levels=two",
-            "error: the value set for the parameter `levels` is not allowed: expected a whole number, found `two`",
+            "error: the value that was set for the parameter `levels` is not allowed: expected a whole number, found `two`",
             "",
         ),
     ] {

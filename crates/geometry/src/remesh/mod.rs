@@ -180,7 +180,7 @@ pub enum RemeshError {
     NotTriangle(FaceId),
     /// The target length is so small, relative to the size of the mesh, that there would be too many faces.
     #[error(
-        "the target lengths need up to about {} faces during remeshing, but the mesh can have at most {max}; use a longer \
+        "remeshing needs up to about {} faces, but the mesh can have at most {max}; use a longer \
          target length", readable(*.needed)
     )]
     TooManyFaces {

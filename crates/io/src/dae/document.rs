@@ -244,11 +244,14 @@ impl<'a> Document<'a> {
         found.filter(is_wanted).ok_or_else(|| {
             let kinds: Vec<String> = kind.iter().map(|kind| format!("<{kind}>")).collect();
             let kinds = kinds.join(" or ");
-            let found = found.map_or("nothing", |found| found.tag_name().name());
+            let found = found.map_or_else(
+                || "nothing".to_owned(),
+                |found| format!("<{}>", found.tag_name().name()),
+            );
             let id = quoted(id.as_bytes());
             error_at(
                 node,
-                format!("expected {id} to refer to {kinds}, but {id} refers to {found}"),
+                format!("expected the id {id} to refer to an element {kinds}, found {found}"),
             )
         })
     }

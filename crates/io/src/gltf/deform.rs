@@ -137,8 +137,11 @@ pub(super) fn joints(
     }
     let what = || format!("vertices without weights in {weights_at}: they follow the first joint");
     repairs.change(unweighted, what);
-    let what =
-        || format!("vertices with weights in {weights_at} that did not add up to 1: normalized");
+    let what = || {
+        format!(
+            "vertices whose weights in {weights_at} did not add up to 1: the weights were divided by their sum"
+        )
+    };
     repairs.change(scaled, what);
     let columns = used.into_iter().zip(columns);
     let column = |(joint, values)| Column {

@@ -189,7 +189,7 @@ fn attribute_bytes(
     );
     if found != (expected, components) {
         return Err(format!(
-            "an element of the accessor has {components} numbers of type {expected:?}, but in the Draco stream it has {} of type {:?}",
+            "expected {components} numbers of type {expected:?} for each element of the accessor, found {} numbers of type {:?} in the Draco stream",
             found.1, found.0
         ));
     }

@@ -102,7 +102,8 @@ impl<'a> Deformation<'a> {
             invalid += block.invalid;
             unbound += block.unbound;
         }
-        let reason = format!("only the {most} largest weights of each vertex are written");
+        let reason =
+            format!("the file stores at most {most} weights for each vertex: the largest ones");
         losses.add(Domain::Vertex, "influences", truncated, reason);
         let reason = "negative or not finite, so written as 0";
         losses.add(Domain::Vertex, "joint weights", invalid, reason);

@@ -98,13 +98,13 @@ fn index(
         Ok(index) if (index as usize) < limit => Ok(Index::Absolute(index)),
         _ => {
             let defined = counted(limit, noun);
-            let verb = if limit == NONE as usize {
-                "can define at most"
+            let message = if limit == NONE as usize {
+                format!(
+                    "the corner refers to {noun} {written}, but a file can define at most {defined}"
+                )
             } else {
-                "defines"
+                format!("the corner refers to {noun} {written}, but the file defines {defined}")
             };
-            let message =
-                format!("the corner refers to {noun} {written}, but the file {verb} {defined}");
             Err(place.error(message))
         }
     }

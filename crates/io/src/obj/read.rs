@@ -186,7 +186,7 @@ fn set_tags(polygons: &mut Polygons, file: &ObjFile, notes: &mut Notes) {
     let n = objects + file.group_names.len();
     let n_columns = n.min(most_tags(n_faces));
     let what = format!(
-        "groups and objects left out, because only the first {n_columns} of them can become face tags of a mesh with this number of faces"
+        "groups and objects left out: a mesh with {n_faces} faces can store at most {n_columns} groups and objects as face tags"
     );
     notes.left_out("too-many-names", n - n_columns, None, what);
     let mut columns: Vec<Vec<bool>> = vec![vec![false; n_faces]; n_columns];

@@ -116,8 +116,8 @@ fn check_room(cursor: &Cursor, n: usize, words: usize, what: &str) -> Result<(),
         return Ok(());
     }
     let message = format!(
-        "expected {n} {what}, but the rest of the file is too short ({})",
-        counted(cursor.remaining(), "byte")
+        "the rest of the file is too short for {n} {what} (bytes left: {})",
+        cursor.remaining()
     );
     Err(cursor.place().error(message))
 }

@@ -151,9 +151,9 @@ fn transcoded(
         }
         let rows = element.rows;
         if !cursor.has_room(rows, element.properties.len()) {
-            let (lines, rest) = (counted(rows, "line"), counted(cursor.remaining(), "byte"));
+            let (lines, rest) = (counted(rows, "line"), cursor.remaining());
             let message = format!(
-                "expected {lines} of {element}, but the rest of the file is too short ({rest})"
+                "the rest of the file is too short for {lines} of {element} (bytes left: {rest})"
             );
             return Err(cursor.place().error(message));
         }
@@ -210,8 +210,9 @@ fn next<'a>(
     property: &Property,
 ) -> Result<(TextPosition, &'a [u8]), Fault> {
     cursor.argument().ok_or_else(|| {
-        let message =
-            format!("expected a value of {property} of {element}, found the end of the line");
+        let message = format!(
+            "expected a value of the property {property} of {element}, found the end of the line"
+        );
         cursor.place().error(message)
     })
 }

@@ -64,10 +64,8 @@ impl<'a> Table<'a> {
         let least = shortest.checked_mul(*rows);
         if least.is_none_or(|least| least > bytes.len()) {
             let message = format!(
-                "expected {} of {element} with at least {} each, but the rest of the file has only {}",
-                counted(*rows, "row"),
-                counted(shortest, "byte"),
-                counted(bytes.len(), "byte")
+                "the rest of the file is too short for all rows of {element} (rows: {rows}, bytes in each row: at least {shortest}, bytes left: {})",
+                bytes.len()
             );
             return Err(Fault::byte(start, message));
         }

@@ -74,7 +74,7 @@ fn kind(bytes: &[u8]) -> Result<Kind, Fault> {
         Ok(end) if end <= n_bytes => Ok(Kind::Binary(end)),
         _ => {
             let message = format!(
-                "expected {count} facets ({length} bytes in total), found a file of {n_bytes} bytes"
+                "the file declares {count} facets, which need {length} bytes in total, but the file has only {n_bytes} bytes"
             );
             Err(Fault::byte(binary::HEADER, message))
         }
@@ -134,7 +134,7 @@ fn set_tags(polygons: &mut Polygons, solids: &[(String, Range<usize>)], notes: &
         "solids without facets left out",
     );
     let what = format!(
-        "names of solids left out, because only the first {room} of them can become face tags of a mesh with this number of faces"
+        "names of solids left out: a mesh with {n_faces} faces can store at most {room} of these names as face tags"
     );
     notes.left_out("too-many-names", too_many, None, what);
 }

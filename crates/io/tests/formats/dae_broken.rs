@@ -105,12 +105,12 @@ const BROKEN: &[(&str, &str, &str)] = &[
     (
         "source=\"#a\"",
         "source=\"#b\"",
-        "expected `b` to refer to <float_array> or <int_array>, but `b` refers to nothing",
+        "expected the id `b` to refer to an element <float_array> or <int_array>, found nothing",
     ),
     (
         "source=\"#a\"",
         "source=\"#s\"",
-        "expected `s` to refer to <float_array> or <int_array>, but `s` refers to source",
+        "expected the id `s` to refer to an element <float_array> or <int_array>, found <source>",
     ),
     (
         "source=\"#v\" offset=\"0\"",
@@ -197,7 +197,7 @@ const BROKEN: &[(&str, &str, &str)] = &[
     (
         "url=\"#vs\"",
         "url=\"#g\"",
-        "expected `g` to refer to <visual_scene>, but `g` refers to geometry",
+        "expected the id `g` to refer to an element <visual_scene>, found <geometry>",
     ),
     (
         "<instance_geometry url=\"#g\"/>",

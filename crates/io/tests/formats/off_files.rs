@@ -305,7 +305,7 @@ fn counts_must_be_integers_and_match_the_file() {
     );
     assert_error(
         "OFF\n4000000000 1 0\n0 0 0\n",
-        "3:1: expected 4000000000 vertices, but the rest of the file is too short (6 bytes)",
+        "3:1: the rest of the file is too short for 4000000000 vertices (bytes left: 6)",
     );
     assert_error(
         "OFF\n18446744073709551615 1 0\n",
@@ -313,7 +313,7 @@ fn counts_must_be_integers_and_match_the_file() {
     );
     assert_error(
         "OFF\n1 4000000000 0\n0 0 0\n",
-        "4:1: expected 4000000000 faces, but the rest of the file is too short (0 bytes)",
+        "4:1: the rest of the file is too short for 4000000000 faces (bytes left: 0)",
     );
 }
 

@@ -229,7 +229,7 @@ fn files_that_end_too_early_are_refused() {
     );
     assert_error(
         text(CORNERS, ""),
-        "expected 1 line of element `face`, but the rest of the file is too short",
+        "the rest of the file is too short for 1 line of element `face`",
     );
 }
 
@@ -237,7 +237,7 @@ fn files_that_end_too_early_are_refused() {
 fn lines_must_have_the_values_that_the_header_declares() {
     assert_error(
         text("0 0 0\n1 0\n0 1 0\n", "3 0 1 2\n"),
-        "11:4: expected a value of `z`",
+        "11:4: expected a value of the property `z`",
     );
     assert_error(
         text("0 0 0\n1 0 0 0\n0 1 0\n", "3 0 1 2\n"),
@@ -245,7 +245,7 @@ fn lines_must_have_the_values_that_the_header_declares() {
     );
     assert_error(
         text(CORNERS, "3 0 1\n"),
-        "13:6: expected a value of `vertex_indices`",
+        "13:6: expected a value of the property `vertex_indices`",
     );
     assert_error(text(CORNERS, "3 0 1 2.5\n"), "13:7: expected an integer");
     assert_error(

@@ -355,7 +355,7 @@ fn counts_that_the_file_cannot_hold_are_refused_at_once() {
     bytes[80..84].copy_from_slice(&u32::MAX.to_le_bytes());
     assert_error(
         &bytes,
-        " byte 80: expected 4294967295 facets (214748364834 bytes in total), found a file of 134 bytes",
+        " byte 80: the file declares 4294967295 facets, which need 214748364834 bytes in total, but the file has only 134 bytes",
     );
     assert_error(
         b"",
@@ -363,7 +363,7 @@ fn counts_that_the_file_cannot_hold_are_refused_at_once() {
     );
     assert_error(
         &binary(&[FLAT, NEXT])[..180],
-        " byte 80: expected 2 facets (184 bytes in total), found a file of 180 bytes",
+        " byte 80: the file declares 2 facets, which need 184 bytes in total, but the file has only 180 bytes",
     );
 }
 

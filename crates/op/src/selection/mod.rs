@@ -379,7 +379,10 @@ fn tagged<S: Select>(mesh: &Mesh, name: &str) -> Result<Vec<bool>, OpError> {
     } else {
         tags.join(", ")
     };
-    let message = format!("no {} are tagged \"{name}\"; known tags: {known}", S::WORD);
+    let message = format!(
+        "no {word} are tagged \"{name}\"; known tags: {known}",
+        word = S::WORD
+    );
     Err(OpError::refused(Refusal::Missing, message))
 }
 

@@ -204,8 +204,8 @@ pub(super) fn may_fail(step: &RecipeStep, loss: &Loss) -> Diagnostic {
         loss.possible_message()
     );
     let help = format!(
-        "if the loss is acceptable, add {:?} to `on_loss: Allow([..])`",
-        loss.name
+        "if the loss of {name:?} is acceptable, add {name:?} to `on_loss: Allow([..])`",
+        name = loss.name
     );
     Diagnostic::warning(step.span, message).with_help(help)
 }

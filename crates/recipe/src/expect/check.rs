@@ -297,7 +297,9 @@ fn distance_below(
         } else {
             format!("from {from} of the other mesh to {to}")
         };
-        format!("expected a distance below {below}, found {range}: {endpoints}")
+        format!(
+            "expected a distance below {below}, found {range}; the distance is largest {endpoints}"
+        )
     })
 }
 

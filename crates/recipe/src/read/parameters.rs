@@ -140,7 +140,7 @@ impl Reader<'_, '_> {
                 }
                 Err(problem) => {
                     let message = format!(
-                        "the value set for the parameter `{name}` is not allowed: {problem}"
+                        "the value that was set for the parameter `{name}` is not allowed: {problem}"
                     );
                     self.diagnostics.push(Diagnostic::without_place(message));
                 }

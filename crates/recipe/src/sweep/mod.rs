@@ -254,7 +254,7 @@ impl Sweep {
             && let Some((other, span, found)) = zip.iter().find(|z| z.2.len() != list.len())
         {
             let message = format!(
-                "`{other}` has {} but `{first}` has {}: the lists of `zip` must have the same length",
+                "all lists of `zip` must have the same length, but `{other}` has {} and `{first}` has {}",
                 counted(found.len(), "value"),
                 list.len()
             );

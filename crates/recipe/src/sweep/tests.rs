@@ -200,7 +200,7 @@ fn zipped_lists_must_have_the_same_length() {
         wrong("zip: {\"n\": [1, 2], \"x\": [1]}"),
         [(
             "[1]".to_owned(),
-            "`x` has 1 value but `n` has 2: the lists of `zip` must have the same length"
+            "all lists of `zip` must have the same length, but `x` has 1 value and `n` has 2"
                 .to_owned()
         )]
     );

@@ -224,12 +224,12 @@ fn values_that_cannot_be_set_are_errors_without_a_span() {
         [
             (
                 "no span",
-                "the value set for the parameter `n` is not allowed: expected a whole number, found `many`",
+                "the value that was set for the parameter `n` is not allowed: expected a whole number, found `many`",
                 ""
             ),
             (
                 "no span",
-                "the value set for the parameter `n` is not allowed: 10 is above the maximum 9",
+                "the value that was set for the parameter `n` is not allowed: 10 is above the maximum 9",
                 ""
             ),
             (

@@ -127,7 +127,7 @@ fn a_value_from_a_parameter_is_not_updated() {
     assert_eq!(
         update.left[0].help.as_deref(),
         Some(
-            "the expected value comes from a parameter, arg(\"n\"), so the expectation is not updated"
+            "the expected value arg(\"n\") comes from a parameter, so the expectation is not updated"
         )
     );
 }

@@ -167,7 +167,7 @@ impl Builder<'_, '_> {
         };
         if n > MAX_IDS {
             return Err(PictureError::Style(format!(
-                "ids can label at most {MAX_IDS} {elements}, but \"{}\" has {n}: omit `ids`",
+                "a picture can show the ids of at most {MAX_IDS} {elements}, but \"{}\" has {n} {elements}: omit `ids`",
                 object.name
             )));
         }

@@ -64,8 +64,9 @@ impl Overlays {
             let (expected, found) = (mesh(&c.object)?.domain_len(c.domain), c.values.len());
             if expected != found {
                 return Err(PictureError::Style(format!(
-                    "expected {expected} numbers, one for each {} of \"{}\", found {found}",
-                    c.domain, c.object
+                    "expected {expected} numbers, one for each {domain} of \"{object}\", found {found} numbers",
+                    domain = c.domain,
+                    object = c.object
                 )));
             }
         }

@@ -211,7 +211,7 @@ fn missing_and_unsuitable_attributes_are_refused() {
     let error = refused(r#"(from: "scan", attributes: ["color"])"#, other);
     assert!(
         error.contains(
-            "\"4 numbers\", but the mesh that receives them already has an attribute of this name with the type \"number\""
+            "\"4 numbers\" in \"scan\", but the type \"number\" in the mesh that receives the values"
         ),
         "{error}"
     );

@@ -126,7 +126,7 @@ fn invalid_batches_are_refused_with_a_reason() {
         ),
         (
             format!("recipe.ron {models} --set levels=x"),
-            "the value set for the parameter `levels` is not allowed",
+            "the value that was set for the parameter `levels` is not allowed",
         ),
         (
             format!("recipe.ron {models} --set level=1"),

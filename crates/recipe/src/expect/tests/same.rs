@@ -124,7 +124,7 @@ fn the_distance_to_another_surface_is_below_a_limit() {
     assert_eq!(
         check("DistanceTo(other: Object(\"far\"), below: 0.5)"),
         Err(
-            "expected a distance below 0.5, found 0.5: from v0 at [-1, -1, -1] to f2 at [-1, -1, -0.5] of the other \
+            "expected a distance below 0.5, found 0.5; the distance is largest from v0 at [-1, -1, -1] to f2 at [-1, -1, -0.5] of the other \
              mesh"
                 .to_owned()
         )

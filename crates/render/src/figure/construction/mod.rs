@@ -169,7 +169,7 @@ pub fn construction(panels: &[Panel], layout: &Layout) -> Result<Svg, PictureErr
             n => format!("{n} columns"),
         };
         let message = format!(
-            "expected a figure with {columns} to be {} to {MAX_WIDTH} pixels wide, found a width of {}",
+            "expected a width from {} to {MAX_WIDTH} pixels for a figure with {columns}, found {} pixels",
             min_width.ceil(),
             layout.width
         );

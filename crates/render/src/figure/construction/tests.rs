@@ -185,7 +185,7 @@ fn invalid_panels_and_layouts_are_refused_with_a_reason() {
         (
             vec![good.clone()],
             layout(60.0, 1),
-            "expected a figure with 1 column to be 72 to 8192 pixels wide",
+            "expected a width from 72 to 8192 pixels for a figure with 1 column",
         ),
         (
             vec![good.clone()],

@@ -36,7 +36,6 @@ fuzz_target!(|text: &str| {
     };
     let loaded = engine.load(&source, &options);
     if loaded.has_errors() {
-        // Each diagnostic has a message.
         assert!(loaded.diagnostics.iter().all(|d| !d.message.is_empty()));
         return;
     }

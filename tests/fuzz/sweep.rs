@@ -7,7 +7,6 @@ use libfuzzer_sys::fuzz_target;
 fuzz_target!(|text: &str| {
     let reading = recipe::read_sweep(text);
     if reading.has_errors() {
-        // Each diagnostic has a message.
         assert!(reading.diagnostics.iter().all(|d| !d.message.is_empty()));
     } else if let Some(sweep) = reading.sweep {
         let _ = sweep.grid(&[], "".as_ref());

@@ -379,8 +379,8 @@ impl Polygons {
         if !beside.contains(&None) && is_open(a) && is_open(b) {
             return Err(EditError::JoinsBoundaries(e));
         }
-        // If a larger face is adjacent to all three sides of a triangle, the edit would leave an edge with this face on
-        // both sides.
+        // If a larger face is adjacent to all three sides of a triangle, the collapse would leave an edge with this
+        // face on both sides.
         let around = |f: usize| sides(&self.faces[f]).map(|(x, y)| self.with_side(y, x));
         let is_within = |f: usize, g: usize| {
             let larger = self.faces[f].len() == 3 && self.faces[g].len() > 3;

@@ -52,7 +52,7 @@ fn a_million_triangles(c: &mut Criterion) {
             b.iter_batched(|| positions.clone(), built, BatchSize::PerIteration);
         });
     }
-    // The copy goes to newly allocated memory, as the arrays of a built mesh do.
+    // The copy is written to newly allocated memory, because the arrays of a built mesh are newly allocated, too.
     group.bench_function("bytes alone: copy of the mesh", |b| {
         b.iter_batched(
             || (),

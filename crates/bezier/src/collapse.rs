@@ -154,7 +154,8 @@ mod tests {
         points[0][3] = points[0][0];
         assert!(Sides::of(&Patch::new(points).unwrap(), 1).collapsed[0]);
         assert!(!Sides::of(&Patch::new(points).unwrap(), 2).collapsed[0]);
-        // The side becomes a figure eight: at t = 0.5, it passes through the point at which it starts and ends.
+        // The side becomes a figure eight: at t = 0.5, it passes through the point at which it starts and ends. So with
+        // two segments, all its samples coincide.
         points[0][2] = points[0][0] * 2.0 - points[0][1];
         assert!(Sides::of(&Patch::new(points).unwrap(), 2).collapsed[0]);
         assert!(!Sides::of(&Patch::new(points).unwrap(), 3).collapsed[0]);

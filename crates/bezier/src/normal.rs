@@ -78,7 +78,8 @@ fn inward_directions(uv: DVec2) -> [DVec2; 3] {
 /// Returns the first nonzero coefficient of N along `direction`, scaled to length 1. Returns `None` if all coefficients
 /// are zero.
 fn limit_along(c: &[[DVec3; 4]; 4], max_steps: DVec2, direction: DVec2) -> Option<DVec3> {
-    // On the line, du and dv are polynomials in e. These arrays hold their coefficients, starting with the power 0.
+    // Along the line in this direction, du and dv are polynomials in the distance e. These arrays hold their
+    // coefficients, starting with the power 0.
     let mut du = [DVec3::ZERO; 6];
     let mut dv = [DVec3::ZERO; 6];
     let (a, b) = (powers(direction.x), powers(direction.y));

@@ -199,8 +199,8 @@ mod tests {
         let mut patches = Vec::new();
         for mask in 0..16 {
             let mut points = *random.patch().points();
-            // Collapsing one side can move the end of an adjacent collapsed side. Therefore all sides are collapsed a
-            // second time, so that adjacent collapsed sides become the same point.
+            // Collapsing one side can move the end of an adjacent collapsed side. Therefore each chosen side is
+            // collapsed twice, so that adjacent collapsed sides become the same point.
             for _ in 0..2 {
                 for (k, side) in sides
                     .iter()
@@ -275,7 +275,7 @@ mod tests {
                     let expected = counts(&[*patch], n, faces).unwrap();
                     assert_eq!(mesh.counts(), expected, "sides {mask:04b}, {n} segments");
                     assert_eq!(mesh.empty_patches.is_empty(), expected.faces > 0);
-                    // Every vertex has a face, and no face repeats a vertex.
+                    // Every vertex belongs to a face, and no face contains a vertex twice.
                     let mut is_used = vec![false; mesh.positions.len()];
                     for face in mesh.faces() {
                         for &v in face {

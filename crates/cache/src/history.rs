@@ -78,8 +78,8 @@ impl History {
         };
         let past = self.last_run.get(index).filter(is_same_step);
         let past = past.or_else(|| self.last_run.iter().find(is_same_step));
-        // The label of the step can differ between the runs, so a step with the same operation at the same index is
-        // also accepted.
+        // The label of the step can differ between the runs, so a step with the same operation at the same index also
+        // counts as the earlier run of this step.
         let is_same_operation = |past: &&PastStep| past.ingredients.operation == now.operation;
         let past = past.or_else(|| self.last_run.get(index).filter(is_same_operation));
         let Some(past) = past else {

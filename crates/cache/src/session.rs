@@ -138,8 +138,8 @@ impl CachedRun for Session<'_> {
                     "the result of step {number} {label} is not stored in the cache, because the input files of the step cannot be determined ({}: {why})",
                     path.display()
                 ));
-                // The identity of the scene after this step is computed from the scene itself, and not from the inputs
-                // of the step. Therefore, later steps can still be cached.
+                // Without the input files, the step has no key that identifies the scene. Therefore the scene gets an
+                // identity that is computed from the scene itself, so that later steps can still be cached.
                 if is_dense(done.scene) {
                     let digest = position.digest.unwrap_or_else(|| done.scene.digest());
                     position.digest = Some(digest);

@@ -15,7 +15,7 @@ pub(crate) static INTERRUPT: Cancel = Cancel::new();
 /// Installs the handler of Ctrl-C: the first Ctrl-C cancels the run cleanly, and the second Ctrl-C ends the program
 /// immediately.
 pub(crate) fn catch_interrupts() {
-    // If installing the handler fails, Ctrl-C still ends the program.
+    // The error is ignored, because Ctrl-C ends the program even without the handler.
     let _ = ctrlc::set_handler(|| {
         if INTERRUPT.set() {
             std::process::exit(130);
@@ -60,7 +60,8 @@ impl<'a> Terminal<'a> {
         {
             bar.set_style(style);
         }
-        // Periodic redrawing starts a thread. Starting it can fail when memory is low.
+        // Periodic redrawing starts a thread, which can fail when memory is low. Therefore a hidden bar starts no
+        // thread.
         if !bar.is_hidden() {
             bar.enable_steady_tick(Duration::from_millis(120));
         }

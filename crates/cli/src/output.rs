@@ -396,7 +396,7 @@ mod tests {
             short.contains("123456789012") && short.contains('…'),
             "{short}"
         );
-        // Numbers that do not fit are printed on further lines.
+        // Numbers that do not fit into a line are printed on the next lines.
         let wrapped = table_within(&rows, Some(16), true);
         assert!(wrapped.contains("123456789012"), "{wrapped}");
         let is_short = |line: &str| line.chars().count() <= 16;

@@ -265,7 +265,7 @@ fn nearest_xterm_color([r, g, b]: [u8; 3]) -> u32 {
 fn letters(image: &Image) -> Vec<u8> {
     const LIGHT_TO_DARK: &[u8] = b" .:-=+*#%@";
     let darkness = |color: Option<[u8; 3]>| {
-        // Weights of Rec. ITU-R BT.709, in thousandths.
+        // The weights of red, green and blue in the luminance of Rec. ITU-R BT.709, in thousandths.
         color.map_or(0, |[r, g, b]| {
             let light = u32::from(r) * 213 + u32::from(g) * 715 + u32::from(b) * 72;
             255_000 - light

@@ -91,7 +91,7 @@ impl Journal {
     /// Removes the journal.
     pub(crate) fn clear(&mut self, store: &dyn Store) {
         if self.written.take().is_some() {
-            // Removal is best effort: a journal that stays is offered at the next start.
+            // If the journal cannot be removed, its text is offered at the next start.
             let _ = store.remove_folder(&self.folder);
         }
     }
@@ -126,7 +126,7 @@ fn read(store: &dyn Store, folder: PathBuf) -> Option<Recovery> {
 impl Recovery {
     /// Removes the unsaved text from the folder for journals.
     pub fn discard(&self, store: &dyn Store) {
-        // A journal that stays is offered again.
+        // If the journal cannot be removed, its text is offered again.
         let _ = store.remove_folder(&self.folder);
     }
 

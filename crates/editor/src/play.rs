@@ -304,8 +304,8 @@ impl Editor {
 /// Whether `after` is the result of one level of Loop subdivision of all faces of `before`, with at most [`MAX_EDITS`]
 /// edits.
 fn is_loop_level(before: &Mesh, after: &Mesh) -> bool {
-    // There is one split for each edge. The splits add three edges inside each triangle. One of these edges ends at an
-    // old vertex, and is flipped.
+    // Loop subdivision is played as one split for each edge, one flip for each triangle, and one edit that moves the
+    // vertices. The splits add three edges inside each triangle. The one that ends at an old vertex is flipped.
     let n_edits = before.n_edges() + before.n_faces() + 1;
     n_edits <= MAX_EDITS
         && after.n_vertices() == before.n_vertices() + before.n_edges()

@@ -53,7 +53,8 @@ mod tests {
 
     #[test]
     fn stretched_faces_have_a_large_aspect_ratio_and_faces_without_area_an_infinite_one() {
-        // 4 * 2 * (4 + 1) / (4 * 4).
+        // The longest edge is 4, the perimeter is 10, and the area is 4. tan(pi / 4) is 1. So the ratio is 4 * 10 /
+        // (4 * 4) = 2.5.
         let long = polygon(&[[0.0, 0.0], [4.0, 0.0], [4.0, 1.0], [0.0, 1.0]]);
         assert!((aspect_ratio(&long, FaceId::new(0)) - 2.5).abs() < 1e-12);
         assert!((min_angle(&long, FaceId::new(0)) - 0.5 * PI).abs() < 1e-12);

@@ -183,7 +183,8 @@ impl<'m> Hole<'m> {
         let key = |p: usize, ear: usize, q: usize| {
             let (a, b, c) = (self.points[p], self.points[ear], self.points[q]);
             let is_inward = (b - a).cross(c - b).dot(normal) > 0.0;
-            // The bits of a non-negative f64, read as an integer, have the same order as the numbers.
+            // The heap compares the bits of the numbers. Read as integers, the bits of non-negative `f64` numbers have
+            // the same order as the numbers.
             (!is_inward, a.distance_squared(c).to_bits())
         };
         let mut queue: BinaryHeap<_> = (0..n)

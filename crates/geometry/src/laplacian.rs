@@ -179,7 +179,7 @@ fn half_cotangents(corners: [DVec3; 3], more: f64) -> ([f64; 3], f64) {
         );
     }
     let [a, b, c] = lengths(corners).map(|l| l + more);
-    // Heron's formula. All four factors are positive, because `more` is large enough.
+    // Heron's formula. All four factors are positive, because `more`, which is added to all lengths, is large enough.
     let area = 0.25 * ((a + b + c) * (b + c - a) * (c + a - b) * (a + b - c)).sqrt();
     let half_cot = |a: f64, b: f64, c: f64| (b * b + c * c - a * a) / (8.0 * area);
     (

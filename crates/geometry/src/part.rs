@@ -142,8 +142,8 @@ impl PartBuilder<'_> {
             }
             c.face_half_edge.push(half_edge(old.face_half_edge(f)));
         }
-        // A vertex inside the part keeps its half-edge. A vertex on the boundary of the part gets its half-edge
-        // later, in `link_boundary`.
+        // Each vertex stores one of its half-edges. A vertex inside the part keeps the stored half-edge. A vertex on
+        // the boundary of the part gets a half-edge later, in `link_boundary`.
         for (v, slot) in vertices.iter().zip(&mut c.vertex_half_edge) {
             let h = old
                 .vertex_half_edge(*v)
@@ -346,7 +346,8 @@ mod tests {
 
     #[test]
     fn each_fan_at_a_shared_vertex_gets_a_separate_vertex() {
-        // The parts form a checkerboard.
+        // The two parts are the dark and the light squares of a checkerboard, so the faces of a part touch only at
+        // vertices.
         let board = shapes::grid(5, 5);
         let color: Vec<usize> = (0..25).map(|f| f % 2).collect();
         for (part, n) in parts(&board, &color).iter().zip([13, 12]) {

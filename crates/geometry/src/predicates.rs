@@ -25,7 +25,7 @@ pub fn orient3d(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> Ordering {
         y: p.y,
         z: p.z,
     };
-    // `robust::orient3d` has the opposite sign.
+    // The sign is reversed, because `robust::orient3d` returns the opposite sign.
     sign(-robust::orient3d(coord(a), coord(b), coord(c), coord(d)))
 }
 

@@ -351,7 +351,7 @@ fn insert_skipped_corners(n: usize, triangles: &mut Vec<Triangle>) {
         used.get(place).copied().unwrap_or(first)
     };
     // The corners that are used by at least one triangle form a polygon. For each side of this polygon, `owner` has the
-    // triangle at this side. The index in `owner` is the first corner of the side.
+    // index of the triangle with this side, stored at the first corner of the side.
     let mut owner = vec![None; n];
     for (t, triangle) in triangles.iter().enumerate() {
         for k in 0..3 {

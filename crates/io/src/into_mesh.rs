@@ -45,7 +45,7 @@ impl Polygons {
             column.values = sources.gather(domain, column.values);
             let mut domain = domain;
             // Vertex attributes are inserted before corner attributes. If a vertex attribute has the same name, the
-            // corner attribute stays on the corners.
+            // corner attribute does not become a vertex attribute.
             let vertices = built.mesh.attributes();
             if domain == Domain::Corner
                 && !column.name.starts_with("uv")

@@ -195,7 +195,7 @@ impl PeekMesh {
             n if drops(policies.duplicates) => n.min(1),
             n => n,
         };
-        // An edge of a mesh has at most two faces, so at most two corners belong to each edge.
+        // An edge of a mesh has at most two faces, so the number of edges is at least half the number of corners.
         let edges = match self.simple_corners {
             _ if faces < self.simple_faces => 3 * faces,
             corners => corners.div_ceil(2),

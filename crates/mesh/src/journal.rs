@@ -270,7 +270,8 @@ impl Mesh {
             return Some(journal.recorded);
         };
         if outer.has_whole {
-            // The outer level already has a copy of the whole mesh, so it needs no entries of the inner level.
+            // The outer level of the journal already has a copy of the whole mesh, so it needs no entries of the inner
+            // level.
             journal.recorded.entries.truncate(inner.start);
             journal.recorded.values.truncate(inner.first_value);
         } else if inner.has_whole {

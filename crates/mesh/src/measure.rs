@@ -11,7 +11,7 @@ use crate::{Domain, EdgeId, Element, FaceId, HalfEdgeId, Mesh};
 /// and π, unlike the arc cosine. Source: Kahan, "How Futile are Mindless Assessments of Roundoff", 2006, §12.
 pub fn angle_between(a: DVec3, b: DVec3) -> f64 {
     let (a, b) = (ordinary(a).0, ordinary(b).0);
-    // Adding 0 turns -0 into 0: the arc tangent of (0, -0) is π.
+    // Adding 0 turns -0 into 0, because the arc tangent of (0, -0) would be π.
     libm::atan2(a.cross(b).length(), a.dot(b) + 0.0)
 }
 

@@ -134,7 +134,8 @@ mod tests {
     fn reversing_twice_gives_the_same_mesh() {
         for mut mesh in meshes().into_iter().map(numbered) {
             let twice = mesh.reversed().reversed();
-            // The entries of dead elements have no meaning, so the meshes are compacted before they are compared.
+            // The entries of dead (deleted) elements have no meaning, so the meshes are compacted before they are
+            // compared.
             assert_eq!(twice.is_dense(), mesh.is_dense());
             mesh.compact();
             let mut twice = twice;

@@ -322,7 +322,7 @@ impl Mesh {
         let mut h = self.next(first.twin());
         let mut n = 1;
         while h != first && n <= max {
-            // A fan has at most one gap, which must be at the first half-edge.
+            // A fan has at most one gap (a half-edge without a face), which must be at the first half-edge.
             if self.face(h).is_none() {
                 return Err(if self.face(first).is_none() {
                     Defect::SeveralFans(v)

@@ -84,7 +84,7 @@ pub fn made(operation: &impl Operation) -> Mesh {
     let mesh = object.as_mesh().expect("the object is a mesh");
     assert_eq!(mesh.defects(), [], "the source makes a valid mesh");
     assert_eq!(planned.name, object.name);
-    // Materials belong to the object, not to the mesh.
+    // Materials belong to the object, not to the mesh, so `MeshPlan::of` does not know them.
     let materials = Some(object.materials.iter().map(|m| m.name.clone()).collect());
     let expected = MeshPlan {
         materials,

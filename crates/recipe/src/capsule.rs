@@ -43,7 +43,7 @@ pub fn capsule(
         string_literal(&about)
     );
     text += "    steps: [\n";
-    // The scene before the first step is empty, so a capsule for the first step loads no scene.
+    // The scene before the first step is empty, so a failure capsule for the first step loads no scene.
     if from > 0 {
         text += &format!("        Load(path: {}),\n", string_literal(BEFORE));
     }

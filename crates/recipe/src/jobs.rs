@@ -174,8 +174,9 @@ where
     /// If `is_broadcast` is set, all threads were started together. A thread therefore does not wake another thread
     /// when it starts its first job.
     fn work<'s>(&'s self, scope: &Scope<'s>, is_broadcast: bool) {
-        // This thread already runs a job. The job that runs on this thread is waiting for a part of a loop. If the
-        // thread started another job now, the waiting job could not continue until the other job has ended.
+        // This thread already runs a job. This job is waiting until other threads have finished their parts of its
+        // parallel loop. If the thread started another job now, the waiting job could not continue until the other job
+        // has ended.
         if RUNS_JOB.get() {
             return;
         }

@@ -297,7 +297,7 @@ fn float_like(x: f64, written: &str) -> Result<String, String> {
     if !x.is_finite() {
         return Err(format!("{x} cannot be recorded"));
     }
-    // Adding 0 turns -0 into 0.
+    // Adding 0 turns -0 into 0, so that -0 is never recorded.
     let text = format!("{:?}", x + 0.0);
     let is_whole = !written.contains(['.', 'e', 'E']);
     let text = match text.strip_suffix(".0") {

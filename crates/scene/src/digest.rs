@@ -237,8 +237,8 @@ impl Encoder<'_> {
         self.text(path.unwrap_or(""));
 
         let mut default = Material::new("");
-        // In the first version of the form, a surface was drawn as transparent if and only if the alpha of its base
-        // color was less than 1.
+        // In the first version of the canonical form, a surface was drawn as transparent if and only if the alpha of
+        // its base color was less than 1.
         if m.base_color[3] < 1.0 {
             default.alpha = AlphaMode::Blend;
         }

@@ -126,7 +126,7 @@ impl<N: Count> Size<N> {
             inner_of_valence_2,
             ..
         } = self;
-        // Each boundary edge has one half-edge without a face.
+        // Each boundary edge has one half-edge without a face. All other half-edges have a corner.
         let boundary = edges.times(2).minus(corners);
         let [vertices, edges, faces, corners] = match scheme {
             Scheme::Loop(_) | Scheme::Butterfly | Scheme::Midpoint(Split::Triangles) => [

@@ -206,7 +206,7 @@ impl<'a> Sqrt3<'a> {
         if mesh.face(h).is_none() {
             let inner = h.twin();
             let (origin, next) = match self.side(inner) {
-                // The half-edge runs from y to x. The next one runs from x to a.
+                // In the figure for odd levels, this half-edge runs from y to x, and the next one runs from x to a.
                 Side::Cut => (self.end(mesh.next(inner)), self.spoke(inner).twin()),
                 _ => (mesh.origin(h), mesh.next(h)),
             };
@@ -226,10 +226,10 @@ impl<'a> Sqrt3<'a> {
         let mesh = self.mesh;
         let (before, after) = (self.prev(h), mesh.next(h));
         let (next, face) = match (self.side(before), self.side(after)) {
-            // This half-edge runs from b to y, along the boundary.
+            // In the figure for odd levels, this half-edge runs from b to y, along the boundary.
             (Side::Cut, _) => (before.twin(), FaceId::NONE),
             (Side::Kept, _) => (self.spoke(before).twin(), self.triangle(before)),
-            // This half-edge runs from c to x.
+            // In the figure for odd levels, this half-edge runs from c to x.
             (Side::Flipped, Side::Cut) => (after, self.triangle(after)),
             (Side::Flipped, _) => (before.twin(), self.triangle(before.twin())),
         };
@@ -237,7 +237,8 @@ impl<'a> Sqrt3<'a> {
         let (next, face) = match self.side(h) {
             Side::Flipped => (self.spoke_at_target(h.twin()), self.triangle(h)),
             Side::Kept => (h, self.triangle(h)),
-            // This half-edge runs from x to a. The next half-edge continues along the boundary.
+            // In the figure for odd levels, this half-edge runs from x to a. The next half-edge continues along the
+            // boundary.
             Side::Cut => {
                 let following = mesh.next(h.twin()).twin();
                 (self.spoke(mesh.next(following)), FaceId::NONE)
@@ -294,14 +295,14 @@ impl Links for Sqrt3<'_> {
             Source::Old(v) => match mesh.vertex_half_edge(v) {
                 None => HalfEdgeId::NONE,
                 Some(h) if mesh.face(h).is_some() => self.spoke(h),
-                // The boundary half-edge is a part of the old half-edge, or the old half-edge itself.
+                // The new boundary half-edge is a part of the old half-edge, or the old half-edge itself.
                 Some(h) => match self.side(h.twin()) {
                     Side::Cut => self.spoke(mesh.next(h.twin())),
                     _ => h,
                 },
             },
             Source::Center(f) => self.spoke(mesh.face_half_edge(f)).twin(),
-            // The half-edge runs from x to a, or from y to x.
+            // In the figure for odd levels, the half-edge runs from x to a, or from y to x.
             Source::Near(h) if mesh.face(h).is_some() => self.spoke(h).twin(),
             Source::Near(h) => h,
         }

@@ -105,7 +105,7 @@ impl Topology for Triangles<'_> {
         if i < n_halves {
             return place(self.0, i);
         }
-        // Cut k runs from the middle of half-edge k to the middle of half-edge k - 1.
+        // Cut k, a new edge inside the triangle, runs from the middle of half-edge k to the middle of half-edge k - 1.
         let (f, i) = ((i - n_halves) / 6, (i - n_halves) % 6);
         let start = self.0.face_half_edge(FaceId::new(f));
         let k = (i / 2 + if i % 2 == 0 { 0 } else { 2 }) % 3;

@@ -125,7 +125,7 @@ impl Prompt {
             self.listed = (folder.clone(), entries(&folder, self.purpose));
         }
         let all = &self.listed.1;
-        // A click on a file does not shorten the list, so that a second click opens the same file.
+        // A click on a file enters its name, but does not shorten the list, so that a second click opens the same file.
         let shows_all =
             self.purpose != Purpose::Open || all.iter().any(|entry| entry.name == typed);
         let typed = typed.to_lowercase();

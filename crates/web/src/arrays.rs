@@ -48,7 +48,7 @@ pub(crate) fn each_triangle(mesh: &Mesh, mut each: impl FnMut(FaceId, [HalfEdgeI
         corners.clear();
         corners.extend(mesh.face_half_edges(f));
         let cut = cutter.cut(mesh, f);
-        // A face that is a triangle is not cut.
+        // A face that is a triangle is not cut, so the cutter returns no triangles for it.
         let whole = [[0, 1, 2]];
         let triangles = match cut.triangles() {
             [] if corners.len() == 3 => &whole[..],

@@ -46,7 +46,7 @@ impl MeshOperation for Weld {
     const DONE: &'static str = "merged";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        // If faces are reversed, normals are dropped.
+        // The step drops the normals if it reverses faces, so they are not certain to stay.
         for attribute in &mut plan.attributes {
             attribute.certain &= attribute.name != VERTEX_NORMAL.name;
         }

@@ -154,7 +154,8 @@ impl Tessellate {
         cx: &Context,
     ) -> Result<(), OpError> {
         let counts = counts(patches, self.segments.get(), self.faces.into()).map_err(too_large)?;
-        // Each corner can need a separate edge, and each edge has two half-edges.
+        // Each corner can need a separate edge, and each edge has two half-edges. So a mesh can have at most half as
+        // many corners as there are ids.
         let max = (u32::MAX - 1) / 2;
         if counts.corners > u64::from(max) {
             let corners = counts.corners;

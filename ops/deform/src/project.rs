@@ -208,7 +208,8 @@ mod tests {
     fn vertices_beyond_the_distance_stay_and_are_counted() {
         let mut scene = scene();
         let before = positions(&scene, "cube");
-        // The distance from the sphere is √3 - 1 for corners, and 1 for the centers of the sides.
+        // The distance from the unit sphere is √3 - 1 for the 8 corners of the cube. It is 1 for the vertices above the
+        // centers of the sides.
         let report = op::test::run(&step(r#"(onto: "ball", distance: 0.8)"#), &mut scene).unwrap();
         assert_eq!(report.changed, 8);
         assert_eq!(

@@ -230,7 +230,7 @@ mod tests {
     fn edges_at_the_boundary_are_refused() {
         let step = parse("(edges: All, fraction: 0.25, on_refusal: Skip)");
         let (_, report) = try_applied(&step, shapes::grid(3, 3)).unwrap();
-        // Of the 12 inner edges, eight end at the boundary.
+        // The 12 inner edges are beveled, although eight of them end at the boundary.
         assert_eq!(report.changed, 12);
         let step = parse("(edges: All, fraction: 0.25)");
         let refused = try_applied(&step, shapes::grid(3, 3));

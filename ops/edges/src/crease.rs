@@ -113,7 +113,7 @@ fn sharpen<I: Id>(
         let number = &mut numbers[id.index()];
         if *number != sharpness {
             changed += 1;
-            // Adding 0 turns -0 into 0.
+            // Adding 0 turns -0 into 0, so that the sharpness is never -0.
             *number = sharpness + 0.0;
         }
     }

@@ -57,7 +57,8 @@ impl MeshOperation for BridgeLoops {
                 "`first` and `second` must be on different holes, but they are the same vertex";
             problems.push(Problem::error(message).at(["second"]));
         }
-        // If the hole with more edges has n edges, the band has n faces. Every hole has at least two edges.
+        // If the hole with more edges has n edges, the band between the holes has n faces. Every hole has at least two
+        // edges.
         let band = Range::between(2, plan.edges.max);
         plan.grow(Range::exactly(0), band, band);
         plan.degrees = plan.degrees.or(Range::between(3, 4));

@@ -53,7 +53,7 @@ impl MeshOperation for Stitch {
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         plan.vertices.min = plan.vertices.min.min(1);
-        // An edge is joined to at most one other edge.
+        // An edge is joined to at most one other edge, so at least half of the edges remain.
         plan.edges.min = plan.edges.min.div_ceil(2);
         Vec::new()
     }

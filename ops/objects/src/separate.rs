@@ -178,8 +178,8 @@ impl Separate {
     /// Returns a plan that is valid for every part: its counts are upper limits.
     fn part_of(&self, whole: &MeshPlan) -> MeshPlan {
         let mut part = whole.clone();
-        // If several fans of faces meet at a vertex, each fan gets its own copy of the vertex. There is at most one
-        // copy for each edge.
+        // If several fans of faces meet at a vertex, each fan gets its own copy of the vertex. Each fan has at least
+        // two of the edges at the vertex, so there are at most as many copies as edges.
         part.vertices = whole.vertices.plus(whole.edges).or_less();
         part.edges = whole.edges.or_less();
         part.faces = whole.faces.or_less();

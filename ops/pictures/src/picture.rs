@@ -248,7 +248,7 @@ impl Picture {
     pub fn extent(&self, scene: &Scene, cx: &mut Context) -> Result<Extent, OpError> {
         self.check()?;
         let scene = target_scene(scene, cx);
-        // The images of materials do not change the extent.
+        // The images of materials do not change the extent, so they are not needed here.
         let placed = placed(&scene, cx)?;
         let (subject, _) = self.subject(&scene, &placed, "", self.color_by.as_ref(), false, cx)?;
         self.shot(cx.budget).extent(subject).map_err(op_error)

@@ -73,8 +73,8 @@ impl MeshOperation for Bisect {
         plan.grow(crossings, crossings.plus(cuts), cuts);
         plan.degrees = Range::between(3, plan.degrees.max.saturating_add(per_face));
         if self.keep != Keep::Both {
-            // If several fans of faces meet at a vertex, each fan gets its own copy of the vertex. A vertex gets
-            // at most one copy for each of its edges.
+            // If several fans of faces meet at a vertex, each fan gets its own copy of the vertex. Each fan has at
+            // least two of the edges at the vertex, so there are at most as many copies as edges.
             plan.vertices = plan.vertices.plus(plan.edges).or_less();
             plan.edges = plan.edges.or_less();
             plan.faces = plan.faces.or_less();

@@ -135,7 +135,7 @@ impl MeshOperation for Transfer {
                 Domain::Face => faces.iter().map(|hit| source.of_face(hit)).collect(),
                 _ => source.of_corners(mesh, &column.values, &vertices, &faces, cx)?,
             };
-            // Half-edges without a face have no values.
+            // Half-edges without a face have no corner, and therefore no values.
             let is_element =
                 |i: usize| *domain != Domain::Corner || mesh.face(HalfEdgeId::new(i)).is_some();
             let elements = (0..origins.len()).filter(|&i| is_element(i));

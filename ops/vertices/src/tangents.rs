@@ -51,7 +51,7 @@ impl MeshOperation for Tangents {
             }
         }
         plan.provide(Domain::Corner, CORNER_TANGENT.name);
-        // A step that changes connectivity drops the tangents.
+        // A later step that changes connectivity drops the tangents, so they are not certain to stay.
         if let Some(tangents) = plan.attributes.last_mut() {
             tangents.certain = false;
         }

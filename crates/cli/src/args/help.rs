@@ -72,7 +72,7 @@ pub(crate) fn command() -> Command {
     let command = Args::command();
     let mut template = "{about}\n\n{usage-heading} {usage}\n".to_owned();
     for (title, commands) in GROUPS {
-        // Writing to a string cannot fail.
+        // Writing to a string cannot fail, so the result is ignored.
         let _ = write!(template, "\n{title}:\n");
         for (name, example) in commands {
             let about = command.find_subcommand(name).and_then(Command::get_about);

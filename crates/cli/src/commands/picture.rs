@@ -248,7 +248,7 @@ pub(crate) fn draw_scenes(
     scenes: &[(SceneAtStep, &str)],
     on: &[String],
 ) -> anyhow::Result<Vec<Image>> {
-    // Relative paths in the fields of `picture` start at the folder of the drawn file or recipe.
+    // Relative paths in the fields of `picture` are resolved in the folder of the drawn file or recipe.
     let files = Files {
         input: path.parent().map(Path::to_path_buf).unwrap_or_default(),
         ..Files::default()

@@ -133,8 +133,8 @@ impl Rerun {
             print_diagnostics(&loaded, &loaded.diagnostics);
             anyhow::bail!("{} cannot be run", loaded.path);
         }
-        // The expectations are not checked, because they do not necessarily hold for these parameter values. Only the
-        // bytes of the outputs are compared.
+        // The expectations are not checked, because they do not necessarily hold for the parameter values of this run.
+        // Only the bytes of the outputs are compared.
         loaded.recipe.expectations.clear();
         let run_again = engine::Run {
             keep_outputs: true,

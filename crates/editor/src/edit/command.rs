@@ -399,7 +399,7 @@ fn converted(selection: &SelectionText, wanted: Option<ElementKind>) -> Option<S
         }),
         Some(kind) if kind == selection.kind => Some(text.clone()),
         Some(kind) => {
-            // The last conversion is the narrowest, such as `EdgesWithin` instead of `EdgesAround`.
+            // The last conversion in the list is the narrowest one, such as `EdgesWithin` instead of `EdgesAround`.
             let outer = kind.conversions(selection.kind).last()?;
             Some(format!("{outer}({text})"))
         }

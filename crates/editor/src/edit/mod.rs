@@ -403,8 +403,8 @@ impl Editor {
         };
         if !Arc::ptr_eq(&self.shown, &shown) {
             self.shown = shown;
-            // In another scene, the picked elements possibly need another selection, or do not exist. A preview keeps
-            // the picked elements and their selection.
+            // In another scene, the picked elements possibly do not exist, or a different selection is needed to select
+            // them. A preview keeps the picked elements and their selection.
             if self.preview.is_none() {
                 self.keep_picked();
             } else {
@@ -487,7 +487,7 @@ impl Editor {
 
 impl Drop for Editor {
     fn drop(&mut self) {
-        // After a panic, the journal stays, so that the text is offered at the next start.
+        // After a panic, the journal stays, so that the unsaved text is offered at the next start.
         if let Some(journal) = &mut self.journal
             && !std::thread::panicking()
         {

@@ -145,7 +145,8 @@ impl Job<'_> {
             return 0;
         }
         let mut first = known;
-        // An expectation is checked only if the step before it runs. Therefore this step must run.
+        // An expectation is checked only if the step before it runs. Therefore the step before each unchecked
+        // expectation must run.
         for placed in state
             .expectations
             .iter()
@@ -262,7 +263,8 @@ fn state_of(loaded: &Loaded) -> RunState {
     let outline = crate::Outline::of(&recipe.sources[0].text);
     let steps = (recipe.steps.iter().enumerate())
         .map(|(i, step)| {
-            // The place of the step, or of the outermost call around it, in the text of the recipe itself.
+            // The place of the step in the text of the recipe. If the step belongs to a called recipe, this is the
+            // place of the outermost call.
             let mut span = step.span;
             let mut scope = step.scope;
             while let Some((caller, call)) = recipe.scopes.get(scope).and_then(|s| s.called) {

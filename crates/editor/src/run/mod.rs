@@ -199,7 +199,7 @@ fn serve(shared: &Shared, registry: &Registry, store: &Arc<dyn Store>) {
             cancel: &cancel,
             request: &request,
         };
-        // After a panic, the snapshots are complete: each is added as a whole.
+        // The snapshots are valid even after a panic, because each snapshot is added as a whole or not at all.
         if catch_unwind(AssertUnwindSafe(|| job.run(&mut snapshots))).is_err() {
             shared.send(Event::Panicked { number });
         }
@@ -227,7 +227,7 @@ fn next_request(shared: &Shared, store: &dyn Store) -> Option<(Request, Arc<Atom
             *seen = now;
         }
         if is_changed {
-            // Reports each change only once.
+            // The new states of the files are stored, so that each change is reported only once.
             let mut state = shared.lock();
             let old = state.watched.iter().map(|(path, _)| path);
             if old.eq(files.iter().map(|(path, _)| path)) {

@@ -394,7 +394,7 @@ fn facing(mesh: &Mesh, picked: &[bool]) -> Option<String> {
     if direction == mesh::DVec3::ZERO {
         return None;
     }
-    // A short direction is easier to read: an axis, or three digits.
+    // The direction is rounded to three decimals, because a short number is easier to read in a recipe.
     direction = (direction * 1000.0).round() / 1000.0;
     let angle = |f: FaceId| mesh::angle_between(mesh.face_normal(f), direction).to_degrees();
     let limit = threshold(mesh.faces().map(|f| (-angle(f), picked[f.index()])))?;

@@ -95,7 +95,7 @@ pub(crate) fn insert_entry(
     if tail.comma.is_none() {
         edits.push((at_end(before.end), ",".to_owned()));
     }
-    // The comma after the last entry is kept or omitted as before.
+    // The new last entry gets a comma only if the old last entry had one.
     let comma = if is_last && tail.comma.is_none() {
         ""
     } else {
@@ -132,7 +132,7 @@ fn insert_first(text: &str, container: Span, first: Option<Span>, entry: &str) -
             };
             return vec![(Span::new(open, close), new)];
         }
-        // The container has only comments.
+        // The container has no entries, only comments.
         let offset = line_start(text, close).max(open);
         let new = if starts_line(text, close) && offset > open {
             format!("{inner}{entry},\n")

@@ -144,8 +144,8 @@ fn left_chords(corners: &[Corner]) -> Vec<[u32; 2]> {
     let mut chords: Vec<[u32; 2]> = (0..n)
         .filter(|&i| !is_left(i) && is_left(i + 1))
         .map(|i| {
-            // The search finds an end of the chain, because the polygon also has corners that are not to the left of
-            // the line.
+            // The chain consists of corners to the left of the line. The search finds its end, because the polygon also
+            // has corners that are not to the left.
             let end = (i + 1..=i + n)
                 .find(|&j| !is_left(j))
                 .expect("a chain ends")

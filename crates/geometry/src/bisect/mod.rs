@@ -136,7 +136,8 @@ fn split_across(mesh: &mut Mesh, heights: &mut Vec<f64>) -> Result<(), EditError
     for e in crossing {
         let [a, b] = mesh.edge_vertices(e);
         let [low, high] = [a, b].map(|v| heights[v.index()]);
-        // If a and b are swapped, each of them keeps its weight, identical bit for bit.
+        // If a and b are swapped, each of them keeps exactly the same weight. So the new position does not depend on
+        // the direction of the edge.
         let (weight_a, weight_b) = (high / (high - low), low / (low - high));
         let p = weight_a * mesh.position(a) + weight_b * mesh.position(b);
         let new = mesh.insert_vertex(e, weight_b)?;

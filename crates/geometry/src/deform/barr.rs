@@ -125,8 +125,9 @@ impl Bend {
         let length = part * (to - from);
         let beyond = p.z - from - length;
         let (s, c) = sin_cos_degrees(self.angle * part);
-        // The chord of the arc forms the angle θ / 2 with the unbent axis. The length of the chord is 2 sin(θ / 2) / k,
-        // which is `length` times a factor that tends to 1 for small angles.
+        // The bent part is an arc with the angle θ and the curvature k. Its chord forms the angle θ / 2 with the unbent
+        // axis. The length of the chord is 2 sin(θ / 2) / k, which is `length` times a factor that tends to 1 for small
+        // angles.
         let (half_sin, half_cos) = sin_cos_degrees(0.5 * self.angle * part);
         let half_angle = (0.5 * self.angle * part).to_radians();
         let chord = if half_angle == 0.0 {

@@ -330,8 +330,8 @@ impl Block {
         for i in 0..n {
             ask()?;
             for j in 0..n - i {
-                // Cell (i, j) has a smaller triangle with the orientation of the large triangle. Each cell except the
-                // last one of a row also has an inverted small triangle.
+                // The large triangle is divided into cells. Cell (i, j) has a small triangle with the orientation of
+                // the large triangle. Each cell except the last one of a row also has an inverted small triangle.
                 let n_parts = if i + j + 2 <= n { 2 } else { 1 };
                 for shift in [third, 2.0 * third].into_iter().take(n_parts) {
                     let (u, v) = (f64::from(i) + shift, f64::from(j) + shift);

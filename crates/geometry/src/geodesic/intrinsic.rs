@@ -184,7 +184,7 @@ impl Intrinsic {
             corner(self.corners[u], m + 2),
         );
         let number = |t: usize, k: usize| u32::try_from(3 * t + k % 3).unwrap_or(NONE);
-        // The old and new indices of the sides lj, jk, ki and il.
+        // For each of the sides lj, jk, ki and il: its index before the flip, and its index after the flip.
         let moved = [
             (number(u, m + 2), number(t, 1)),
             (number(t, k + 1), number(t, 2)),

@@ -53,7 +53,7 @@ pub fn geodesic_distances(
     let mut surface = Intrinsic::new(mesh, &scaled_points(mesh, -exponent));
     surface.flip_to_delaunay(progress)?;
     let (stiffness, areas) = laplacian(&surface, n);
-    // Vertices without a face, or in a component without a source, have no equation.
+    // A vertex has no equation if it has no face, or if its component has no source.
     let is_fixed: Vec<bool> = (0..n).map(|v| !is_reached[v] || areas[v] <= 0.0).collect();
     let is_pinned: Vec<bool> = (0..n).map(|v| is_fixed[v] || is_source[v]).collect();
     let is_hot = |v: usize| is_source[v] && !is_fixed[v];
@@ -124,8 +124,8 @@ fn heat(
         let mut heat = start.to_vec();
         Factor::with_pins(&matrix, is_pinned, progress)?.solve(&none, &mut heat)?;
         let arrives = |(heat, is_pinned): (&f64, &bool)| *is_pinned || *heat > LEAST_HEAT;
-        // At this limit, the square root of the time is 1e8 times the mean edge length. The heat then reaches vertices
-        // at about this distance; in practice, no path is that long.
+        // The longest time is 1e16 times the squared mean edge length. Heat then reaches vertices at a distance of
+        // about 1e8 edge lengths; in practice, no path is that long.
         let is_longest = time > length * length * 1e16;
         if is_longest || heat.iter().zip(is_pinned).all(arrives) {
             return Ok(heat);
@@ -139,7 +139,8 @@ fn heat(
 /// the vertex, and the direction in which the heat decreases.
 fn flow(surface: &Intrinsic, heat: &[f64], n: usize) -> Vec<f64> {
     let of_triangle = |(corners, &[a, b, c]): (&[u32; 3], &[f64; 3])| {
-        // The triangle is laid out in a plane, with its corners at (0, 0), (a, 0) and (x, y).
+        // The triangle is laid out in a plane. Its corners are at (0, 0), (a, 0) and (x, y), where a is the length of
+        // its first side.
         let x = (a * a + c * c - b * b) / (2.0 * a);
         let y = 2.0 * area([a, b, c]) / a;
         // A hat function is 1 at one corner and 0 at the two others. Its gradient, times twice the area, is the side

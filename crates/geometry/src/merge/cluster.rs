@@ -353,7 +353,7 @@ mod tests {
     #[test]
     fn clusters_are_the_same_for_any_number_of_threads() {
         let points = noise(100_000);
-        // At or near one of these distances, most points of this cloud merge into one cluster.
+        // Near one of these distances is the limit above which most points of this cloud merge into one cluster.
         for distance in [0.005, 0.015, 0.02] {
             let with = |threads| {
                 let pool = rayon::ThreadPoolBuilder::new()

@@ -204,7 +204,7 @@ impl Polygons {
         let has_reversed = !built.report.reversed_faces.is_empty();
         let mut mesh = built.mesh;
         let mut vertices = self.kept;
-        // The copies of split vertices come after all other vertices, in the order of this list.
+        // The copies of split vertices come after all other vertices, in the order of `split_vertices`.
         for (original, _) in &built.report.split_vertices {
             vertices.push(vertices[original.index()]);
         }
@@ -234,7 +234,7 @@ impl Polygons {
         });
         attributes.drop_by_rule();
         if has_reversed {
-            // Normals would point to the wrong side of reversed faces.
+            // The normals would point to the wrong side of the reversed faces.
             attributes.remove(Domain::Vertex, VERTEX_NORMAL.name);
             attributes.remove(Domain::Corner, CORNER_NORMAL.name);
         }

@@ -54,7 +54,8 @@ impl UnionFind {
     /// Returns for each number the lowest number of its set.
     pub(crate) fn into_lowest(self) -> Vec<u32> {
         let mut lowest: Vec<u32> = self.parent.into_iter().map(AtomicU32::into_inner).collect();
-        // A parent is lower than its children, so the entry of the parent already contains the root of the set.
+        // A parent has a lower index than its children, so the entry of the parent already contains the root of the
+        // set.
         for v in 0..lowest.len() {
             lowest[v] = lowest[lowest[v] as usize];
         }
@@ -84,7 +85,8 @@ mod tests {
             .build()
             .unwrap();
         let sets = UnionFind::new(60_000);
-        // Steps of 6 and 10 connect all even numbers to each other, and all odd numbers to each other.
+        // Joins of numbers that differ by 6 or 10 connect all even numbers to each other, and all odd numbers to each
+        // other.
         pool.install(|| {
             (0..59_990_u32).into_par_iter().for_each(|v| {
                 sets.join(v, v + 10);

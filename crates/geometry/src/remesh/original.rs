@@ -303,8 +303,8 @@ impl<'a> Original<'a> {
 fn kinds_to_places(mesh: &Mesh, kinds: &[Kind]) -> Vec<Place> {
     let place = |v: VertexId| match kinds[v.index()] {
         Kind::Inside if mesh.vertex_half_edge(v).is_some() => Place::Inside(0),
-        // Here, a vertex between the two ends of a chain also gets the place `Corner`. When the chains are built, this
-        // place is replaced by `Line`.
+        // Here, a vertex inside a chain (a line between two corners) also gets the place `Corner`. When the chains are
+        // built, this place is replaced by `Line`.
         _ => Place::Corner(v),
     };
     mesh.vertices().map(place).collect()

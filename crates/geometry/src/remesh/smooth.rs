@@ -139,8 +139,8 @@ impl Work<'_> {
             }
         }
         let size = self.sizes[v.index()];
-        // A quarter of the sum of both arc lengths is half the way to the middle between the two neighbors. If all
-        // vertices moved the whole way at the same time, they would oscillate.
+        // `sum` adds the signed arc lengths to the two neighbors on the line. A quarter of it is half the way to the
+        // middle between these neighbors. If all vertices moved the whole way at the same time, they would oscillate.
         let way = 0.25 * sum;
         if n != 2 || way.abs() < STILL * size {
             return None;

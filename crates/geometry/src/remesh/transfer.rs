@@ -217,8 +217,7 @@ impl Work<'_> {
             (Place::Line { at, .. }, Some(track)) => {
                 let (g, t) = self.original.chains[track.chain as usize].locate(at);
                 // `g` is the half-edge of the original mesh on which the new vertex lies. The result is a blend of the
-                // corners at the two ends of `g`. These corners are on the same side of the chain as the new corner
-                // `h`.
+                // corners at the two ends of `g`. These corners are on the same side of the line as the new corner `h`.
                 let (near, far, t) = if track.is_along {
                     (g, source.next(g), t)
                 } else {

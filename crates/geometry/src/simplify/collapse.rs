@@ -347,7 +347,7 @@ impl<'a> Collapser<'a> {
             },
         };
         self.marks[v.index()].changed = self.queue.pass();
-        // After this collapse, blocked edges at the vertex can possibly be collapsed, so these edges are queued again.
+        // Edges at the vertex that were blocked before can possibly be collapsed now, so they are queued again.
         for e in self.mesh.vertex_half_edges(v).map(HalfEdgeId::edge) {
             let state = &mut self.states[e.index()];
             if *state != State::Queued {

@@ -58,9 +58,9 @@ impl Quadric {
         let inverse = sum.inverse()?;
         let solve = |p: DVec3| p.x * inverse[0] + p.y * inverse[1] + p.z * inverse[2];
         let lowest = -solve(sum.b);
-        // Because of `weak`, the lowest point of the sum is a little away from the lowest point of this quadric. One
-        // Newton step for this quadric, with the matrix of the sum, moves the point back. The point stays moved only in
-        // directions in which this quadric hardly changes.
+        // The added quadric `weak` moves the lowest point of the sum a little away from the lowest point of this
+        // quadric. One Newton step for this quadric, with the matrix of the sum, moves the point back. The point stays
+        // moved only in directions in which this quadric hardly changes.
         Some(lowest - solve(self.times(lowest) + self.b))
     }
 

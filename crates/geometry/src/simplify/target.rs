@@ -77,8 +77,8 @@ impl Collapser<'_> {
         }
         let weak = spread.quadric(FIRMNESS);
         let points = [from.point, to.point];
-        // If there is an error limit, a boundary edge must collapse to one of its ends. The bound on the distance is
-        // known only in this case.
+        // If there is an error limit, a boundary edge must collapse to one of its ends. A bound on the distance is
+        // known only for these two points.
         let end = end.or_else(|| {
             let is_bounded = self.options.error.is_some() && self.mesh.is_boundary_edge(e);
             let sum = placing + weak;

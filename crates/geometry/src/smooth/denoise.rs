@@ -79,9 +79,10 @@ fn filtered_normals(
         u8::try_from(n).expect("at most 255")
     });
     let spread = spread_of_centers(mesh, &centers);
-    // Half of the distance between the ends of two unit normals that enclose this angle.
+    // Half the distance between the end points of two unit normals that enclose the given angle.
     let (tolerance, _) = sin_cos_degrees(0.5 * angle);
-    // The weight exp(-|difference|² / 2 s²). A difference of 0 gives the weight 1 even if s is 0.
+    // The weight is exp(-d² / (2 s²)), where d² is `square` and s is `spread`. For d = 0, the weight is 1, even if s
+    // is 0.
     let falloff = |square: f64, spread: f64| {
         if square == 0.0 {
             1.0

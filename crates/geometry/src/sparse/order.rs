@@ -159,8 +159,8 @@ impl Quotient {
         for &i in &members {
             let (d, hash) = self.update(i, p);
             if self.elements[i as usize].len() == 1 && self.variables[i as usize].is_empty() {
-                // All neighbors of i are members of p, so eliminating i directly after p creates no new nonzero
-                // entries.
+                // All neighbors of the variable i are members of the element p, so eliminating i directly after p
+                // creates no new nonzero entries.
                 eliminated += self.weight[i as usize];
                 self.merge(i, p);
             } else {

@@ -88,7 +88,8 @@ fn intersect(s: &[DVec3; 3], t: &[DVec3; 3]) -> bool {
             };
             (0..3).any(|i| {
                 let j = (i + 1) % 3;
-                // A side that does not reach the plane of the other triangle does not meet that triangle.
+                // A side that does not reach the plane of the other triangle does not meet that triangle, so it is not
+                // tested.
                 let reaches = |sides: [Ordering; 3]| sides[i] != sides[j] || sides[i] == Equal;
                 reaches(sides) && meets([s[i], s[j]], t)
                     || reaches(other_sides) && meets([t[i], t[j]], s)

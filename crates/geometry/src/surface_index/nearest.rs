@@ -92,7 +92,8 @@ impl SurfaceIndex {
             triangle: hint,
         };
         self.try_triangle(p, hint, &mut best);
-        // Each child has half of the triangles of its parent, so the depth of the tree is at most 32.
+        // Each child has half of the triangles of its parent, and there are less than 2^32 triangles, so the depth of
+        // the tree is at most 32.
         let mut stack = [(0, 0.0); 64];
         let mut height = 1;
         stack[0] = (0, self.nodes[0].distance_squared(p));
@@ -200,7 +201,8 @@ impl SurfaceIndex {
     /// visited in order of their distances from `p`, because this order gives the best lower bound if the search stops
     /// early.
     fn nearly_nearest(&self, p: DVec3, mut best: Best) -> (Best, Option<f64>, u32) {
-        // The bits of a non-negative f64, read as an integer, have the same order as the numbers.
+        // The heap compares the bits of the numbers. Read as integers, the bits of non-negative `f64` numbers have the
+        // same order as the numbers.
         let mut waiting = BinaryHeap::from([Reverse((0_u64, 0_usize))]);
         let mut visits = MAX_NODES;
         while let Some(Reverse((bits, i))) = waiting.pop() {

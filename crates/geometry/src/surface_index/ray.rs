@@ -117,7 +117,7 @@ impl SurfaceIndex {
             }
             let mut children = [i + 1, node.right as usize]
                 .map(|i| ray.enters(&self.nodes[i]).map(|enter| (i, enter)));
-            // The nearer child is visited first.
+            // The nearer child is visited first, because a hit in it makes it possible to skip the other child.
             if let [Some(one), Some(two)] = children
                 && one.1 <= two.1
             {
@@ -199,7 +199,7 @@ impl Ray {
         }
         let areas = [0, 1, 2].map(|i| {
             let area = flat[(i + 1) % 3].perp_dot(flat[(i + 2) % 3]).abs();
-            // The area overflows only if coordinates are above 1e150.
+            // The area overflows only if coordinates are above 1e150. It then counts as 0.
             if area.is_finite() { area } else { 0.0 }
         });
         let sum = areas[0] + areas[1] + areas[2];
@@ -230,8 +230,8 @@ fn side_of_origin(a: DVec2, b: DVec2) -> Option<Ordering> {
     if side != Equal {
         return Some(side);
     }
-    // Twice the area of the triangle a, b, (ε, ε²) is twice the area of the triangle a, b, (0, 0) plus ε (a.y − b.y) +
-    // ε² (b.x − a.x).
+    // The origin is on the line through a and b, so it is replaced by (ε, ε²) with a tiny positive ε. Twice the area of
+    // the triangle a, b, (ε, ε²) is then ε (a.y - b.y) + ε² (b.x - a.x).
     let sides = [a.y.partial_cmp(&b.y), b.x.partial_cmp(&a.x)];
     sides.into_iter().flatten().find(|side| *side != Equal)
 }

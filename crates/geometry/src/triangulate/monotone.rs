@@ -370,7 +370,7 @@ mod tests {
 
     #[test]
     fn a_polygon_with_crossing_sides_is_refused() {
-        // One half of a figure of eight is clockwise.
+        // The polygon is a figure eight: one half runs counterclockwise, and the other half runs clockwise.
         let eight = |i: u32| {
             let angle = TAU * f64::from(i) / 9999.0;
             [libm::sin(angle) + 0.1, libm::sin(2.0 * angle)]

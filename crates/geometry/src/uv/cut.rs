@@ -177,7 +177,7 @@ pub(super) fn chart(
         }
         Err(SolveError::Cancelled(cancelled)) => return Err(cancelled),
         // If triangles are extremely thin, the equations possibly have no accurate solution. The chart then counts as
-        // too much stretched.
+        // stretched too much.
         Err(_) => {}
     }
     if is_single {
@@ -292,7 +292,8 @@ pub(super) fn nearest(
     };
     let mut distance = vec![f64::INFINITY; faces.len()];
     let mut side = vec![0; faces.len()];
-    // The bits of a non-negative f64, read as an integer, have the same order as the numbers.
+    // The queue compares the bits of the numbers. Read as integers, the bits of non-negative `f64` numbers have the
+    // same order as the numbers.
     let mut queue = BTreeSet::new();
     for &(seed, s) in seeds {
         distance[seed] = 0.0;

@@ -128,7 +128,7 @@ fn conformal(
     let n = part.points.len();
     let start = project(part);
     // The equations have exactly one solution if the positions of two vertices are fixed. The two fixed vertices are
-    // the two ends of the projection along the longer side of the bounding box of the projection.
+    // those with the lowest and the highest coordinate along the longer side of the bounding box of the projection.
     let (low, high) = start
         .iter()
         .fold((DVec2::MAX, DVec2::MIN), |(low, high), &p| {

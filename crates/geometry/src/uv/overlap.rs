@@ -19,14 +19,15 @@ pub(super) fn upright(triangles: impl Iterator<Item = [DVec2; 3]>) -> DVec2 {
         let size = a.max(b).max(c) - a.min(b).min(c);
         boxes += size.x * size.y;
         areas += (b - a).perp_dot(c - a).abs() / 2.0;
-        // The square of a complex number is the same for a side and for the opposite direction.
+        // As complex numbers, a side and the opposite of the side have the same square, so the direction of a side does
+        // not matter.
         squares += [b - a, c - b, a - c]
             .iter()
             .map(|d| d.rotate(*d))
             .sum::<DVec2>();
     }
     if boxes.is_finite() && boxes > MAX_BOXES * areas {
-        // The mean direction of the sides is the square root of the sum.
+        // The mean direction of the sides is the square root of the sum of their squares (as complex numbers).
         let square = squares.normalize_or(DVec2::X);
         let (cos, sin) = (
             ((1.0 + square.x) / 2.0).sqrt(),

@@ -122,7 +122,8 @@ pub fn pack(
     let mut atlas = pack_shapes(&shapes, page, progress)?;
     let n_known = packed.n_overlapping;
     for (shape, output) in shapes.iter_mut().zip(&atlas.meshes) {
-        // If a chart overlaps itself, the packing has cut it into several charts.
+        // If a chart overlaps itself, the packing has cut it into several charts. The convex hull of such a chart is
+        // packed instead.
         if n_charts(output) != 1 {
             *shape = shape.hull();
             packed.n_overlapping += 1;
@@ -315,7 +316,8 @@ impl Shape {
             }
             chain
         };
-        // Both halves run from one extreme point to the other. The extreme points are the ends of the halves.
+        // The lower and the upper half of the hull both run between the two extreme points along x, which are the ends
+        // of the halves.
         let halves = [
             half(&mut points.iter().copied()),
             half(&mut points.iter().rev().copied()),
@@ -375,7 +377,7 @@ impl Motion {
         let n = pairs.len().max(1) as f64;
         let from = pairs.iter().map(|pair| pair[0]).sum::<DVec2>() / n;
         let to = pairs.iter().map(|pair| pair[1]).sum::<DVec2>() / n;
-        // The direction of the sum of conj(p - from) (q - to) is the best rotation.
+        // With vectors as complex numbers, the direction of the sum of conj(p - from) (q - to) is the best rotation.
         let turn = pairs.iter().fold(DVec2::ZERO, |sum, [p, q]| {
             let (p, q) = (*p - from, *q - to);
             sum + DVec2::new(p.dot(q), p.perp_dot(q))

@@ -31,7 +31,7 @@ pub(super) fn number(bytes: &[u8], component: ComponentType, normalized: bool) -
         (ComponentType::F32, &[a, b, c, d]) => return f64::from(f32::from_le_bytes([a, b, c, d])),
         _ => return f64::NAN,
     };
-    // The lowest signed integer and the second lowest both represent -1.
+    // Of the normalized signed integers, the lowest and the second lowest both represent -1.
     if normalized {
         (value / largest).max(-1.0)
     } else {

@@ -92,8 +92,8 @@ impl<'a> Quantizer<'a> {
         let name = &prepared.object.name;
         if !prepared.deformation.is_none() {
             // Meshes with joints or morph targets are not quantized. A skinned mesh ignores the transform of its node,
-            // so a grid node would have no effect. In a mesh with morph targets, the deltas would need the same grid as
-            // the positions.
+            // so a node that scales the quantized positions back would have no effect. In a mesh with morph targets,
+            // the deltas would need the same grid as the positions.
             let reason = "the object has joints or morph targets".to_owned();
             let what = (name.clone(), "positions".to_owned(), reason);
             self.report.unquantized.push(what);
@@ -267,14 +267,14 @@ impl<'a> Quantizer<'a> {
                 nodes[i]["scale"] = scale;
                 continue;
             }
-            // Readers name the object after the grid node, because it is the node with the mesh.
+            // The new node gets the name of the old node, because readers name an object after the node with the mesh.
             let child = json!({
                 "name": nodes[i]["name"], "mesh": nodes[i]["mesh"].take(), "translation": translation, "scale": scale,
             });
             let index = nodes.len();
             if let Value::Array(children) = &mut nodes[i]["children"] {
-                // The grid node is the first child, so that readers find the objects in the same order as without
-                // quantization.
+                // The new node with the mesh is the first child, so that readers find the objects in the same order as
+                // without quantization.
                 children.insert(0, index.into());
             }
             nodes.push(child);
@@ -307,7 +307,7 @@ impl Grid {
                 rounded
             }
         };
-        // Adding 0 turns -0 into 0.
+        // Adding 0 turns -0 into 0, so that no coordinate of the origin is -0.
         let origin = min.to_array().map(|x| below(x) + 0.0);
         let size = (max - DVec3::from(origin.map(f64::from))).max_element();
         let exact = size * f64::from(u16::MAX) / f64::from(bits.largest());

@@ -92,8 +92,8 @@ pub(super) fn note_changed(stream: &Stream, mesh: &Mesh, split: &Split, losses: 
 /// left out. If the reader made copies of a vertex, the copies are merged with it again, unless their values differ.
 pub(super) fn split(mesh: &Mesh, streams: &[Stream]) -> Split {
     let file = FileVertices::of(mesh);
-    // If there are no copies, all corners of a vertex have the same values of vertex attributes, so only corner
-    // attributes are compared.
+    // If the mesh has no copies of vertices, all corners of a vertex have the same values of vertex attributes, so only
+    // corner attributes are compared.
     let can_differ = |stream: &&Stream| stream.domain == Domain::Corner || file.has_copies();
     let seams: Vec<&Stream> = streams.iter().filter(can_differ).collect();
     let n = file.len();

@@ -76,7 +76,7 @@ pub(super) fn streams<'a>(
     let changes = value_deltas(mesh, &streams, &has_target);
     let normals = find(&streams, Semantic::Normals);
     if normals.is_none() {
-        // Readers ignore tangents without normals.
+        // Readers ignore tangents without normals, so such tangents are not written.
         streams.retain(|stream| stream.semantic != Semantic::Tangents);
     }
     let tangents = find(&streams, Semantic::Tangents);

@@ -201,7 +201,7 @@ impl Ignored {
 
 fn converted(from: tobj::Material, ignored: &mut Ignored) -> Material {
     let mut unknown = from.unknown_param;
-    // `tobj` treats a comment without a blank after `#` as a parameter.
+    // `tobj` treats a comment without a blank after `#` as a parameter, so such a parameter is removed.
     unknown.retain(|key, _| !key.starts_with('#'));
     let mut number = |key: &str| {
         let value = unknown.get(key)?.parse::<f64>().ok()?;

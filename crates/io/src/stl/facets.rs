@@ -46,8 +46,9 @@ pub(super) fn compare(normal: DVec3, [a, b, c]: [DVec3; 3]) -> Side {
             Side::Opposite
         };
     }
-    // The coordinates in the file have a precision of only 24 bits. Therefore, the computed normal of a sliver (a very
-    // thin triangle) can be a result of rounding errors alone. Therefore, the normals of a sliver count as equal here.
+    // The coordinates in the file have a precision of only 24 bits. So the computed normal of a sliver (a very thin
+    // triangle) can be a result of rounding errors alone. Therefore, the normal of a sliver in the file counts as equal
+    // to the computed normal here.
     let size = a.abs().max(b.abs()).max(c.abs()).max_element();
     let longest = (b - a).length_squared().max((c - a).length_squared());
     let rounding = 4.0 / f64::from(1 << 24) * size;

@@ -153,7 +153,7 @@ pub(crate) fn peek(
     notes: &mut Notes,
 ) -> Result<(PeekMesh, Option<AttributeNames>), Fault> {
     let mut mesh = PeekMesh::default();
-    // In a text file, the faces of several solids get tags.
+    // If a text file has several solids, the faces of each solid get a tag. The names of these tags are not known here.
     let mut names = Some(Vec::new());
     let n = match kind(bytes)? {
         Kind::Text => {

@@ -18,7 +18,7 @@ pub(super) struct Edges {
 /// Whether the side that starts at corner `c` is the first side of its edge.
 #[inline]
 fn is_first(c: usize, twin: &[u32]) -> bool {
-    // A missing twin, `NONE`, is greater than all corners.
+    // The value `NONE` of a missing twin is greater than all corner indices.
     c < twin[c] as usize
 }
 

@@ -57,7 +57,8 @@ impl Orientation {
                         continue;
                     }
                     let g = polygons.face(other) as usize;
-                    // Two sides with the same origin run in the same direction.
+                    // If the two sides of an edge have the same origin, they run in the same direction, so one of their
+                    // polygons is reversed.
                     let reversed = is_reversed[f] ^ (polygons.origin(c) == polygons.origin(other));
                     if is_visited[g] {
                         is_orientable &= is_reversed[g] == reversed;
@@ -112,7 +113,8 @@ fn opposite_sides(polygons: &Polygons, buckets: &Buckets) -> Vec<u32> {
             sides.sort_unstable();
             for edge in sides.chunk_by(|a, b| a.0 == b.0) {
                 if let &[(_, c), (_, d)] = edge {
-                    // The task for the vertex at the other end of the edge stores the same values.
+                    // The task for the vertex at the other end of the edge stores the same values, so the order of the
+                    // tasks does not matter.
                     opposite_sides[c as usize].store(d, Relaxed);
                     opposite_sides[d as usize].store(c, Relaxed);
                 }

@@ -71,7 +71,7 @@ pub(super) fn pair(polygons: &Polygons, buckets: &Buckets) -> PairedSides {
         .clone()
         .flat_map(|block| block.edges.clone())
         .collect();
-    // An edge can be added twice, once at each end.
+    // An edge can be listed twice, once by each of its ends, so duplicates are removed.
     non_manifold_edges.sort_unstable();
     non_manifold_edges.dedup();
     PairedSides {

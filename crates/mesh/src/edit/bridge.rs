@@ -60,7 +60,8 @@ impl Mesh {
         if long.len() < short.len() {
             std::mem::swap(&mut long, &mut short);
         }
-        // The loops run in opposite directions.
+        // The half-edges of the short loop after the first are reversed, because the two loops run in opposite
+        // directions.
         short[1..].reverse();
         let (n, m) = (long.len(), short.len());
         // Rung i is a new edge between the loops. It runs from the origin of half-edge i of the long loop to the target

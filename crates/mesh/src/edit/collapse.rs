@@ -253,8 +253,8 @@ impl Mesh {
     /// lie back to back. This is the case if every vertex of one of the faces would have only two edges.
     fn would_fold(&self, e: EdgeId, apexes: [Option<VertexId>; 2]) -> bool {
         let [ab, ba] = e.half_edges();
-        // Finds one of the two faces. A face beside e remains after the collapse if it is not a triangle. If both faces
-        // beside e are triangles, the next face around a remains.
+        // Finds one of the two faces at the merged vertex. A face beside e remains after the collapse if it is not a
+        // triangle. If both faces beside e are triangles, the next face around a remains.
         let around = match apexes {
             [None, _] => ab,
             [_, None] => ba,

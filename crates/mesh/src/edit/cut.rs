@@ -146,8 +146,8 @@ impl Mesh {
     /// Adds a copy of each edge. The copy gets the face of the second half-edge of the edge. The caller must set the
     /// `next` of the half-edges without a face.
     fn duplicate_edges(&mut self, edges: &[EdgeId]) -> Vec<EdgeId> {
-        // The half-edges before the second half-edges are found while the mesh is complete. `prev` is then fast, even
-        // in a face with many corners.
+        // The half-edges before the second half-edges of all edges are found while the mesh is complete. `prev` is then
+        // fast, even in a face with many corners.
         let second_halves = edges.iter().map(|e| e.half_edges()[1]);
         let before: Vec<HalfEdgeId> = second_halves.map(|h| self.prev(h)).collect();
         let pairs = edges.iter().zip(before);
@@ -159,7 +159,7 @@ impl Mesh {
     fn duplicate_edge(&mut self, e: EdgeId, before: HalfEdgeId) -> EdgeId {
         let [_, old] = e.half_edges();
         let (after, face) = (self.next(old), self.face(old));
-        // If a copy has already replaced `before` in the face, `next` leads to the copy.
+        // If a copy has already replaced `before` in the face, `next` leads from `before` to the copy.
         let before = if self.face(before).is_none() {
             self.next(before)
         } else {

@@ -94,7 +94,7 @@ impl Mesh {
             edges.push((top.half_edges(), upright.half_edges()));
         }
 
-        // Values are copied first, while each face still has all its corners.
+        // The values of attributes are copied first, while each face still has all its corners.
         let mut sides = Vec::with_capacity(rim.bases.len());
         for (i, &h) in rim.bases.iter().enumerate() {
             let ([top, top_back], [_, down]) = edges[i];

@@ -179,7 +179,7 @@ mod tests {
         mesh.set(UV, uvs);
         let before = mesh.clone();
         for e in before.edges() {
-            // On an icosahedron, the two vertices opposite an edge never share an edge.
+            // On an icosahedron, the two vertices opposite an edge never share an edge, so every edge can be flipped.
             for _ in 0..4 {
                 mesh.flip_edge(e).unwrap();
                 assert_eq!(mesh.defects(), []);

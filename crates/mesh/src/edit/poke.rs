@@ -76,7 +76,7 @@ impl Mesh {
         self.average_values(&sides, spokes[0]);
 
         for (i, (&side, &spoke)) in sides.iter().zip(&spokes).enumerate() {
-            // The corners of the new triangle are corner i, the corner after it, and m.
+            // The corners of the new triangle are corner i, the corner after it, and the new vertex m.
             let following = (i + 1) % sides.len();
             let to_m = spokes[following].twin();
             self.copy_values(sides[following], to_m);

@@ -56,7 +56,8 @@ impl Mesh {
         }
 
         self.drop_columns_by_rule();
-        // Values move by one half-edge: the corner at the origin of next(h) is now stored at h.
+        // A reversed half-edge starts at its old target. So the values of the corner at the origin of next(h) are now
+        // stored at h.
         for &f in faces {
             let corners: Vec<HalfEdgeId> = self.face_half_edges(f).collect();
             for pair in corners.windows(2) {
@@ -79,7 +80,8 @@ impl Mesh {
         }
         for &f in faces {
             let first = self.face_half_edge(f);
-            // `next` was reversed above.
+            // The first half-edge of the face must start at the same vertex as before. `next` is already reversed, so
+            // it leads to the half-edge that now starts there.
             self.set_face_half_edge(f, self.next(first));
             let corners: Vec<HalfEdgeId> = self.face_half_edges(f).collect();
             for h in corners {

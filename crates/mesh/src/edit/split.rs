@@ -49,8 +49,8 @@ impl Mesh {
         let cuts = [am, ma].map(|h| self.face(h).is_some_and(|f| self.is_triangle(f)));
 
         let [mb, bm] = self.insert_vertex(e, t)?.half_edges();
-        // Each triangle beside e is cut from m to its opposite corner. The part of the triangle at b becomes a new
-        // face.
+        // Each triangle beside e is cut from the new vertex m to its opposite corner. The part of the triangle at b
+        // becomes a new face.
         if cuts[0] {
             let opposite = self.next(self.next(mb));
             self.insert_edge(mb, opposite, mb);

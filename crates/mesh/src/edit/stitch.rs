@@ -77,8 +77,8 @@ impl Mesh {
             pairs.push([before_h, after_g]);
         }
         self.check_stitch(&pairs, [at_origin, at_target])?;
-        // The half-edges before the replaced ones are found while the mesh is complete. `prev` is then fast, even in a
-        // face with many corners.
+        // The half-edges before the replaced half-edges are found while the mesh is complete. `prev` is then fast, even
+        // in a face with many corners.
         let before: Vec<HalfEdgeId> = pairs
             .iter()
             .map(|&pair| self.prev(replaced(pair)))
@@ -155,7 +155,7 @@ impl Mesh {
     /// before the half-edge that is replaced.
     fn merge_edges(&mut self, pair: Pair, before: HalfEdgeId) -> EdgeId {
         let (kept, old) = (pair[0].min(pair[1]), replaced(pair));
-        // If another half-edge has already replaced `before` in the face, `next` leads to that half-edge.
+        // If another half-edge has already replaced `before` in the face, `next` leads from `before` to that half-edge.
         let before = if self.has_edge(before.edge()) {
             before
         } else {

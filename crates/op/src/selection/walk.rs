@@ -13,7 +13,7 @@ use crate::{OpError, Refusal};
 pub(super) fn edge_loops(mesh: &Mesh, edges: &[EdgeId]) -> Vec<bool> {
     follow(mesh, edges, |h| {
         if mesh.is_boundary_edge(h.edge()) {
-            // Half-edges without a face form the boundary loop.
+            // Half-edges without a face form the boundary loop, so `next` follows the boundary.
             return Some(match mesh.face(h) {
                 None => mesh.next(h),
                 Some(_) => mesh.prev(h.twin()).twin(),

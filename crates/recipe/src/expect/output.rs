@@ -229,7 +229,8 @@ fn without_stamp(mut bytes: Vec<u8>) -> Vec<u8> {
     let is_gif = bytes.starts_with(b"GIF8");
     let is_comment = |w: &[u8]| w.starts_with(b"\x21\xfe") && w.ends_with(b"meshwright ");
     if is_gif && let Some(start) = bytes.windows(14).position(is_comment) {
-        // The comment is a list of blocks. Each block starts with its length, and a block of length 0 ends the list.
+        // The comment of a GIF file is a list of blocks. Each block starts with its length, and a block of length 0
+        // ends the list.
         let mut end = start + 2;
         while let Some(&length) = bytes.get(end) {
             end += 1 + usize::from(length);

@@ -19,7 +19,7 @@ impl Checker {
         let (fields, complete): (&[Field], bool) = match &value.kind {
             ValueKind::Struct(body) => (&body.fields, body.complete),
             ValueKind::Unit => (&[], true),
-            // `ron` accepts the name of a struct before its parentheses.
+            // `ron` accepts the name of a struct before its parentheses, so the name is accepted here, too.
             ValueKind::Call(call) if schema.name() == Some(&*call.name.text) => {
                 return self.check_struct(&call.body, schema, place, call.name.span);
             }

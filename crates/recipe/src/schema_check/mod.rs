@@ -265,7 +265,7 @@ impl Checker {
             ("object", _) if schema.is_map() => return self.check_map(value, schema, place),
             ("object", _) => return self.check_struct(value, schema, place, opening(value)),
             ("boolean", ValueKind::Bool(_)) => true,
-            // `ron` does not accept a space inside `()`.
+            // `ron` does not accept a space inside `()`, so a written value must have exactly two characters.
             ("null", ValueKind::Unit) => value.span.len() == 2 || value.parameter.is_some(),
             _ => false,
         };
@@ -302,7 +302,7 @@ impl Checker {
     fn check_array(&mut self, value: &Value, schema: &Schema, place: Place) {
         if let Some(items) = schema.tuple() {
             let expected = schema.expectation() + &place.of();
-            // `ron` accepts the name of a struct before its parentheses.
+            // `ron` accepts the name of a struct before its parentheses, so the name is accepted here, too.
             let body = match &value.kind {
                 ValueKind::Call(call) if schema.name() == Some(&*call.name.text) => &call.body,
                 _ => value,

@@ -117,7 +117,8 @@ mod tests {
         let mut mesh: Mesh = shapes::square();
         let uvs = mesh.half_edges().map(|h| mesh.position(mesh.origin(h)));
         let uvs: Vec<DVec2> = uvs.map(DVec3::truncate).collect();
-        // If the material uses the second set of texture coordinates, all coordinates of the first set are set to 0.
+        // If the material uses the second set of texture coordinates, the first set is set to 0, so that a use of the
+        // wrong set is detected.
         if material
             .base_color_texture
             .as_ref()
@@ -144,7 +145,8 @@ mod tests {
 
     /// Draws the unit square, seen from above, so that it fills a picture of `side` times `side` pixels.
     fn draw(material: Material, side: u32) -> Vec<[u8; 4]> {
-        // The height of an orthographic picture depends on the distance of `LookAt`. At this distance, it is 1 unit.
+        // The height of an orthographic picture is 2 tan(15 degrees) times the distance of the camera. At this
+        // distance, it is 1 unit.
         let distance = 0.5 / libm::tan(15.0_f64.to_radians());
         let camera = Camera::LookAt {
             from: [0.5, 0.5, distance],
@@ -198,8 +200,8 @@ mod tests {
                     "{mode:?}, pixel {i}"
                 );
             }
-            // Checkerboards of n times n squares, with sharp or blurred edges. If n is 64 or more, a square is at most
-            // as large as a pixel.
+            // Checkerboards of n times n squares, with sharp or blurred edges. The picture has 64 x 64 pixels, so if n
+            // is 64 or more, a square is at most as large as a pixel.
             for n in [8, 50, 64, 100, 400, 1000] {
                 for filter in [Filter::Nearest, Filter::Linear] {
                     let found = coverage(&draw(
@@ -273,7 +275,7 @@ mod tests {
         );
         half.base_color[3] = 0.5;
         let pixels = draw(half, 32);
-        // In each pixel, 4 or 8 of the 16 samples are covered.
+        // The products of the alphas are 1/4 and 1/2, so 4 or 8 of the 16 samples of each pixel are covered.
         for (i, pixel) in pixels.iter().enumerate() {
             let is_first = (i / 16 % 2 + i / 512) % 2 == 0;
             assert_eq!(pixel[3], if is_first { 64 } else { 128 }, "pixel {i}");

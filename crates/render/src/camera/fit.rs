@@ -97,7 +97,8 @@ impl Fit {
             z,
         ];
         let mut extreme = outermost(&directions, points);
-        // A steady camera shows the bounding sphere, which must contain all points of the bounding box.
+        // A steady camera shows the whole bounding sphere of the bounding box. Therefore two opposite corners of the
+        // box are added to the points.
         if self.steady && !extreme.is_empty() {
             let [min, max] = extreme[1..]
                 .iter()

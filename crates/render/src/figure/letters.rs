@@ -105,7 +105,7 @@ impl Cluster {
         for &(glyph, [x, y]) in &self.glyphs {
             let mut outline = Outline::default();
             self.face.face.outline_glyph(glyph, &mut outline);
-            // In fonts, y points upwards.
+            // In fonts, y points upwards, so the outline is flipped.
             let transform = transform
                 .pre_scale(self.scale(), self.scale())
                 .pre_translate(x as f32, -y as f32)
@@ -196,7 +196,7 @@ impl Typeface {
         let (first, fallbacks) = match font {
             Font::Plain => (0, &FACES[..]),
             Font::Title => (1, &FACES[..]),
-            // Formulas do not mix fonts.
+            // Formulas do not mix fonts, so their fonts have no fallback.
             Font::Letter => (2, &[][..]),
             Font::Digit => (3, &[][..]),
         };

@@ -422,7 +422,7 @@ pub(crate) fn number(value: f64) -> f64 {
     if value.is_nan() {
         return 0.0;
     }
-    // Adding zero turns -0 into 0.
+    // Adding zero turns -0 into 0, so that -0 is never written.
     (value.clamp(-LIMIT, LIMIT) * 1000.0).round() / 1000.0 + 0.0
 }
 

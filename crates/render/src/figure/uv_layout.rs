@@ -249,7 +249,7 @@ mod tests {
 
     #[test]
     fn colors_show_charts_or_stretch() {
-        // The background is filled too.
+        // The background is filled too, but not counted.
         let colors = |text: &str| text.matches("fill=\"#").count() - 1;
         assert_eq!(colors(&figure(0.0, UvFill::Charts, true).1), 1);
         assert_eq!(colors(&figure(0.1, UvFill::Charts, true).1), 2);

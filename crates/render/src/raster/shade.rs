@@ -314,7 +314,7 @@ impl<'a> Shader<'a> {
         if self.look.shading != Shading::Phong {
             return light;
         }
-        // Blinn, "Models of Light Reflection for Computer Synthesized Pictures", 1977.
+        // The highlight is that of Blinn, "Models of Light Reflection for Computer Synthesized Pictures", 1977.
         let roughness = surface.map_or(1.0, |s| s.roughness).clamp(0.0, 1.0);
         let exponent = 40.0 + 200.0 * (1.0 - roughness);
         let strength = 0.45 + 0.4 * (1.0 - roughness);

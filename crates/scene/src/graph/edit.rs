@@ -48,7 +48,7 @@ impl Graph {
                 is_named = true;
             }
         }
-        // Without a label, the mesh has the name of the object.
+        // Without a label, the mesh has the name of the object, so nothing else is renamed.
         if let Some(mut label) = self.labels.remove(from) {
             if !is_named || label.name.as_deref() == Some(from) {
                 label.name = Some(to.to_owned());

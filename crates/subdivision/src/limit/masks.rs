@@ -100,7 +100,7 @@ impl Star {
     fn smooth_tangents(&self) -> [DVec3; 2] {
         let n = self.spokes.len() as f64;
         let theta = TAU / n;
-        // The ratio of the weight of an opposite corner to the weight of a spoke.
+        // The ratio of the weight of the opposite corner of a quad to the weight of a spoke.
         let scale = if self.loop_weights.is_some() {
             0.0
         } else {

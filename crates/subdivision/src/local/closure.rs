@@ -56,7 +56,7 @@ impl Cuts {
     ) -> Result<Self, Cancelled> {
         let mut faces = vec![Cut::Whole; mesh.n_faces()];
         let mut edges = vec![false; mesh.n_edges()];
-        // Whether the face has a hanging vertex.
+        // For each face: whether it has a hanging vertex.
         let mut has_hanging: Vec<bool> = mesh.faces().map(|f| !mesh.is_triangle(f)).collect();
         let mut queue: Vec<usize> = (0..chosen.len()).filter(|&f| chosen[f]).collect();
         for &f in &queue {

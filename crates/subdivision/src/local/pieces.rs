@@ -293,7 +293,7 @@ impl Topology for Pieces<'_> {
                 let mut sides = sides(self.mesh, f);
                 sides.nth(k).map_or(Place::Outside, Place::On)
             }
-            // Edge k runs from the middle of side k to the middle of the previous side.
+            // Edge k inside the face runs from the middle of side k to the middle of the previous side.
             _ => match self.three_sides(f)[if is_first { k } else { (k + 2) % 3 }] {
                 side if side.is_whole() => Place::On(side.to),
                 side => Place::At(side.from),

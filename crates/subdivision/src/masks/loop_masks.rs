@@ -93,7 +93,7 @@ mod tests {
             let [a, b] = [LoopWeights::Warren, LoopWeights::Loop].map(|w| w.of(n));
             assert_eq!(a, b, "{n}");
         }
-        // Loop's formula at n = 3 gives 3u = 5/8 - (3/8 - 1/8)^2 = 9/16.
+        // Loop's formula for the weight u of each of the 3 neighbors: 3u = 5/8 - (3/8 - 1/8)^2 = 9/16.
         assert_eq!(LoopWeights::Loop.of(3), 9.0 / 16.0 / 3.0);
     }
 }

@@ -254,7 +254,7 @@ impl Parts {
         }
         if self.editor.is_running() {
             self.running_since.get_or_insert_with(Instant::now);
-            // No event reports progress, so a repaint is requested here.
+            // The progress of a run sends no event, so a repaint is requested here.
             ctx.request_repaint_after(LONG);
         } else {
             self.running_since = None;

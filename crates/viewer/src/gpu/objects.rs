@@ -115,7 +115,7 @@ fn style(look: &Look, geometry: &Geometry) -> Style {
     } else {
         Color([52, 88, 160, 200])
     };
-    // The wireframe of meshes is drawn by the shader. Patches have a grid of lines.
+    // The shader draws the wireframe of a mesh. A patch gets a grid of lines instead.
     let is_mesh = matches!(geometry, Geometry::Mesh(_));
     Style {
         shading: match look.shading {
@@ -298,7 +298,7 @@ fn buffers(
     surface: &geometry::Surface,
 ) -> (Vec<ChunkBuffers>, Simple) {
     let storage = |label, contents: &[u8]| {
-        // A binding must not be empty.
+        // A buffer in a binding must not be empty.
         let contents = if contents.is_empty() {
             &[0; 8]
         } else {

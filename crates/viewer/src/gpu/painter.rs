@@ -219,7 +219,8 @@ impl Painter {
                 line.hidden,
                 line.color,
             );
-            // The first line of the overlay is half a pixel farther from the camera than the other lines.
+            // The first line of the overlay is half a pixel farther from the camera than the other lines, so that they
+            // cover it.
             instance.look[2] = 0.5 + if i > 0 { 0.5 } else { 0.0 };
             instance
         };
@@ -269,7 +270,7 @@ impl Painter {
             grid(bounds, (center, radius), camera, look)
         });
         self.grid = Uploaded::of_lines(&self.device, center, &lines, &[]);
-        // The grid is larger than the scene, so it needs a larger radius.
+        // The radius must cover everything that is drawn, and the grid is larger than the scene.
         let (rotation, projection) =
             camera.matrices(pixels, center, radius * if look.grid { 3.2 } else { 1.2 });
         let background = look.background().map(Color::linear);

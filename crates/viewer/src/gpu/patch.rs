@@ -128,7 +128,8 @@ fn has_sharp_edge(mesh: &Mesh, f: FaceId, sharp: f64) -> bool {
     mesh.face_half_edges(f).any(|h| {
         mesh.face(h.twin()).is_none_or(|g| {
             let m = mesh.face_normal(g);
-            // An angle near the limit counts as sharp: the whole object is then converted.
+            // An angle near the limit counts as sharp. Then the whole object is converted, and not only its changed
+            // faces.
             n.dot(m) <= limit + 1e-4
         })
     })

@@ -82,7 +82,8 @@ impl Draft {
                 Some(Change::Set(value) | Change::Drag(value)) => {
                     self.panel.set(&of.name, Some(&value));
                 }
-                // The parameter gets its default here. Without a value, it would take the picked elements again.
+                // The default is set as a value here. Without a value, the parameter would take the picked elements
+                // again.
                 Some(Change::Reset)
                     if picked.as_ref().is_some_and(|(name, _)| of.name == *name) =>
                 {

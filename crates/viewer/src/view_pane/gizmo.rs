@@ -73,7 +73,7 @@ impl Drag {
             }
             Tool::Rotate => {
                 let [before, now] = [self.last, at].map(|p| p - self.line[0]);
-                // The y axis of the screen points downwards.
+                // The y axis of the screen points downwards, so the sign of the angle is reversed.
                 let turn = libm::atan2(-before.perp_dot(now), before.dot(now)).to_degrees();
                 self.turned += if towards { turn } else { -turn };
                 self.value = libm::round(self.turned);

@@ -168,7 +168,7 @@ fn move_by(graph: &mut Graph, maps: &[Option<DAffine3>], only_moves: bool) -> Re
             }
             let parent = node.parent.map_or(DAffine3::IDENTITY, |parent| new[parent]);
             let placed = if only_moves && of_parent.is_none() {
-                // The scale and the rotation stay exactly the same.
+                // Only the translation is changed, so that the scale and the rotation stay exactly the same.
                 let shift = parent.matrix3.inverse() * map.translation;
                 shift
                     .is_finite()

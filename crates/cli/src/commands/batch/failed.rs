@@ -49,7 +49,7 @@ pub(super) fn read(batch: &Batch, file: &Input) -> std::io::Result<String> {
 
 /// Removes the file that describes an earlier failure of the input file, if there is one.
 pub(super) fn remove(batch: &Batch, file: &Input) {
-    // Usually the file does not exist.
+    // The error is ignored, because usually the file does not exist.
     let _ = std::fs::remove_file(path(batch, file));
 }
 

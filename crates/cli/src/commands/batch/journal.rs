@@ -96,9 +96,9 @@ impl Journal {
         let (mut known, mut processes) = (HashMap::new(), Vec::new());
         let others = others(&path).into_iter().map(std::fs::read);
         for (i, bytes) in std::iter::once(Ok(bytes)).chain(others).enumerate() {
-            // If the journal of another part was removed after it was listed, it has no entries. Lines that cannot be
-            // parsed, such as lines of a different version, are ignored, so the input files of these lines are
-            // processed again.
+            // If the journal of another part of the batch was removed after it was listed, it counts as empty. Lines
+            // that cannot be parsed, such as lines of a different version, are ignored, so the input files of these
+            // lines are processed again.
             for line in bytes.unwrap_or_default().split(|&b| b == b'\n') {
                 if let Ok(entry) = serde_json::from_slice::<Entry>(line) {
                     if is_wanted(&entry.row) {

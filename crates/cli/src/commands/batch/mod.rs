@@ -354,7 +354,7 @@ fn row(file: &Input, loaded: &Loaded, outcome: &Outcome) -> Row {
         row.losses
             .extend(losses.map(|loss| format!("{}: {loss}", step.label)));
     }
-    // If a step failed, these are the element counts of the scene before that step.
+    // If a step failed, the row has the element counts of the scene before that step.
     let last = outcome.steps.last();
     row.vertices = last.map(|step| step.vertices);
     row.edges = last.map(|step| step.edges);

@@ -100,7 +100,7 @@ pub(crate) fn run(args: &SweepArgs, engine: &Engine) -> anyhow::Result<bool> {
             results.push(CellResult::of(end.and_then(|result| result)));
         })?;
     }
-    // If the sheet cannot be drawn, the table is still written.
+    // If the sheet of pictures cannot be drawn, the table of results is still written.
     let sheet_is_written = match &sheet {
         None => true,
         Some(sheet) => write_sheet(sheet, &plan, &cells, &results).unwrap_or_else(|error| {

@@ -255,7 +255,7 @@ impl<'a> Test<'a> {
             return TestResult::failed(&loaded.diagnostics, None);
         }
         let pictures = if args.update {
-            // The failures are not drawn, because the update can fix them.
+            // The failures are not drawn, because updating the recorded values can fix them.
             Pictures::default()
         } else {
             let name = &self.found.own_folder;

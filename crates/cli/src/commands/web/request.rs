@@ -51,7 +51,7 @@ impl Request {
             let Ok(line) = String::from_utf8(line) else {
                 return Ok(None);
             };
-            // The stream has ended, or the request is too long.
+            // If the line has no line break, the stream has ended, or the request is too long.
             let Some(line) = line.strip_suffix('\n') else {
                 return Ok(None);
             };

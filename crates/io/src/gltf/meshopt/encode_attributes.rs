@@ -56,8 +56,8 @@ fn encode_groups(differences: &[u8], out: &mut Vec<u8>) {
     out.resize(kinds + groups.len().div_ceil(4), 0);
     for (g, group) in groups.iter().enumerate() {
         let large = |most: u8| group.iter().filter(|&&d| d >= most).count();
-        // The sizes of the group if each difference is stored with 0, 2, 4 or 8 bits. The smallest size is chosen. If
-        // several sizes are equal, the one with the fewest bits for each difference is chosen.
+        // The sizes of the group in bytes if each difference is stored with 0, 2, 4 or 8 bits. The smallest size is
+        // chosen. If several sizes are equal, the one with the fewest bits for each difference is chosen.
         let sizes = [
             if large(1) == 0 { 0 } else { usize::MAX },
             4 + large(3),

@@ -198,7 +198,7 @@ impl Compressed {
         pointer: &str,
     ) -> Result<Vec<u8>, Fault> {
         let mut decoded = mesh::zeroed::<u8>(length);
-        // The stride is from 2 to 256.
+        // The stride is from 2 to 256, so the conversion cannot fail.
         let stride = usize::try_from(self.byte_stride).unwrap_or(4);
         let result = match (self.mode, stride) {
             (Mode::Attributes, _) => attributes::decode(stream, stride, &mut decoded),

@@ -35,7 +35,8 @@ pub(super) fn trace(curve: &Curve<DVec2>) -> Vec<Command> {
 /// Returns the cubic pieces of a curve, each without its first control point.
 fn pieces(curve: &Curve<DVec2>) -> Vec<[DVec2; 3]> {
     let mut pieces = Vec::new();
-    // A stack of the remaining intervals. Each entry has the start of an interval and its number of halvings.
+    // A stack of the remaining intervals. Each entry has the start of an interval and the number of halvings that led
+    // to it.
     let mut remaining = vec![(0.0, 0)];
     while let Some((t, halvings)) = remaining.pop() {
         let h = 1.0 / f64::from(1_u32 << halvings);

@@ -444,7 +444,7 @@ fn expectations_take_at_most_two_point_three_times_as_long_on_twice_the_mesh() {
                 match growth(scene, work) {
                     Growth::Refused => failures.push(format!("{that}: was not checked")),
                     Growth::TooLong => {
-                        failures.push(format!("{that} on {fixture}: takes too long"))
+                        failures.push(format!("{that} on {fixture}: takes too long"));
                     }
                     Growth::By(factor) => {
                         println!("{factor:6.2} {that} on {fixture}");

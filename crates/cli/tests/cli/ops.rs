@@ -56,8 +56,9 @@ fn selections_are_described_separately() {
         // A description of several lines is printed completely.
         "At an interior\n",
         "vertex with four edges, an edge loop continues with the\n",
-        "opposite edge. At every other vertex, it ends. An edge loop\n",
-        "that starts at a boundary edge follows the boundary instead.\n",
+        "opposite edge. At every other vertex, the loop ends. An edge\n",
+        "loop that starts at a boundary edge follows the boundary\n",
+        "instead.\n",
         "VertexSelection: ",
     ]);
     let operation = folder.run("ops SplitEdges").stdout;

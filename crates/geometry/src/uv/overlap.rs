@@ -30,8 +30,8 @@ pub(super) fn upright(triangles: impl Iterator<Item = [DVec2; 3]>) -> DVec2 {
         // The mean direction of the sides is the square root of the sum of their squares (as complex numbers).
         let square = squares.normalize_or(DVec2::X);
         let (cos, sin) = (
-            ((1.0 + square.x) / 2.0).sqrt(),
-            ((1.0 - square.x) / 2.0).sqrt(),
+            f64::midpoint(1.0, square.x).sqrt(),
+            f64::midpoint(1.0, -square.x).sqrt(),
         );
         DVec2::new(sin.copysign(square.y), cos)
     } else {
@@ -123,7 +123,9 @@ fn sweep(
 ) -> Result<(), Cancelled> {
     let turn = upright(flat.iter().map(|triangle| triangle.corners));
     if turn != DVec2::X {
-        flat.iter_mut().for_each(|triangle| triangle.rotate(turn));
+        for triangle in &mut flat {
+            triangle.rotate(turn);
+        }
     }
     // The loop sweeps along u: only triangles whose ranges of u overlap are compared.
     flat.sort_by(|a, b| a.low.x.total_cmp(&b.low.x).then(a.face.cmp(&b.face)));

@@ -235,7 +235,7 @@ fn positions_outside_of_the_32_bit_range_are_refused() {
     assert!(
         error
             .to_string()
-            .contains("of v1 exceeds the range of the 32-bit floats of glTF"),
+            .contains("of the vertex v1 exceeds the range of the 32-bit floats of glTF"),
         "{error}"
     );
     assert_eq!(folder.count(), 0);

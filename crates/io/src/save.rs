@@ -85,8 +85,8 @@ fn write_blocks(out: &mut (dyn Write + Send), blocks: &[Block]) -> io::Result<u6
     let mut ready: Vec<Vec<u8>> = Vec::new();
     let mut spare: Vec<Vec<u8>> = Vec::new();
     let mut n_bytes = 0;
-    // Each round writes one group of blocks and produces the next group. In the last round, only the last group is
-    // written.
+    // Each round writes one group of blocks and produces the next group. The last round
+    // writes the last group and produces nothing.
     for group in blocks.chunks(in_group).chain([&[][..]]) {
         spare.resize_with(group.len(), Vec::new);
         let (written, ()) = rayon::join(

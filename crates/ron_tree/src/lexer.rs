@@ -210,8 +210,8 @@ impl<'s> Lexer<'s> {
         if !self.lines_end_strings {
             return (TokenKind::UnclosedString, line.len());
         }
-        // The string ends where its closing quote is probably missing: before the next field, or before trailing
-        // brackets.
+        // The closing quote is missing. It was probably meant to be before the next field, or before trailing brackets, so
+        // the string ends there.
         let end = next_field(line).unwrap_or_else(|| {
             line.trim_end_matches([')', ']', '}', ',', ' ', '\t', '\r'])
                 .len()

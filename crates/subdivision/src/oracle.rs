@@ -21,8 +21,8 @@ pub(crate) fn by_splits_and_flips(old: &Mesh) -> Mesh {
     for e in old.edges() {
         let n_edges = mesh.n_edges();
         mesh.split_edge(e, 0.5).unwrap();
-        // The first new edge is skipped, because it does not cut a face: it is one of the two parts of e. The other
-        // part is e itself.
+        // The split cuts e in half. One half keeps the id of e, and the other half is the first new edge. This new edge
+        // is skipped, because it does not cut a face.
         cuts.extend((n_edges + 1..mesh.n_edges()).map(EdgeId::new));
     }
     let is_old = |v: VertexId| old.has_vertex(v);

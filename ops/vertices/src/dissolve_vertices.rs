@@ -52,7 +52,8 @@ impl MeshOperation for DissolveVertices {
         }
         let n = self.on_refusal.done(chosen);
         plan.vertices = plan.vertices.minus(n);
-        // Each removed vertex also removes at least one edge. At least one face and its edges remain.
+        // Each removed vertex also removes at least one edge. If the mesh has faces, at least one face remains, with at
+        // least three edges.
         plan.edges = Range::between(plan.edges.min.min(3), plan.edges.minus(n).max);
         plan.faces.min = plan.faces.min.min(1);
         plan.degrees = Range::between(3, plan.edges.by(2).max.max(3));

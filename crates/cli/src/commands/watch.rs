@@ -192,7 +192,7 @@ impl FolderWatcher {
         pending.is_some()
     }
 
-    /// Waits until a file has changed and no file has changed for [`SETTLE_TIME`]. Returns `None` if Ctrl-C is pressed.
+    /// Waits for a change of a file. Then waits until no file changes for [`SETTLE_TIME`]. Returns `None` if Ctrl-C is pressed.
     fn wait(&self) -> Option<PathBuf> {
         loop {
             if is_interrupted() {

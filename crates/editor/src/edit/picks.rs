@@ -114,8 +114,8 @@ impl Editor {
         matches!(&self.proposals, Proposals::Searching(thread) if !thread.is_finished())
     }
 
-    /// Whether another selection that describes the picked elements possibly exists. The result is not certain, because
-    /// the selections are computed only when they are requested. Their computation takes long in a large mesh.
+    /// Whether the picked elements can perhaps be written as a different selection, too. The result is not certain,
+    /// because these selections are computed only when they are requested. In a large mesh, this takes long.
     pub fn may_have_other_proposal(&self) -> bool {
         match &self.proposals {
             Proposals::Known(proposals) => proposals.len() > 1,

@@ -10,8 +10,8 @@ use crate::file_vertices::FileVertices;
 use crate::loss::Losses;
 use mesh::parallel::{self, BLOCK};
 
-/// The maximum number of comparisons for a corner. A corner is compared with the other corners around its vertex,
-/// beginning with the latest one. This limit keeps the time for a vertex with a million corners linear. If the corners
+/// The maximum number of comparisons for a corner. A corner is compared with the corners around its vertex that were
+/// processed before, in reverse order. This limit keeps the time for a vertex with a million corners linear. If the corners
 /// of a vertex have more distinct combinations of values than this maximum, equal corners can become different
 /// vertices.
 const MAX_COMPARED: usize = 64;

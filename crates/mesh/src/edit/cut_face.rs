@@ -56,7 +56,8 @@ pub fn polygon_parts(n: usize, diagonals: &[[u32; 2]]) -> Option<Vec<Vec<usize>>
             parts.push(part);
         }
     }
-    // By Euler's formula, crossing diagonals would give fewer parts.
+    // Diagonals that do not cross divide the face into one part more than there are diagonals. With diagonals that cross,
+    // the traversal above finds fewer parts, by Euler's formula.
     let is_flat = parts.len() == diagonals.len() + 1;
     (is_flat && parts.iter().all(|part| part.len() >= 3)).then_some(parts)
 }

@@ -49,8 +49,8 @@ impl Reader<'_, '_> {
         self.fill(enabled) && enabled.kind == ValueKind::Bool(false)
     }
 
-    /// Reads a disabled step, so that its ids are known and the parameters in the step count as used. Then discards the
-    /// step together with its errors and warnings.
+    /// Reads a disabled step, and then discards it together with its errors and warnings. But its ids become known, and
+    /// the parameters that it uses are not reported as unused.
     fn disabled(&mut self, item: Value) {
         let before = (
             self.diagnostics.len(),

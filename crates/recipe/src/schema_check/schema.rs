@@ -292,7 +292,8 @@ impl<'s> Schema<'s> {
         found.next().map(|json| Self::new(self.root, json))
     }
 
-    /// Returns the field with this current or earlier name. The first returned value is its current name.
+    /// Returns the field whose current name, or one of whose earlier names, is `name`. The first returned value is the
+    /// current name.
     pub(super) fn field_or_alias(&self, name: &str) -> Option<(&'s str, Self)> {
         let fields = || self.all("properties").filter_map(Json::as_object).flatten();
         let (current, json) = fields()

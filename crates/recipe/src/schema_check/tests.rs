@@ -396,7 +396,7 @@ fn unknown_variants_are_errors() {
     assert_eq!(help("at: Up"), "write numbers, such as `(0.5, 0.5, 0.5)`");
     assert_eq!(
         help("edges: Near(0, 0, 1)"),
-        "the value needs its own parentheses: `Near((.., .., ..))`"
+        "inside the parentheses of `Near`, the value needs its own parentheses: `Near((.., .., ..))`"
     );
     assert_eq!(help("edges: Vertices(1, 2)"), "write `Vertices([..])`");
     assert_eq!(help("edges: Not()"), "the value must be a `Selection`");

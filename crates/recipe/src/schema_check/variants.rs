@@ -158,7 +158,7 @@ impl Checker {
             Some(format!("write `{name}([..])`"))
         } else if wraps {
             Some(format!(
-                "the value needs its own parentheses: `{name}({})`",
+                "inside the parentheses of `{name}`, the value needs its own parentheses: `{name}({})`",
                 schema.usage("")
             ))
         } else {

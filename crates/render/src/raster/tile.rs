@@ -49,8 +49,8 @@ pub(super) struct Tile {
     pub(super) depth: Vec<[f32; SAMPLES]>,
     /// For each pixel, the visible triangle at each of its samples.
     pub(super) triangles: Vec<[u32; SAMPLES]>,
-    /// For each pixel, the lines that cover its samples. The entry is 2 i + 2 if line i is visible, 2 i + 3 if line i
-    /// is hidden, and 0 if there is no line.
+    /// For each pixel, the line that covers each of its samples. The number is 2 i + 2 for a visible line i, 2 i + 3 for
+    /// a hidden line i, and 0 if no line covers the sample.
     pub(super) lines: Vec<[u32; SAMPLES]>,
     /// Cached planes of triangles.
     pub(super) planes: Planes,

@@ -74,7 +74,7 @@ fn draco_files_that_break_the_rules_are_errors_with_the_primitive() {
         (|j| j["accessors"][1]["count"] = json!(118), "118 vertices"),
         (
             |j| j["accessors"][1]["componentType"] = json!(5123),
-            "POSITION: an element of the accessor has 3 numbers of type Uint16",
+            "POSITION: expected 3 numbers of type Uint16 for each element of the accessor",
         ),
         (|j| j["accessors"][1]["count"] = json!(u64::MAX), ""),
         (

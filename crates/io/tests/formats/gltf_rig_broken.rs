@@ -112,7 +112,9 @@ fn repairs_and_left_out_parts_are_counted() {
         accessor["componentType"] = json!(5121);
     });
     assert!(
-        found.iter().any(|note| note.contains("normalized")),
+        found
+            .iter()
+            .any(|note| note.contains("the weights were divided by their sum")),
         "{found:?}"
     );
     let found = notes(|j| j["scenes"][0]["nodes"] = json!([4]));

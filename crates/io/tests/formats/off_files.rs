@@ -309,7 +309,7 @@ fn counts_must_be_integers_and_match_the_file() {
     );
     assert_error(
         "OFF\n18446744073709551615 1 0\n",
-        "3:1: expected 18446744073709551615 vertices",
+        "3:1: the rest of the file is too short for 18446744073709551615 vertices",
     );
     assert_error(
         "OFF\n1 4000000000 0\n0 0 0\n",

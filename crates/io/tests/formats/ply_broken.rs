@@ -230,7 +230,7 @@ fn files_that_end_too_early_are_refused() {
     );
     assert_error(
         text("0 0 0\n1 0 0\n", ""),
-        "expected 3 lines of element `vertex`",
+        "the rest of the file is too short for 3 lines of element `vertex`",
     );
     assert_error(
         text(CORNERS, ""),

@@ -187,15 +187,11 @@ fn invalid_panels_and_layouts_are_refused_with_a_reason() {
             layout(60.0, 1),
             "expected a width from 72 to 8192 pixels for a figure with 1 column",
         ),
-        (
-            vec![good.clone()],
-            layout(f64::NAN, 1),
-            "found a width of NaN",
-        ),
+        (vec![good.clone()], layout(f64::NAN, 1), "found NaN pixels"),
         (
             vec![good.clone()],
             layout(1e9, 1),
-            "found a width of 1000000000",
+            "found 1000000000 pixels",
         ),
         (vec![good.clone(); 9], layout(300.0, 9), "with 9 columns"),
     ] {

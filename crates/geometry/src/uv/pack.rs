@@ -36,8 +36,8 @@ const MAX_NESTED: usize = 256;
 /// A triangle whose area is at most this fraction of the area of its chart is ignored when the chart is packed.
 const MIN_AREA: f64 = 1e-11;
 
-/// The smallest height of a triangle of a convex hull, as a fraction of the size of the hull. Thinner triangles are left
-/// out: the crate `uvunwrap` ignores triangles whose height is below 1e-6 times the diagonal.
+/// The smallest height of a triangle of a convex hull, as a fraction of the diagonal of its bounding box. Thinner
+/// triangles are left out: the crate `uvunwrap` ignores triangles whose height is below 1e-6 times the diagonal.
 const MIN_HEIGHT: f64 = 4e-6;
 
 /// A shape with more than this number of triangles is replaced by its convex hull, if the hull is not larger.
@@ -125,7 +125,7 @@ pub fn pack(
         // If a chart overlaps itself, the packing has cut it into several charts. The convex hull of such a chart is
         // packed instead.
         if n_charts(output) != 1 {
-            *shape = shape.hull();
+            *shape = shape.hull().0;
             packed.n_overlapping += 1;
         }
     }
@@ -279,8 +279,8 @@ impl Shape {
         if self.indices.len() / 3 <= MAX_CONVEX {
             return false;
         }
-        let hull = self.hull();
-        let (area, of_hull) = (self.area(), hull.area());
+        let (hull, of_hull) = self.hull();
+        let area = self.area();
         if hull.indices.is_empty() || area < (1.0 - HULL_MARGIN) * of_hull {
             return false;
         }
@@ -298,10 +298,11 @@ impl Shape {
             .sum()
     }
 
-    /// Returns the convex hull of the shape (Andrew's monotone chain, 1979). Corners that change the hull by less than
-    /// [`MIN_HEIGHT`] are left out, and the others are triangulated (Douglas, Peucker, "Algorithms for the Reduction of
-    /// the Number of Points Required to Represent a Digitized Line or its Caricature", 1973).
-    fn hull(&self) -> Self {
+    /// Returns the convex hull of the shape (Andrew's monotone chain, 1979), and the area of the exact hull. In the
+    /// returned hull, corners that change it by less than [`MIN_HEIGHT`] are left out, and the others are triangulated
+    /// (Douglas, Peucker, "Algorithms for the Reduction of the Number of Points Required to Represent a Digitized Line
+    /// or its Caricature", 1973).
+    fn hull(&self) -> (Self, f64) {
         let mut points = self.points.clone();
         points.sort_unstable_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
         let half = |points: &mut dyn Iterator<Item = DVec2>| {
@@ -324,9 +325,12 @@ impl Shape {
         ];
         let mut hull = Self::default();
         let (Some(&first), Some(&last)) = (points.first(), points.last()) else {
-            return hull;
+            return (hull, 0.0);
         };
-        let min_height = MIN_HEIGHT * first.distance(last);
+        let (low, high) = points
+            .iter()
+            .fold((first, first), |(low, high), &p| (low.min(p), high.max(p)));
+        let min_height = MIN_HEIGHT * low.distance(high);
         let ends = [first, last].map(|p| hull.push(p));
         for (chain, [from, to]) in halves.iter().zip([ends, [ends[1], ends[0]]]) {
             let mut open = vec![(chain.as_slice(), from, to)];
@@ -350,7 +354,9 @@ impl Shape {
                 }
             }
         }
-        hull
+        let sides = halves.iter().flat_map(|half| half.windows(2));
+        let area = sides.map(|side| (side[0] - first).perp_dot(side[1] - first) / 2.0);
+        (hull, area.sum())
     }
 }
 

@@ -367,6 +367,21 @@ fn a_chart_of_many_triangles_that_overlaps_itself_is_packed_by_its_hull() {
     assert!(packed.uvs.iter().all(inside));
 }
 
+/// The extreme points of the charts along u are close to each other, compared with the size of the charts.
+#[test]
+fn long_convex_charts_of_many_triangles_do_not_overlap_after_packing() {
+    let mut mesh = shapes::cylinder(2000, true);
+    for p in mesh.positions_mut() {
+        p.x *= 0.01;
+    }
+    let result = unwrapped(&mesh);
+    let packed = pack(&mesh, &result.uvs, PAGE, &NoProgress).unwrap();
+    assert_eq!(packed.n_overlapping, 0);
+    for uvs in [&result.uvs, &packed.uvs] {
+        assert_eq!(overlapping_faces(&mesh, uvs, &NoProgress).unwrap(), []);
+    }
+}
+
 #[test]
 fn a_hull_with_two_points_that_nearly_coincide_stays_in_one_part() {
     // Two quads that lie on each other in the texture, and six squares. Two corners of the quads nearly coincide.

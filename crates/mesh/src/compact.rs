@@ -1,7 +1,7 @@
 //! Removes dead elements from the arrays.
 
 use crate::attribute::Sources;
-use crate::{Connectivity, EdgeId, FaceId, HalfEdgeId, Id, Mesh, VertexId};
+use crate::{Connectivity, EdgeId, FaceId, HalfEdgeId, Id, Mesh, VertexId, parallel};
 
 /// Maps the ids of elements before a call of [`Mesh::compact`] to their ids after the call. Dead elements map to
 /// `NONE`.
@@ -67,8 +67,8 @@ impl Mesh {
     }
 }
 
-fn each<I: Id, T>(kept: &[I], value: impl Fn(I) -> T) -> Vec<T> {
-    kept.iter().map(|&id| value(id)).collect()
+fn each<I: Id, T: Send>(kept: &[I], value: impl Fn(I) -> T + Sync) -> Vec<T> {
+    parallel::collect(kept.len(), |i| value(kept[i]))
 }
 
 /// Returns, for each old index below `n`, its position in `kept`; `NONE` if `kept` does not contain the index.

@@ -141,6 +141,7 @@ pub use glam::{DMat3, DVec2, DVec3, DVec4};
 pub use id::{Domain, EdgeId, Element, FaceId, HalfEdgeId, Id, VertexId};
 pub use journal::Change;
 pub use measure::{angle_between, area_vector};
+pub use prefetch::prefetch;
 pub use readable::{counted, readable, readable_bytes};
 pub use traverse::Orbit;
 pub use validate::Defect;

@@ -73,9 +73,13 @@ impl Mesh {
     }
 }
 
-/// Prefetches the cache line of element `i`. Does nothing on processors other than x86-64.
+/// The number of bytes that a processor loads from memory at a time, on all common processors.
+const CACHE_LINE: usize = 64;
+
+/// Asks the processor to prefetch the memory of element `i` of an array. The call is only a hint, and does nothing on
+/// processors other than x86-64. `i` is allowed to exceed the length of the array.
 #[inline]
-fn prefetch<T>(array: &[T], i: usize) {
+pub fn prefetch<T>(array: &[T], i: usize) {
     #[cfg(target_arch = "x86_64")]
     #[expect(
         unsafe_code,
@@ -85,7 +89,10 @@ fn prefetch<T>(array: &[T], i: usize) {
     // not require that the pointer stays inside the array.
     unsafe {
         use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
-        _mm_prefetch::<_MM_HINT_T0>(array.as_ptr().wrapping_add(i).cast());
+        let first: *const i8 = array.as_ptr().wrapping_add(i).cast();
+        for offset in (0..size_of::<T>()).step_by(CACHE_LINE) {
+            _mm_prefetch::<_MM_HINT_T0>(first.wrapping_add(offset));
+        }
     }
     #[cfg(not(target_arch = "x86_64"))]
     let _ = (array, i);

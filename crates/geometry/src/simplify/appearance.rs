@@ -17,10 +17,11 @@
 use std::ops::Range;
 
 use mesh::{
-    Column, DVec2, DVec3, DVec4, Domain, EdgeId, FaceId, HalfEdgeId, Mesh, Rule, Values, VertexId,
-    parallel,
+    Column, DVec2, DVec3, DVec4, Domain, EdgeId, FaceId, HalfEdgeId, Mesh, Renumbering, Rule,
+    Values, VertexId, parallel,
 };
 
+use super::kept::{keep, kept};
 use super::quadric::Quadric;
 use crate::lines::inverse_power_of_two;
 
@@ -99,6 +100,10 @@ pub(super) type Pair = [u32; 2];
 /// For each face around an edge before its collapse, the corners of the face and their wedges (groups of face corners
 /// at a vertex).
 pub(super) struct Around(Vec<(FaceId, [(VertexId, u32); 3])>);
+
+/// The faces around an edge before its collapse, and the pairs of wedges (groups of face corners at a vertex) that the
+/// collapse merges, with their new values.
+pub(super) type Merge = (Around, Vec<(Pair, Vec<f64>)>);
 
 impl Appearance {
     /// Removes the interpolated attributes of vertices and corners from a mesh, and stores them. Returns `None` if the
@@ -445,8 +450,25 @@ impl Appearance {
         }
     }
 
+    /// Follows a change of ids by [`Mesh::compact`].
+    pub(super) fn renumber(&mut self, map: &Renumbering) {
+        let vertices = kept(&map.vertices);
+        let edges = kept(&map.edges).into_iter();
+        let corners: Vec<usize> = edges.flat_map(|e| [2 * e, 2 * e + 1]).collect();
+        keep(&mut self.wedges, &corners);
+        for taken in &mut self.taken {
+            let kept = match taken.domain {
+                Domain::Vertex => &vertices,
+                _ => &corners,
+            };
+            let values = &mut taken.column.values;
+            *values = values.gather(kept.len(), |i| Some(kept[i]));
+        }
+    }
+
     /// Puts the stored values back into the mesh. Between the call of [`take`](Self::take) and this call, the caller
-    /// may remove elements from the mesh, but must not add or renumber elements.
+    /// may remove elements from the mesh, but must not add elements. If the caller renumbers elements, it must call
+    /// [`renumber`](Self::renumber).
     pub(super) fn put_back(mut self, mesh: &mut Mesh) {
         for taken in std::mem::take(&mut self.taken) {
             let mut column = taken.column;

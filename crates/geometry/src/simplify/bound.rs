@@ -12,7 +12,7 @@ use mesh::{DVec3, EdgeId, FaceId};
 use crate::surface_index::triangle::nearest_on_segment;
 
 use super::Blocked;
-use super::collapse::Collapser;
+use super::collapser::Collapser;
 use super::target::Target;
 
 impl Collapser<'_> {

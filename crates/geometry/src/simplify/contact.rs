@@ -6,6 +6,8 @@ use progress::{Cancelled, Progress};
 
 use crate::surface_index::{SurfaceIndex, triangles_intersect};
 
+use super::kept::kept;
+
 /// The corner of a box with the smallest coordinates and the corner with the largest coordinates. In an empty box, the
 /// coordinates of the first corner exceed the coordinates of the second corner.
 type Bounds = [DVec3; 2];
@@ -67,6 +69,17 @@ impl Contacts {
             }
             self.boxes[i] = new;
         }
+    }
+
+    /// Follows a change of the ids of faces. `map` contains the new id of each face.
+    pub(super) fn renumber(&mut self, map: &[FaceId]) {
+        for f in &mut self.faces {
+            *f = map.get(f.index()).copied().unwrap_or(FaceId::NONE);
+        }
+        self.leaf_of_face = kept(map)
+            .into_iter()
+            .map(|f| self.leaf_of_face[f])
+            .collect();
     }
 
     /// Whether the faces around the vertices `a` and `b` would intersect each other or another face, if these two

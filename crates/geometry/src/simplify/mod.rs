@@ -34,7 +34,9 @@
 mod appearance;
 mod bound;
 mod collapse;
+mod collapser;
 mod contact;
+mod kept;
 mod quadric;
 mod queue;
 mod target;
@@ -42,7 +44,7 @@ mod target;
 use mesh::{EdgeId, FaceId, Mesh, VertexId};
 use progress::{Cancelled, Progress};
 
-use collapse::Collapser;
+use collapser::Collapser;
 
 /// The options of [`simplify`]: when it stops, and which edges and vertices it keeps.
 #[derive(Clone, Copy, Debug, Default)]

@@ -20,13 +20,16 @@ pub(super) struct Queue {
     pass: u32,
 }
 
+/// The index of a level.
+pub(super) type Level = u16;
+
 /// The level of a cost is its bit pattern as an `f64`, without this number of low bits. The exponent and the highest 3
 /// bits of the fraction remain, so costs within a level differ by at most 12.5 %.
 const SHIFT: u32 = f64::MANTISSA_DIGITS - 1 - 3;
 
 impl Queue {
     pub(super) fn new() -> Self {
-        let levels = vec![Vec::new(); level_of(f64::INFINITY) + 1];
+        let levels = vec![Vec::new(); usize::from(level_of(f64::INFINITY)) + 1];
         Self {
             levels,
             level: 0,
@@ -39,11 +42,10 @@ impl Queue {
         self.pass
     }
 
-    /// Adds an edge with the given cost. If this cost belongs to a level before the current level, the edge goes to the
-    /// current level.
-    pub(super) fn push(&mut self, entry: Entry, cost: f64) {
-        let level = level_of(cost).max(self.level);
-        self.levels[level].push(entry);
+    /// Adds an edge whose cost belongs to the given level. If this level is before the current level, the edge goes to
+    /// the current level.
+    pub(super) fn push(&mut self, entry: Entry, level: Level) {
+        self.levels[usize::from(level).max(self.level)].push(entry);
     }
 
     /// Adds an edge to the next pass of the current level.
@@ -51,9 +53,19 @@ impl Queue {
         self.levels[self.level].push(entry);
     }
 
-    /// Whether an edge with the given cost belongs to a level after the current level.
-    pub(super) fn is_later(&self, cost: f64) -> bool {
-        level_of(cost) > self.level
+    /// Whether a level is after the current level.
+    pub(super) fn is_later(&self, level: Level) -> bool {
+        usize::from(level) > self.level
+    }
+
+    /// Gives new ids to all edges, and removes edges that no longer exist. `map` contains the new id of each edge.
+    pub(super) fn renumber(&mut self, map: &[EdgeId]) {
+        for level in &mut self.levels {
+            level.retain_mut(|entry| {
+                entry.edge = map[entry.edge.index()];
+                entry.edge != EdgeId::NONE
+            });
+        }
     }
 
     /// Begins the next pass, and replaces the contents of `edges` by the edges of this pass. Returns whether the pass
@@ -75,9 +87,9 @@ impl Queue {
 
 /// Returns the index of the level of a cost. The cost must not be negative. A cost that is NaN belongs to the last
 /// level.
-fn level_of(cost: f64) -> usize {
+pub(super) fn level_of(cost: f64) -> Level {
     let cost = if cost.is_nan() { f64::INFINITY } else { cost };
-    usize::try_from(cost.to_bits() >> SHIFT).expect("14 bits")
+    Level::try_from(cost.to_bits() >> SHIFT).expect("14 bits")
 }
 
 #[cfg(test)]
@@ -96,7 +108,7 @@ mod tests {
         let mut queue = Queue::new();
         let costs = [4.0, f64::NAN, 0.0, 1e-300, 4.01, 1e300, 0.5];
         for (e, cost) in costs.into_iter().enumerate() {
-            queue.push(entry(e), cost);
+            queue.push(entry(e), level_of(cost));
         }
         let (mut order, mut pass) = (Vec::new(), Vec::new());
         while queue.next_pass(&mut pass) {
@@ -109,13 +121,13 @@ mod tests {
     fn an_edge_added_to_the_current_level_waits_for_the_next_pass() {
         let mut queue = Queue::new();
         let [a, b] = [0, 1].map(entry);
-        queue.push(a, 1.0);
-        queue.push(b, 1.0);
+        queue.push(a, level_of(1.0));
+        queue.push(b, level_of(1.0));
         let mut edges = Vec::new();
         assert!(queue.next_pass(&mut edges));
         assert_eq!(edges, [a, b]);
         let pass = queue.pass();
-        queue.push(a, 0.0);
+        queue.push(a, level_of(0.0));
         queue.push_again(b);
         assert!(queue.next_pass(&mut edges));
         assert_eq!((&edges[..], queue.pass()), (&[a, b][..], pass + 1));

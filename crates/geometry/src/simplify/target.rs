@@ -7,8 +7,8 @@ use crate::lines::{Kind, labels};
 use crate::surface_index::triangle::nearest_on_segment;
 
 use super::Blocked;
-use super::appearance::Pair;
-use super::collapse::{Collapser, Values};
+use super::appearance::{Merge, Pair};
+use super::collapser::Collapser;
 use super::quadric::Quadric;
 
 /// The weight of one term in the cost of a collapse: the squared distance from the vertex to the centers of the
@@ -150,7 +150,7 @@ impl Collapser<'_> {
         &self,
         e: EdgeId,
         target: &Target,
-    ) -> Result<Option<Values>, Blocked> {
+    ) -> Result<Option<Merge>, Blocked> {
         let Some(appearance) = &self.appearance else {
             return Ok(None);
         };

@@ -1,6 +1,7 @@
 """Compares the remeshing of several programs. See README.md."""
 
 import json
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -10,7 +11,7 @@ from pathlib import Path
 import numpy
 import pymeshlab
 
-RUNS = 3
+RUNS = 5
 # The target lengths, relative to the mean edge length of the model.
 LENGTHS = [1, 0.45]
 
@@ -107,7 +108,7 @@ def main():
                     programs.append(("CGAL", lambda target: by_cgal(cgal, model, target, length)))
                 for name, remesh in programs:
                     target = folder / f"{name}.obj"
-                    seconds = min(remesh(target) for _ in range(RUNS))
+                    seconds = statistics.median(remesh(target) for _ in range(RUNS))
                     measured = measure(program, model, target, length)
                     print(f"| {model.stem} | {name} | {seconds:.2f} | {measured} |", flush=True)
 

@@ -17,7 +17,7 @@ pub(crate) struct Joined<'a> {
     /// The joined mesh. Elements that were removed from the meshes of the objects are left out. The meshes of several
     /// objects are appended in order.
     pub(crate) mesh: Cow<'a, Mesh>,
-    /// The object name that the reported losses contain. It is the name of the first object.
+    /// The name of the first object. Losses that concern the whole mesh are reported under this name.
     pub(crate) name: String,
     pub(crate) losses: Vec<Loss>,
 }
@@ -67,7 +67,6 @@ pub(crate) fn joined(scene: &Scene, format: Format) -> Result<Joined<'_>, Unwrit
         );
         return Err(Unwritable::scene(message));
     }
-    let mut losses_of_all = Losses::of(&name, &mut losses);
     let names = format.joined_names();
     let tags = names == Names::Tags;
     if names != Names::Kept {
@@ -77,7 +76,7 @@ pub(crate) fn joined(scene: &Scene, format: Format) -> Result<Joined<'_>, Unwrit
             ""
         };
         let reason = format!("a {format} file stores one mesh{became}");
-        losses_of_all.add(None, "name", meshes.len(), reason);
+        Losses::of(&name, &mut losses).add(None, "name", meshes.len(), reason);
     }
     let (mut all, mut positions) = (Connectivity::default(), Vec::new());
     for mesh in &meshes {
@@ -85,7 +84,7 @@ pub(crate) fn joined(scene: &Scene, format: Format) -> Result<Joined<'_>, Unwrit
         positions.extend_from_slice(mesh.positions());
     }
     let mut mesh = Mesh::from_arrays(all, positions);
-    mesh.set_attributes(appended(scene.objects(), &meshes, tags, &mut losses_of_all));
+    mesh.set_attributes(appended(scene.objects(), &meshes, tags, &mut losses));
     Ok(Joined {
         mesh: Cow::Owned(mesh),
         name,
@@ -104,7 +103,7 @@ fn appended(
     objects: &[Object],
     meshes: &[Cow<Mesh>],
     tags: bool,
-    losses: &mut Losses,
+    losses: &mut Vec<Loss>,
 ) -> Attributes {
     let mut all = Attributes::default();
     let mut len = [0; 4];
@@ -126,6 +125,7 @@ fn appended(
             };
             attributes.insert(Domain::Face, column);
         }
+        let mut losses = Losses::of(&object.name, losses);
         let name = format!("{OBJECT_TAG}{}", object.name);
         let known = attributes.column(Domain::Face, &name);
         if tags && known.is_some_and(|known| !matches!(known.values, Values::Tag(_))) {
@@ -143,10 +143,7 @@ fn appended(
         n_materials = n_materials.saturating_add(own);
         let part = domain_lengths(mesh);
         for (domain, name) in all.append(len, &attributes, part) {
-            let reason = format!(
-                "the type of this attribute in object `{}` differs from the type in an earlier object",
-                object.name
-            );
+            let reason = "its type differs from the type in an earlier object";
             losses.add(domain, &name, n_values(mesh, domain), reason);
         }
         len = std::array::from_fn(|i| len[i] + part[i]);

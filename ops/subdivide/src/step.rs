@@ -96,11 +96,7 @@ impl Step<'_> {
                     "{name} needs triangles, but every face has at least {} corners",
                     plan.degrees.min
                 );
-                let help = match scheme {
-                    Scheme::Midpoint(_) => "write `into: Quads`, or triangulate the faces first",
-                    _ => "triangulate the faces first, with Triangulate",
-                };
-                problems.push(Problem::error(message).help(help));
+                problems.push(Problem::error(message).help(help_for_polygons(scheme)));
             }
             plan.degrees = Range::exactly(3);
         }
@@ -231,13 +227,22 @@ impl Step<'_> {
     }
 }
 
+/// Returns what users can do if a scheme needs triangles and a face is not a triangle.
+fn help_for_polygons(scheme: Scheme) -> &'static str {
+    match scheme {
+        Scheme::Midpoint(_) => "write `into: Quads`, or triangulate the faces first",
+        _ => "triangulate the faces first, with Triangulate",
+    }
+}
+
 /// Converts an error of the crate `subdivision` to an error of the step.
 fn to_op_error(error: SubdivisionError) -> OpError {
     let message = error.to_string();
     match error {
         SubdivisionError::Cancelled(_) => OpError::Cancelled,
         SubdivisionError::TooLarge(_) => OpError::Budget(message),
-        SubdivisionError::NotTriangle { face, .. } => {
+        SubdivisionError::NotTriangle { face, scheme, .. } => {
+            let message = format!("{message}; {}", help_for_polygons(scheme));
             OpError::refused(Refusal::NotTriangle, message).about([face])
         }
         SubdivisionError::TooFar { vertex, .. } => {

@@ -150,7 +150,7 @@ fn the_refusal_names_the_first_polygon() {
     let error = try_applied(&LoopSubdivide::default(), mesh).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "Loop subdivision needs triangles, but f1 has 4 corners"
+        "Loop subdivision needs triangles, but f1 has 4 corners; triangulate the faces first, with Triangulate"
     );
     let OpError::Refused { reason, .. } = error else {
         panic!("{error}")

@@ -251,6 +251,27 @@ fn several_objects_become_one_with_tags() {
 }
 
 #[test]
+fn an_attribute_whose_type_differs_is_lost_under_the_name_of_its_object() {
+    let folder = Folder::new();
+    let ball = |name: &str, values: Values| {
+        let mut mesh = shapes::icosahedron();
+        put(&mut mesh, Domain::Face, "a", Rule::Copy, values);
+        Object::mesh(name, mesh)
+    };
+    let objects = [
+        ball("first", Values::Float(vec![1.0; 20])),
+        ball("second", Values::Int(vec![1; 20])),
+    ];
+    let report = write(&folder.path("both.ply"), objects);
+    let lost: Vec<_> = report
+        .losses
+        .iter()
+        .map(|l| (l.object.as_str(), l.attribute.as_str(), l.count))
+        .collect();
+    assert_eq!(lost, [("first", "name", 2), ("second", "a", 20)]);
+}
+
+#[test]
 fn content_that_ply_cannot_store_is_a_loss() {
     let folder = Folder::new();
     let mut mesh = shapes::cube();

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use mesh::{DVec3, parallel};
 use progress::{Cancelled, Progress};
 
-use super::cut::{Chart, Limits, MAX_CREASE, chart, nearest};
+use super::chart::{Chart, Limits, MAX_CREASE, chart, nearest};
 use super::number;
 use super::surface::Surface;
 

@@ -11,6 +11,7 @@
 //! Texture coordinates are values of half-edges, which represent the corners of faces. There is one [`DVec2`] for
 //! each half-edge, in the order of the half-edge ids. `v` points upwards.
 
+mod chart;
 mod cut;
 mod dissolve;
 mod flatten;

@@ -3,7 +3,8 @@
 use mesh::{DVec2, EdgeId, FaceId, Mesh};
 use progress::Progress;
 
-use super::cut::{self, Limits};
+use super::chart::Limits;
+use super::cut;
 use super::pack::pack;
 use super::surface::Surface;
 use super::{Charts, Page, UvError, charts};

@@ -8,8 +8,8 @@ use gltf_json::accessor::{ComponentType, IndexComponentType, Type};
 use gltf_json::validation::Checked;
 use mesh::Value;
 
-use super::document::get;
 use super::numbers::{kinds, number, one_of, type_name, whole};
+use super::reference::get;
 use super::views::{Reader, Rows};
 use crate::fault::Fault;
 use mesh::parallel;

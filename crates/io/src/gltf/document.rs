@@ -2,7 +2,6 @@
 
 use std::cell::OnceCell;
 use std::collections::BTreeMap;
-use std::fmt;
 
 use gltf_json::{Accessor, Buffer, Mesh, buffer::View};
 use serde::de::DeserializeOwned;
@@ -11,8 +10,9 @@ use serde_json::{Map, Value};
 use super::budget::Budget;
 use super::draco_json::{self, DRACO};
 use super::meshopt::{self, Compressed, MESHOPT};
-use super::morph_values::{ValueChange, value_changes};
+use super::morph_json::{ValueChange, value_changes};
 use super::node_json::{LIGHTS, NodeJson};
+use super::reference::{get, index};
 use super::rig_json::{AnimationJson, SkinJson};
 use super::surface::{
     ImageJson, MaterialJson, STRENGTH, SamplerJson, TRANSFORM, TextureJson, UNLIT,
@@ -108,24 +108,6 @@ impl Document {
         check_rig(&document)?;
         Ok(document)
     }
-}
-
-/// Returns the part at `index`. Errors name `pointer`, the location of the reference to this part.
-///
-/// # Errors
-///
-/// Returns an error if the index is out of range.
-pub(super) fn get<'a, T>(
-    pieces: &'a [T],
-    index: usize,
-    pointer: impl fmt::Display,
-    what: &str,
-) -> Result<&'a T, Fault> {
-    pieces.get(index).ok_or_else(|| {
-        let n = pieces.len();
-        let message = format!("{what} {index} does not exist (the file has {n})");
-        Fault::json(pointer.to_string(), message)
-    })
 }
 
 fn check_version(json: &Value) -> Result<(), Fault> {
@@ -339,16 +321,6 @@ fn roots(json: &Value, notes: &mut Notes) -> Result<Vec<usize>, Fault> {
     nodes
         .map(|(i, node)| index(node, &format!("{pointer}/{i}")))
         .collect()
-}
-
-/// Parses an index. `pointer` is its location.
-///
-/// # Errors
-///
-/// Returns an error if the value is not an index.
-pub(super) fn index(value: &Value, pointer: &str) -> Result<usize, Fault> {
-    let index = value.as_u64().and_then(|index| usize::try_from(index).ok());
-    index.ok_or_else(|| Fault::json(pointer, format!("expected an index, found {value}")))
 }
 
 fn list<'a>(json: &'a Value, key: &str) -> Result<&'a [Value], Fault> {

@@ -22,9 +22,10 @@ use serde::Deserialize;
 use serde_json::json;
 
 use super::budget::Budget;
-use super::document::{Document, get};
+use super::document::Document;
 use super::draco_json::Compressed;
 use super::numbers::kinds;
+use super::reference::get;
 use super::views::Reader;
 use crate::fault::Fault;
 

@@ -8,7 +8,7 @@ use gltf_json::validation::Checked;
 use serde_json::Value;
 
 use super::document::Document;
-use super::morph_values::is_changeable;
+use super::morph_json::is_changeable;
 use super::surface::MaterialJson;
 use crate::note::Notes;
 

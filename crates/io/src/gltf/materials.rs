@@ -8,7 +8,8 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use super::buffers::data_uri;
-use super::document::{Document, get};
+use super::document::Document;
+use super::reference::get;
 use super::surface::{
     AlphaJson, Extensions, FILTERS, ImageJson, InfoJson, STRENGTH, SamplerJson, TRANSFORM,
     TransformJson, UNLIT, WRAPS,

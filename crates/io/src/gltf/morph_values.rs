@@ -6,79 +6,12 @@ use glam::{DVec2, DVec4};
 use gltf_json::accessor::Type;
 use gltf_json::mesh::Semantic;
 use mesh::{Column, Rule, Value as _, morph_value_name};
-use serde_json::Value;
 
-use super::budget::Budget;
 use super::deform::{Repairs, expect_len};
-use super::document::index;
+use super::morph_json::ValueChange;
 use super::names::attribute_name;
 use super::views::Reader;
 use crate::fault::Fault;
-
-/// An attribute of a morph target of a primitive: the changes of texture coordinates or colors.
-#[derive(Clone, Debug, Eq, Ord, PartialEq, PartialOrd)]
-pub(super) struct ValueChange {
-    target: usize,
-    semantic: Semantic,
-    accessor: usize,
-}
-
-/// Whether a morph target of this primitive can change the attribute `name`. Only attributes that the primitive has can
-/// be changed.
-pub(super) fn is_changeable(primitive: &Value, name: &str) -> bool {
-    primitive["attributes"].get(name).is_some() && semantic(name).is_some()
-}
-
-/// Returns the texture coordinates or the color with this name in glTF; `None` for all other names.
-fn semantic(name: &str) -> Option<Semantic> {
-    let semantic = match name.strip_prefix("TEXCOORD_") {
-        Some(set) => Semantic::TexCoords(set.parse().ok()?),
-        None => Semantic::Colors(0),
-    };
-    // Parsing accepts leading zeros in the number of a set, but glTF does not allow them. Therefore, the result is
-    // compared with the name.
-    (semantic.to_string() == name).then_some(semantic)
-}
-
-/// Returns the changes of each primitive of each mesh, sorted by morph target, attribute and accessor.
-///
-/// # Errors
-///
-/// Returns an error if a reference to an accessor is not an index, or the memory budget is used up.
-pub(super) fn value_changes(
-    meshes: &[Value],
-    budget: &Budget,
-) -> Result<Vec<Vec<Vec<ValueChange>>>, Fault> {
-    let of_mesh = |(m, mesh): (usize, &Value)| {
-        let primitives = list(mesh, "primitives").iter().enumerate();
-        let of_primitive = |(p, primitive): (usize, &Value)| {
-            let mut changes = Vec::new();
-            for (target, attributes) in list(primitive, "targets").iter().enumerate() {
-                for (name, accessor) in attributes.as_object().into_iter().flatten() {
-                    let Some(semantic) = semantic(name).filter(|_| is_changeable(primitive, name))
-                    else {
-                        continue;
-                    };
-                    let at = format!("/meshes/{m}/primitives/{p}/targets/{target}/{name}");
-                    budget.spend(size_of::<ValueChange>() as u64, &at)?;
-                    changes.push(ValueChange {
-                        target,
-                        semantic,
-                        accessor: index(accessor, &at)?,
-                    });
-                }
-            }
-            changes.sort_unstable();
-            Ok(changes)
-        };
-        primitives.map(of_primitive).collect()
-    };
-    meshes.iter().enumerate().map(of_mesh).collect()
-}
-
-fn list<'a>(json: &'a Value, key: &str) -> &'a [Value] {
-    json[key].as_array().map_or(&[], Vec::as_slice)
-}
 
 /// The changes that the morph targets of a mesh make to texture coordinates and colors.
 pub(super) struct ValueChanges<'a> {

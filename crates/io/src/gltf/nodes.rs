@@ -8,8 +8,9 @@ use serde_json::Value;
 
 use super::budget::Budget;
 use super::deformers::Deformers;
-use super::document::{Document, Json, get};
+use super::document::{Document, Json};
 use super::node_json::NodeJson;
+use super::reference::get;
 use crate::Placements;
 use crate::fault::Fault;
 use crate::note::{Names, Notes};

@@ -14,9 +14,9 @@ use mesh::{
 
 use super::deform::{Directions, Repairs, expect_len, joints, morphs};
 use super::deformers::Deformers;
-use super::document::get;
 use super::morph_values::ValueChanges;
 use super::names::attribute_name;
+use super::reference::get;
 use super::views::Reader;
 use crate::fault::Fault;
 use crate::note::Notes;

@@ -5,8 +5,9 @@ use std::cell::OnceCell;
 use std::fmt;
 
 use super::budget::Budget;
-use super::document::{Document, get};
+use super::document::Document;
 use super::meshopt::{self, Compressed};
+use super::reference::get;
 use crate::fault::Fault;
 
 /// Reads arrays from the buffers of a document.

@@ -3,8 +3,6 @@
 use bezier::Curve;
 use glam::DVec2;
 
-use super::Panel;
-
 /// The map from the plane of a curve to the pixels of a figure. The scale is the same in both axes. In the plane of the
 /// curve, y points upwards.
 #[derive(Clone, Copy, Debug)]
@@ -28,10 +26,10 @@ const MAX_HEIGHT: f64 = 0.85;
 const MIN_HEIGHT: f64 = 0.2;
 
 impl Frame {
-    /// Creates the frame of a panel whose drawing is `inner` pixels wide.
-    pub(super) fn new(panel: &Panel, inner: f64) -> Self {
-        let before = panel.before.map_or(&[][..], Curve::points);
-        let points = panel.curve.points().iter().chain(before);
+    /// Creates the frame of a drawing of two states of a curve. The drawing is `inner` pixels wide.
+    pub(super) fn new(curve: &Curve<DVec2>, before: Option<&Curve<DVec2>>, inner: f64) -> Self {
+        let before = before.map_or(&[][..], Curve::points);
+        let points = curve.points().iter().chain(before);
         let empty = (DVec2::INFINITY, DVec2::NEG_INFINITY);
         let (low, high) = points.fold(empty, |(low, high), &p| (low.min(p), high.max(p)));
         // The numbers are halved first, because the sum and the difference of large numbers can overflow.
@@ -92,14 +90,7 @@ mod tests {
     fn frame(points: &[[f64; 2]]) -> (Frame, Vec<DVec2>) {
         let points: Vec<DVec2> = points.iter().map(|&p| p.into()).collect();
         let curve = Curve::new(points.clone()).unwrap();
-        let panel = Panel {
-            curve: &curve,
-            before: None,
-            t: None,
-            levels: None,
-            title: None,
-        };
-        (Frame::new(&panel, 400.0), points)
+        (Frame::new(&curve, None, 400.0), points)
     }
 
     #[test]

@@ -221,7 +221,8 @@ struct Row<'p, 'c> {
 impl<'p, 'c> Row<'p, 'c> {
     /// Creates a row of panels whose drawings are `inner` pixels wide.
     fn new(panels: &'p [Panel<'c>], inner: f64, zoom: f64) -> Self {
-        let frames: Vec<Frame> = panels.iter().map(|p| Frame::new(p, inner)).collect();
+        let frame = |p: &Panel| Frame::new(p.curve, p.before, inner);
+        let frames: Vec<Frame> = panels.iter().map(frame).collect();
         let has_title = panels.iter().any(|p| p.title.is_some() || p.t.is_some());
         let title = if has_title { TITLE * zoom } else { 0.0 };
         let highest = frames.iter().map(Frame::height).fold(0.0, f64::max);

@@ -1,28 +1,12 @@
 //! Parses groups in brackets: fields of structs, items of lists and tuples, entries of maps.
 
+use super::brackets::{Contents, OpenBracket};
 use super::lexer::{Bracket, TokenKind};
 use super::parser::{MAX_DEPTH, Parser, excerpt, starts_value};
-use super::recovery::{Closing, OpenBracket};
+use super::recovery::Closing;
 use super::tree::{Field, Name, Struct, Value, ValueKind};
 use crate::diagnostic::{Diagnostic, Span};
 use std::collections::BTreeMap;
-
-/// The contents of a group in brackets.
-pub(super) struct Contents {
-    pub(super) bracket: Bracket,
-    pub(super) fields: Vec<Field>,
-    values: Vec<Value>,
-    entries: Vec<(Value, Value)>,
-    /// Whether all items that were parsed so far could be read.
-    complete: bool,
-}
-
-impl Contents {
-    /// Whether the group seems to be a tuple, because so far it has values without names and no fields.
-    pub(super) fn is_tuple(&self) -> bool {
-        self.bracket == Bracket::Round && self.fields.is_empty() && !self.values.is_empty()
-    }
-}
 
 impl Parser<'_> {
     /// Parses the group whose opening bracket is the token `current`.

@@ -12,6 +12,7 @@
 //! a value is read into a Rust type without parsing the text again.
 
 mod attribute;
+mod brackets;
 mod de;
 mod diagnostic;
 mod edit;

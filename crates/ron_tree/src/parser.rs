@@ -4,9 +4,9 @@
 //! makes three assumptions: only one bracket is missing or mistyped, line breaks and indentation are right, and each
 //! item of a list starts on its own line. The module [`recovery`](super::recovery) implements the recovery.
 
+use super::brackets::OpenBracket;
 use super::lexer::{Bracket, Lexer, Token, TokenKind};
 use super::literal::{self, BadLiteral, Number};
-use super::recovery::OpenBracket;
 use super::tree::{Call, Name, Value, ValueKind};
 use crate::diagnostic::{Diagnostic, Span};
 

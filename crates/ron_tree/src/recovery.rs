@@ -10,21 +10,9 @@
 //! ]
 //! ```
 
-use super::group::Contents;
+use super::brackets::Contents;
 use super::lexer::{Bracket, TokenKind};
 use super::parser::{Lexeme, Parser};
-use crate::diagnostic::Span;
-
-/// A bracket that is not closed yet.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct OpenBracket {
-    pub(super) bracket: Bracket,
-    pub(super) span: Span,
-    /// Whether a name precedes the bracket, as in `Name(`.
-    pub(super) has_name: bool,
-    /// The number of line feeds in the text before the bracket.
-    pub(super) line: usize,
-}
 
 /// How a closing bracket relates to the innermost open bracket.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -60,6 +60,16 @@ pub(super) struct SurfaceLook {
     pub(super) roughness: f32,
 }
 
+/// A corner of a colored triangle on a surface.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+pub(super) struct PatchVertex {
+    /// The position relative to the center of the object.
+    pub(super) at: [f32; 3],
+    /// sRGB color and opacity.
+    pub(super) color: [u8; 4],
+}
+
 /// A line or a dot.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 #[repr(C)]

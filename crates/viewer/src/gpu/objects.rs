@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use bytemuck::{Pod, Zeroable};
+use bytemuck::Pod;
 use eframe::wgpu;
 use glam::DVec3;
 use render::{
@@ -11,21 +11,10 @@ use render::{
 use scene::{Geometry, Material, Object, Scene};
 use wgpu::util::DeviceExt;
 
-use super::geometry::{self, LineInstance, SurfaceLook};
-use super::patch::Simple;
+use super::geometry::{self, LineInstance, PatchVertex, SurfaceLook};
 use super::pipelines::Pipelines;
 use super::textures::Textures;
 use super::{Look, Wireframe};
-
-/// A corner of a colored triangle on a surface.
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-#[repr(C)]
-pub(super) struct PatchVertex {
-    /// The position relative to the center of the object.
-    pub(super) at: [f32; 3],
-    /// sRGB color and opacity.
-    pub(super) color: [u8; 4],
-}
 
 /// Everything that the buffers of an object depend on.
 #[derive(Clone, Debug)]
@@ -139,6 +128,16 @@ pub(super) struct ChunkBuffers {
     pub(super) n_corners: u32,
     pub(super) look: SurfaceLook,
     pub(super) texture: Option<Arc<render::Texture>>,
+}
+
+/// The buffers of a surface whose triangle `i` is face `i` of its mesh.
+pub(super) struct Simple {
+    /// The triangles of each chunk.
+    pub(super) triangles: Vec<wgpu::Buffer>,
+    /// The normals of the points. `None` if the surface is shaded flat, with the normals of its triangles.
+    pub(super) normals: Option<wgpu::Buffer>,
+    /// Whether the back of the surface has a color of its own.
+    pub(super) has_back: bool,
 }
 
 /// The buffers of an object.

@@ -9,7 +9,7 @@ use render::{Color, ColorMap, Image, Shading};
 use scene::Scene;
 use wgpu::util::DeviceExt;
 
-use super::geometry::{LineInstance, SurfaceLook, narrow};
+use super::geometry::{LineInstance, PatchVertex, SurfaceLook, narrow};
 use super::grid::grid;
 use super::objects::{self, Key, Uploaded};
 use super::patch::patch;
@@ -226,12 +226,12 @@ impl Painter {
         };
         let lines: Vec<LineInstance> = overlay.lines.iter().enumerate().map(line).collect();
         let corners = overlay.triangles.iter().flat_map(|(corners, color)| {
-            corners.map(|p| objects::PatchVertex {
+            corners.map(|p| PatchVertex {
                 at: narrow(p - center),
                 color: *color,
             })
         });
-        let corners: Vec<objects::PatchVertex> = corners.collect();
+        let corners: Vec<PatchVertex> = corners.collect();
         self.overlay = Uploaded::of_lines(&self.device, center, &lines, &corners);
         self.overlay_key = Some((overlay.clone(), scale));
     }

@@ -18,16 +18,6 @@ use super::objects::{Key, Uploaded};
 /// object is converted.
 const MAX_CHANGES: usize = 50_000;
 
-/// The buffers of a surface whose triangle `i` is face `i` of its mesh.
-pub(super) struct Simple {
-    /// The triangles of each chunk.
-    pub(super) triangles: Vec<wgpu::Buffer>,
-    /// The normals of the points. `None` if the surface is shaded flat, with the normals of its triangles.
-    pub(super) normals: Option<wgpu::Buffer>,
-    /// Whether the back of the surface has a color of its own.
-    pub(super) has_back: bool,
-}
-
 /// Changes the buffers of an object to those of a new mesh. Returns false, and changes nothing, if the meshes differ by
 /// more than the connectivity of a few triangles. The caller then converts the whole object again.
 pub(super) fn patch(queue: &wgpu::Queue, uploaded: &Uploaded, new: &Key) -> bool {

@@ -2,8 +2,7 @@
 
 use eframe::wgpu;
 
-use super::geometry::LineInstance;
-use super::objects::PatchVertex;
+use super::geometry::{LineInstance, PatchVertex};
 use super::target::{DEPTH, FORMAT, SAMPLES};
 
 pub(super) struct Pipelines {

@@ -94,6 +94,11 @@ pub enum About {
 }
 
 impl Transform {
+    /// Returns the affine map that the parameters define.
+    fn map(&self) -> Map {
+        Map::new(self.scale.get(), &self.rotate, self.translate.into())
+    }
+
     /// Returns the pivot of the transform. `points` are the points of the object.
     fn center(&self, points: impl Iterator<Item = DVec3>) -> DVec3 {
         match self.about {
@@ -189,7 +194,7 @@ impl Transform {
             // The center of a curve is in the plane z = 0, like the origin.
             About::Origin | About::Center => DVec3::ZERO,
         };
-        match Map::new(self).height_of_plane(center) {
+        match self.map().height_of_plane(center) {
             Some(0.0) => None,
             Some(z) => Some(Problem::error(format!(
                 "the curve \"{name}\" must stay in the plane z = 0, but would get z = {z}"
@@ -229,7 +234,7 @@ impl Operation for Transform {
 
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
         let mut names = target_names(scene, cx, |_| true)?;
-        let map = Map::new(self);
+        let map = self.map();
         let mut report = Report::default();
         cx.advance("transform", 0, names.len() as u64)?;
         if self.space == Space::Scene && !scene.graph().is_empty() {

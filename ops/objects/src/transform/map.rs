@@ -3,8 +3,6 @@
 use glam::{DAffine3, DMat3, DVec3};
 use op::Turn;
 
-use crate::transform::Transform;
-
 /// The map p -> L (p - center) + center + shift, where L scales and then rotates.
 pub(crate) struct Map {
     linear: DMat3,
@@ -14,15 +12,14 @@ pub(crate) struct Map {
 }
 
 impl Map {
-    /// Creates the map that the parameters define.
-    pub(crate) fn new(transform: &Transform) -> Self {
-        let scale = transform.scale.get();
-        let turns = Turn::all(&transform.rotate);
+    /// Creates the map that scales by `scale`, then rotates by `rotate`, and then moves by `shift`.
+    pub(crate) fn new(scale: DVec3, rotate: &[Turn], shift: DVec3) -> Self {
+        let turns = Turn::all(rotate);
         Self {
             linear: turns * DMat3::from_diagonal(scale),
             turns,
             scale,
-            shift: transform.translate.into(),
+            shift,
         }
     }
 

@@ -83,7 +83,7 @@ impl Transform {
         if self.space == Space::Object || plan.incomplete || graph.nodes().is_empty() {
             return None;
         }
-        let map = Map::new(self);
+        let map = self.map();
         // The center of an object is not known in the plan. The center affects only the translations of the nodes.
         let affine = map.affine(self.center(std::iter::empty()));
         let mut maps: Vec<Option<DAffine3>> = vec![None; graph.nodes().len()];

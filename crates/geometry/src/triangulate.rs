@@ -28,8 +28,8 @@ use mesh::{DVec3, FaceId, Mesh};
 /// The indices of three corners of a face, in ascending order.
 pub type Triangle = [u32; 3];
 
-/// Squared lengths whose relative difference is at most this number are treated as equal. An area that is
-/// smaller than this, relative to the size of the face, is treated as 0.
+/// Squared lengths whose relative difference is at most this number are treated as equal. An area is treated as 0 if it
+/// is smaller than this number, relative to the size of the face.
 const TOLERANCE: f64 = 1e-12;
 /// The largest number of corners for which a face is cut by ear clipping. Ear clipping of a face with this number of
 /// corners takes at most about 50 ms.
@@ -37,8 +37,7 @@ const MAX_EARS: usize = 4096;
 /// The smallest number of corners for which the triangulation of a face can be canceled. Faces with fewer corners take
 /// little time.
 const MIN_CANCELLED: usize = 256;
-/// The largest number of corners of a face for which a good triangulation is computed. A face with more corners becomes
-/// a fan.
+/// A face with more than this number of corners becomes a fan. No better triangulation is computed for such a face.
 const MAX_CORNERS: usize = 10_000_000;
 
 /// How a face is cut into triangles.
@@ -94,9 +93,9 @@ impl Cut {
     /// The pairs are sorted.
     pub fn diagonals(&self, into: &mut Vec<[u32; 2]>) {
         into.clear();
-        // In every triangle except one, the side from the last to the first corner is a diagonal. Each diagonal is the
-        // side from the last to the first corner of exactly one triangle. In the remaining triangle, this side is the
-        // side of the face from its last to its first corner.
+        // The corners of a triangle are in ascending order. In one triangle, the side from the first to the last corner
+        // is the side of the face between its corner 0 and its last corner. In all other triangles, this side is a
+        // diagonal. Each diagonal occurs exactly once in this way.
         let triangles = self.triangles();
         let last = u32::try_from(triangles.len()).expect("corners fit 32 bits") + 1;
         let sides = triangles.iter().map(|&[a, _, c]| [a, c]);
@@ -322,7 +321,8 @@ fn with_sorted_corners(mut triangle: Triangle) -> Triangle {
     triangle
 }
 
-/// Inserts each corner that no triangle uses. Such a corner is skipped by a side of a triangle; this triangle is split.
+/// Inserts the corners that no triangle uses. If such corners lie between two corners a and b of the polygon, the
+/// triangle with the side from a to b is split.
 ///
 /// ```text
 ///        c                c
@@ -350,8 +350,8 @@ fn insert_skipped_corners(n: usize, triangles: &mut Vec<Triangle>) {
         let place = used.partition_point(|&u| u <= i);
         used.get(place).copied().unwrap_or(first)
     };
-    // The corners that are used by at least one triangle form a polygon. For each side of this polygon, `owner` has the
-    // index of the triangle with this side, stored at the first corner of the side.
+    // The corners that are used by at least one triangle form a polygon. For each side of this polygon, `owner[i]` is
+    // the index of the triangle with this side, where i is the first corner of the side.
     let mut owner = vec![None; n];
     for (t, triangle) in triangles.iter().enumerate() {
         for k in 0..3 {
@@ -481,7 +481,7 @@ mod tests {
         insert_skipped_corners(8, &mut triangles);
         triangles.sort_unstable();
         assert!(is_triangulation(8, &triangles), "{triangles:?}");
-        // Each side of these two triangles skips a corner of the polygon, except the side that they share.
+        // No triangle uses the corners 1, 3, 5 and 7.
         let mut triangles = vec![[0, 2, 4], [0, 4, 6]];
         insert_skipped_corners(8, &mut triangles);
         triangles.sort_unstable();

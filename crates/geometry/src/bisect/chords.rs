@@ -58,8 +58,9 @@ pub(super) fn chords_along_line(corners: &[Corner], normal: DVec3) -> Vec<[u32; 
     left_chords(corners)
 }
 
-/// Returns the chords inside the polygon, as pairs of corner indices. Returns `None` if the corners on the line
-/// contradict each other about which parts of the line are inside the polygon.
+/// Returns the chords inside the polygon, as pairs of corner indices. Returns `None` if the sides at two consecutive
+/// corners on the line show different results: the line is inside the polygon ahead of the first corner, but not behind
+/// the second corner, or the reverse.
 fn inside_chords(corners: &[Corner], normal: DVec3) -> Option<Vec<[u32; 2]>> {
     let n = corners.len();
     let mut on_line: Vec<usize> = (0..n).filter(|&i| corners[i].height == 0.0).collect();

@@ -59,10 +59,11 @@ pub struct Bisection {
 /// the values of the face. New edges on the plane have zero values.
 ///
 /// The plane meets a flat face in a line. This line crosses the sides of the face an even number of times. The
-/// intervals of the line between the crossings are alternately inside and outside of the face. If a face is not flat or
-/// intersects itself, its corners can contradict each other about which intervals are inside. If the corners contradict
-/// each other, each part of the face in front of the plane is cut off separately. If two faces share both edges that
-/// the plane crosses, each face gets a separate edge between the same two crossing points.
+/// intervals of the line between the crossings are alternately inside and outside of the face. At each corner on the
+/// line, the adjacent sides of the face show whether the intervals next to the corner are inside. If a face is not flat
+/// or intersects itself, the two corners at the ends of an interval can show different results. In this case, each part
+/// of the face in front of the plane is cut off separately. If two faces share both edges that the plane crosses, each
+/// face gets a separate edge between the same two crossing points.
 ///
 /// A face that lies in the plane counts as in front of the plane if its normal points to the back. In this case, the
 /// solid that the face bounds lies in front of the plane. Any other face in the plane counts as behind the plane.

@@ -191,7 +191,8 @@ fn two_faces_that_share_both_crossed_edges_get_separate_edges() {
 
 #[test]
 fn a_face_around_a_hole_is_cut_on_both_sides_of_it() {
-    // A square with a hole. A slit of two coincident sides connects their first corners.
+    // A square with a hole. A slit of two coincident sides connects the first corner of the square with a corner of the
+    // hole.
     let ring = |x: f64| [(-x, -x), (x, -x), (x, x), (-x, x)];
     let mut points = ring(4.0).to_vec();
     points.extend(ring(2.0).into_iter().rev());

@@ -83,12 +83,11 @@ impl Piece {
     /// 1. The largest distance from a corner of the piece to one triangle of the other surface, the same triangle for
     ///    all corners. The distance to a triangle is a convex function of the point, so its maximum over the piece is
     ///    at a corner.
-    /// 2. d + e, if the nearest points of the three corners lie on two triangles with a common edge. The length d is
-    ///    the largest distance from a corner of the piece to the nearest point of the other surface. Therefore no point
-    ///    of the piece is further than d from the triangle that the three nearest points span. Two sides of this
-    ///    spanned triangle lead from one of the two triangles of the other surface to the other one. The length e is
-    ///    the larger of the distances of these two sides from the common edge. Therefore no point of the spanned
-    ///    triangle is further than e from the two triangles.
+    /// 2. d + e, if the nearest points of the three corners lie on two triangles S and T with a common edge. The length
+    ///    d is the largest distance from a corner of the piece to the other surface. Let N be the triangle that the
+    ///    three nearest points span. Then no point of the piece is further than d from N. Two sides of N join a point
+    ///    of S to a point of T. The length e is the larger of the distances of these two sides from the common edge.
+    ///    Each point of N is therefore within the distance e of S or of T.
     /// 3. The length d plus 1/√3 times the longest side of the piece, where d is the largest distance from a corner of
     ///    the piece to the nearest point of the other surface. This is a bound because the distance from a point of the
     ///    piece to the nearest corner is at most 1/√3 times the longest side.

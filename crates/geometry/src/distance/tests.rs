@@ -69,7 +69,7 @@ fn a_search_near_a_face_with_many_corners_visits_few_nodes() {
     let index = SurfaceIndex::new(&disk).unwrap();
     let points = (0..n).flat_map(|i| [1.0, 0.9, 0.3].map(|r| r * at(i) + 0.1 * DVec3::Z));
     let visits = points.map(|p| index.nearest(p, 0).visits).max().unwrap();
-    // In a triangulation by ear clipping, most searches visit more than a thousand nodes.
+    // If the face were triangulated by ear clipping, most searches would visit more than a thousand nodes.
     assert!(visits < 200, "{visits}");
     let lifted = moved(disk.clone(), |p| p + 0.1 * DVec3::new(0.0, -0.6, 0.8));
     let found = between(&disk, &lifted, 1e-9);

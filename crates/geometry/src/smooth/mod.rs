@@ -130,8 +130,8 @@ pub enum SmoothError {
     /// The volume cannot be preserved, because the volume of a mesh with a boundary is not defined.
     #[error("the volume can be preserved only if the mesh is closed, but the mesh has a boundary")]
     NotClosed,
-    /// To restore the volume, all free vertices are moved along their normals. No length of this movement restored the
-    /// old volume.
+    /// To restore the volume, all free vertices are moved by the same distance along their normals. No distance was
+    /// found that restores the old volume.
     #[error(
         "the volume was {}, and moving the free vertices along their normals gives {} at best; smooth less, or do \
          not keep the volume",

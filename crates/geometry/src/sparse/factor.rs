@@ -9,6 +9,7 @@
 //!     |        |          -->    |        |        U = Q - R P^-1 R^T
 //!     | R    Q |                 | R'   U |
 //! ```
+//! The rows of R and R' are the rows of the front below the pivots. The block Q is the rest of the front.
 
 mod front;
 
@@ -22,8 +23,8 @@ use front::{Front, Update};
 
 /// The largest number of entries of a factor. This number of entries takes 16 GiB.
 const MAX_ENTRIES: u64 = 1 << 31;
-/// The largest residual with which a solution is accepted, relative to the size of the terms: the largest sum of the
-/// absolute terms of one equation.
+/// A solution is accepted if its residual is at most this number times the size of the terms. The size of the terms is
+/// the largest sum of the absolute values of the terms of one equation.
 const MAX_RESIDUAL: f64 = 1e-9;
 /// The refinement of a solution stops when its relative residual is at most this number, when the residual hardly
 /// decreases, or after [`REFINEMENTS`] steps.

@@ -10,8 +10,9 @@
 //!           c                        'c'
 //! ```
 //!
-//! Vertices with the same neighbors are merged into one supervariable. Of several vertices with the lowest degree, the
-//! order of insertion decides which is eliminated first; this order depends only on the graph.
+//! The vertices that are not eliminated are called variables. Variables with the same neighbors are merged into one
+//! supervariable. If several variables have the lowest degree, the variable that was added last to the list of this
+//! degree is eliminated first. The result therefore depends only on the graph.
 
 use progress::{Cancelled, Progress};
 
@@ -219,15 +220,16 @@ impl Quotient {
         }
     }
 
-    /// Removes from the lists of i the variables and elements that the new element p covers. Returns two numbers: an
-    /// upper bound of the degree of i, not counting the members of p, and a hash of the lists of i.
+    /// Updates the lists of i, a member of the new element p. Removes the variables that are members of p, and the
+    /// elements without members outside of p, and adds p. Returns two numbers: an upper bound of the degree of i, not
+    /// counting the members of p, and a hash of the lists of i.
     fn update(&mut self, i: u32, p: u32) -> (u32, u64) {
         let base = self.stamp << 32;
         let (mut degree, mut hash) = (0_u64, u64::from(p));
         let (outside, list) = (&self.outside, &self.members);
         self.elements[i as usize].retain(|&e| {
-            // An element whose list of members is empty was absorbed by another element. An element whose members are
-            // all members of p is covered by p.
+            // An element whose list of members is empty was absorbed by another element. If `more` is 0, all members of
+            // the element e are members of p.
             let more = outside[e as usize].saturating_sub(base);
             let keep = !list[e as usize].is_empty() && more > 0;
             if keep {

@@ -12,8 +12,8 @@ use mesh::DVec3;
 
 use super::SurfaceIndex;
 
-/// The largest number of triangles of a node that gets a slab. The triangles of a larger node usually do not lie near one
-/// plane, so that a slab would not be thinner than the box of the node.
+/// The largest number of triangles of a node that gets a slab. The triangles of a larger node usually do not lie near
+/// one plane, so that a slab would not be thinner than the box of the node.
 const MOST: usize = 512;
 
 /// The maximum number of values of λ for which a bound is computed; see [`SurfaceIndex::slab_distance_squared`].
@@ -65,9 +65,10 @@ impl SurfaceIndex {
     /// distance to the box of the node.
     ///
     /// The triangles lie in the part of the box that is in the slab. Each λ ≥ 0 gives a lower bound on the squared
-    /// distance from `p` to this part: the minimum of |p - x|² + 2 λ (n·x - high) over all points x of the box. The
-    /// minimum is at x = p - λ n, clamped to the box. Newton steps improve λ. Source: Boyd, Vandenberghe, "Convex
-    /// Optimization", 2004, §5.1.3.
+    /// distance from `p` to this part: the minimum of |p - x|² + 2 λ (n·x - high) over all points x of the box. Here n
+    /// is the normal of the slab on the side of p, and n·x <= high for all points x of the slab. The minimum is at x =
+    /// p - λ n, clamped to the box. Newton steps improve λ. Source: Boyd, Vandenberghe, "Convex Optimization", 2004,
+    /// §5.1.3.
     pub(super) fn slab_distance_squared(&self, p: DVec3, i: usize, squared: f64) -> f64 {
         let (node, slab) = (&self.nodes[i], &self.slabs[i]);
         let [x, y, z] = slab.normal.map(f64::from);

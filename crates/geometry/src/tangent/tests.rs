@@ -65,7 +65,7 @@ fn the_tangent_of_a_plane_points_along_u_and_the_bitangent_along_v() {
 
 #[test]
 fn mirrored_halves_have_opposite_signs() {
-    // u runs away from the plane x = 0 on both sides.
+    // On both sides of the plane x = 0, u grows with the distance from this plane.
     let mesh = mapped(shapes::grid(4, 2), |p| DVec2::new(p.x.abs(), p.y));
     let tangents = of(&mesh);
     for f in mesh.faces() {

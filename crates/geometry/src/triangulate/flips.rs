@@ -9,8 +9,8 @@
 //! ```
 //!
 //! Source: Lawson, "Software for C1 Surface Interpolation", 1977. The flips are the same as in the crate `earcut`, in
-//! the same order and with the same tolerance. The function of this crate is not used, because it can neither be
-//! canceled nor limited.
+//! the same order and with the same tolerance. The function for this in `earcut` is not used, because it cannot be
+//! canceled and does not limit the number of flips.
 
 use mesh::DVec2;
 
@@ -42,9 +42,9 @@ pub(super) struct Flips {
 }
 
 impl Flips {
-    /// Improves counter-clockwise triangles whose corners are in ascending order, and sorts them. Stops early after
-    /// [`MAX_FLIPS`] flips for each corner, or if `is_cancelled` returns `true`. The triangulation is then valid, but
-    /// some of its diagonals are possibly not Delaunay.
+    /// Improves counter-clockwise triangles whose corners are in ascending order, and sorts them. Stops early if the
+    /// number of flips reaches [`MAX_FLIPS`] times the number of corners of the polygon, or if `is_cancelled` returns
+    /// `true`. The triangulation is then valid, but some of its diagonals are possibly not Delaunay.
     pub(super) fn improve(
         &mut self,
         points: &[[f64; 2]],

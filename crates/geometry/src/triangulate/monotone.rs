@@ -5,9 +5,9 @@
 //!    a       b              a       b
 //!   / \     / \            / \     / \      A horizontal line moves down over the polygon. Where two parts of the
 //!  /   \   /   \          /   \   /   \     polygon join (m) or a part divides (s), a diagonal cuts the polygon. A
-//! |     \ /     |        |     \ /     |    horizontal line meets each resulting piece in one segment, so the pieces are
-//! |      m      |   -->  |      m      |    called monotone. The triangles of a piece are found from its top to its
-//! |      s      |        |      s      |    bottom.
+//! |     \ /     |        |     \ /     |    horizontal line meets each resulting piece in one segment, so the pieces
+//! |      m      |   -->  |      m      |    are called monotone. The triangles of a piece are found from its top to
+//! |      s      |        |      s      |    its bottom.
 //! |     / \     |        |     / \     |
 //!  \___/   \___/          \___/   \___/     Here, the diagonal from m to s cuts the polygon into two pieces.
 //! ```
@@ -94,8 +94,8 @@ impl<'a> Polygon<'a> {
         // The sides of the polygon that the horizontal sweep line meets now and that have the inside of the polygon on
         // their right.
         let mut sides: BTreeSet<Side> = BTreeSet::new();
-        // For each side in `sides`, its helper: the last corner so far whose nearest side to the left is this side. The
-        // index in `helpers` is the first corner of the side.
+        // Each side in `sides` has a helper: the last processed corner whose nearest side to the left is this side. At
+        // first, the helper is the first corner of the side. `helpers` is indexed by the first corner of the side.
         let mut helpers = vec![0; self.points.len()];
         let mut is_join = vec![false; self.points.len()];
         let mut diagonals = Vec::new();
@@ -261,7 +261,7 @@ mod tests {
         (*state >> 32) as f64 / f64::from(u32::MAX)
     }
 
-    /// A zigzag band with `n` corners that are far apart: the worst case for ear clipping.
+    /// A zigzag band with `n` corners and long sides: the worst case for ear clipping.
     fn comb(n: u32) -> Vec<[f64; 2]> {
         let upper = |i: u32| if i.is_multiple_of(2) { 0.0 } else { 100.0 };
         let there = (0..n / 2).map(|i| [f64::from(i), upper(i)]);

@@ -118,8 +118,9 @@ fn packed_start(n: usize, column: usize) -> usize {
     column * n - column * column.saturating_sub(1) / 2
 }
 
-/// Factors the columns of a panel with `m` rows: replaces them by columns of L, and stores the pivots. If a pivot is
-/// zero, negative, infinite or NaN, returns an error with the column and the value of the pivot.
+/// Factors a panel with `m` rows. A panel has the columns of a front that belong to the supernode. These columns are
+/// replaced by columns of L, and the pivots are stored. If a pivot is zero, negative, infinite or NaN, returns an error
+/// with the column and the value of the pivot.
 fn factor_panel(panel: &mut [f64], m: usize, pivots: &mut [f64]) -> Result<(), (usize, f64)> {
     let k = pivots.len();
     for block in (0..k).step_by(BLOCK) {
@@ -164,7 +165,7 @@ fn axpy(target: &mut [f64], column: &[f64], factor: f64) {
 
 /// Some consecutive columns of a front, each from the diagonal down.
 struct Tile<'a> {
-    /// The index of the first column, which is the row of its first entry.
+    /// The index of the first column. The first entry of this column is on the diagonal, so its row has the same index.
     first: usize,
     columns: Vec<&'a mut [f64]>,
 }

@@ -116,13 +116,13 @@ fn neighbors_intersect_only_if_they_overlap_further() {
     let at = |x: f64, y: f64, z: f64| DVec3::new(x, y, z);
     let [o, x, y] = [DVec3::ZERO, DVec3::X, DVec3::Y];
     let t = [o, x, y];
-    // The triangles have a common side. The other triangle lies across it, is folded up, or is folded onto the
-    // first one.
+    // The triangles have a common side. The second triangle lies on the other side of it, is folded up above the first
+    // triangle, or overlaps the first triangle in the same plane.
     assert!(!triangles_intersect(&t, &[x, o, at(0.5, -1.0, 0.0)]));
     assert!(!triangles_intersect(&t, &[x, o, at(0.5, 0.1, 1e-300)]));
     assert!(triangles_intersect(&t, &[x, o, at(0.5, 0.1, 0.0)]));
-    // The triangles have a common corner. The other triangle lies beside the first one, passes through it, or
-    // lies along a side.
+    // The triangles have a common corner. The second triangle lies beside the first one, passes through it, or has a
+    // side along a side of the first one.
     assert!(!triangles_intersect(&t, &[o, -x, -y]));
     assert!(triangles_intersect(
         &t,

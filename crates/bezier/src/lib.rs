@@ -3,8 +3,9 @@
 //!
 //! The crate works only on points and numbers. The crate does not depend on the crates for meshes, files or operations.
 //!
-//! - A **Bezier curve** of degree n is a weighted mean of n + 1 *control points*: c(t) is the
-//!   sum of `p_i B(n, i)(t)` with the Bernstein polynomials B(n, i). See [`Curve`], in 2D and 3D.
+//! - A **Bezier curve** c(t) of degree n has n + 1 *control points* `p_i`. The point c(t) is a weighted mean of the
+//!   control points: the sum of `p_i B(n, i)(t)`, where B(n, i) are the Bernstein polynomials. See [`Curve`], in 2D and
+//!   3D.
 //! - **De Casteljau's algorithm** computes c(t) in levels. The points of a level are joined by legs, and each
 //!   point of the next level divides one leg in the ratio t : 1 - t. See [`one_step`] and [`Curve::levels`].
 //! - A **bicubic patch** s(u, v) has 4 by 4 control points: u runs along the rows, v across them. Each row defines a

@@ -81,7 +81,6 @@ impl Tessellation {
             .map_err(|_| BezierError::OutOfMemory(counts))
     }
 
-    /// Returns the number of elements.
     pub(crate) fn counts(&self) -> Counts {
         Counts {
             vertices: self.positions.len() as u64,

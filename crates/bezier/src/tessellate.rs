@@ -116,7 +116,6 @@ pub fn counts(patches: &[Patch], segments: u32, faces: Faces) -> Result<Counts, 
     Ok(total)
 }
 
-/// The state of tessellating one patch.
 struct PatchTessellator<'a> {
     patch: &'a Patch,
     n: u32,

@@ -105,7 +105,7 @@ impl Progress for NoProgress {
     }
 }
 
-/// The computation was cancelled.
+/// The computation was canceled.
 #[derive(Clone, Copy, Debug, Eq, PartialEq, thiserror::Error)]
 #[error("cancelled")]
 pub struct Cancelled;

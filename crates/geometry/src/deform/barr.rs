@@ -51,7 +51,7 @@ impl Frame {
 /// height `to`. The twist preserves volume. The inverse of a twist is the twist by the opposite angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Twist {
-    /// The coordinates.
+    /// The coordinate system, and the heights between which the angle changes.
     pub frame: Frame,
     /// The angle of rotation at the height `to`, in degrees.
     pub angle: f64,
@@ -71,7 +71,7 @@ impl Twist {
 /// where s changes linearly from 1 at the height `from` to `factor` at the height `to`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Taper {
-    /// The coordinates.
+    /// The coordinate system, and the heights between which the scale factor changes.
     pub frame: Frame,
     /// The scale factor at the height `to`.
     pub factor: f64,
@@ -109,7 +109,7 @@ impl Taper {
 /// 1 - k x is negative: there, the bent shape is turned inside out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bend {
-    /// The coordinates.
+    /// The coordinate system, and the heights between which the axis is bent.
     pub frame: Frame,
     /// The angle between the directions of the bent axis at its two ends, in degrees. A negative angle bends the axis
     /// away from the first unit vector of the [`Frame`].

@@ -35,7 +35,6 @@ impl UnionFind {
         }
     }
 
-    /// Joins the sets that contain `a` and `b`.
     pub(crate) fn join(&self, a: u32, b: u32) {
         let (mut a, mut b) = (self.root(a), self.root(b));
         while a != b {

@@ -23,7 +23,6 @@ const NONE: u32 = u32::MAX;
 /// The cosine of 40°. A vertex on a line is a corner if the line turns by more than 40° at this vertex.
 const STRAIGHT: f64 = 0.766_044_443_118_978;
 
-/// The original surface.
 pub(super) struct Original<'a> {
     /// The original mesh, which is [dense](mesh::Mesh::is_dense).
     pub(super) source: &'a Mesh,

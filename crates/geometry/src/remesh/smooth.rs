@@ -139,8 +139,9 @@ impl Work<'_> {
             }
         }
         let size = self.sizes[v.index()];
-        // `sum` adds the signed arc lengths to the two neighbors on the line. A quarter of it is half the way to the
-        // middle between these neighbors. If all vertices moved the whole way at the same time, they would oscillate.
+        // `sum` is the sum of the signed arc lengths from the vertex to its two neighbors on the line. The middle
+        // between these neighbors is at half of `sum`, so a quarter of `sum` is half the way. If all vertices moved the
+        // whole way at the same time, they would oscillate.
         let way = 0.25 * sum;
         if n != 2 || way.abs() < STILL * size {
             return None;

@@ -7,20 +7,21 @@ use progress::{Cancelled, Progress};
 
 use crate::tangent::triangles;
 
-/// If the bounding boxes of triangles have more than this number of times the area of the triangles, most triangles are
-/// thin and oblique.
+/// If the total area of the bounding boxes of some triangles is more than this number times the total area of the
+/// triangles, most of the triangles are thin and oblique.
 const MAX_BOXES: f64 = 16.0;
 
-/// Returns a rotation after which the bounding boxes of triangles are small: the rotation makes the long sides vertical.
-/// The product of complex numbers with this number rotates. Returns 1 if the bounding boxes are small already.
+/// Returns a rotation, as a complex number, that makes the bounding boxes of thin triangles small: it makes their long
+/// sides vertical. The product of this number and a point, also as a complex number, is the rotated point. Returns 1 if
+/// the bounding boxes are already small.
 pub(super) fn upright(triangles: impl Iterator<Item = [DVec2; 3]>) -> DVec2 {
     let (mut boxes, mut areas, mut squares) = (0.0, 0.0, DVec2::ZERO);
     for [a, b, c] in triangles {
         let size = a.max(b).max(c) - a.min(b).min(c);
         boxes += size.x * size.y;
         areas += (b - a).perp_dot(c - a).abs() / 2.0;
-        // As complex numbers, a side and the opposite of the side have the same square, so the direction of a side does
-        // not matter.
+        // The sides are squared as complex numbers. A vector and its opposite have the same square, so it does not
+        // matter at which end a side starts.
         squares += [b - a, c - b, a - c]
             .iter()
             .map(|d| d.rotate(*d))
@@ -39,8 +40,8 @@ pub(super) fn upright(triangles: impl Iterator<Item = [DVec2; 3]>) -> DVec2 {
     }
 }
 
-/// A triangle in the texture, with its corners in counter-clockwise order. The bounding box is that of the rotated
-/// triangle.
+/// A triangle in the texture, with its corners in counter-clockwise order. `low` and `high` are the corners of its
+/// bounding box. The function `rotate` replaces this box by the bounding box of the rotated triangle.
 pub(super) struct Flat {
     corners: [DVec2; 3],
     low: DVec2,

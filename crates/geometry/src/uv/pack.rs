@@ -55,8 +55,9 @@ struct Chart {
     scale: Option<f64>,
     /// The middle of the bounding box of the chart in the old texture.
     middle: DVec2,
-    /// The rotation before the packing, as a complex number. The crate `uvunwrap` compares triangles whose bounding
-    /// boxes overlap. Without the rotation, these would be almost all pairs of a chart with thin, oblique triangles.
+    /// The rotation of the chart before the packing, as a complex number. The crate `uvunwrap` compares all triangles
+    /// of a chart whose bounding boxes overlap. Without this rotation, the crate would compare almost all pairs of
+    /// triangles of a chart with thin, oblique triangles.
     turn: DVec2,
     /// The area of the chart on the surface.
     area: f64,
@@ -271,10 +272,11 @@ impl Shape {
         (self.points.len() - 1) as u32
     }
 
-    /// Replaces a shape of many triangles by its convex hull if the shape is convex, or certainly overlaps itself because
-    /// its area is larger than that of the hull. Returns whether it overlaps itself. The crate `uvunwrap` compares
-    /// triangles whose bounding boxes overlap. In the triangulation of a face with many corners, these can be almost all
-    /// pairs.
+    /// If the shape has many triangles, replaces it by its convex hull in two cases. In the first case, the shape is
+    /// convex. In the second case, the shape certainly overlaps itself, because the sum of the areas of its triangles
+    /// is larger than the area of the hull. Returns whether the second case applies. The replacement saves time: the
+    /// crate `uvunwrap` compares all triangles whose bounding boxes overlap. In the triangulation of a face with many
+    /// corners, these can be almost all pairs of triangles.
     fn simplify(&mut self) -> bool {
         if self.indices.len() / 3 <= MAX_CONVEX {
             return false;
@@ -298,10 +300,10 @@ impl Shape {
             .sum()
     }
 
-    /// Returns the convex hull of the shape (Andrew's monotone chain, 1979), and the area of the exact hull. In the
-    /// returned hull, corners that change it by less than [`MIN_HEIGHT`] are left out, and the others are triangulated
-    /// (Douglas, Peucker, "Algorithms for the Reduction of the Number of Points Required to Represent a Digitized Line
-    /// or its Caricature", 1973).
+    /// Returns the convex hull of the shape (Andrew's monotone chain, 1979), and the area of the exact hull. The
+    /// returned hull is triangulated, and has no corners that change its shape by less than [`MIN_HEIGHT`] (Douglas,
+    /// Peucker, "Algorithms for the Reduction of the Number of Points Required to Represent a Digitized Line or its
+    /// Caricature", 1973).
     fn hull(&self) -> (Self, f64) {
         let mut points = self.points.clone();
         points.sort_unstable_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
@@ -317,8 +319,8 @@ impl Shape {
             }
             chain
         };
-        // The lower and the upper half of the hull both run between the two extreme points along x, which are the ends
-        // of the halves.
+        // The lower half and the upper half of the hull both join the point with the smallest x to the point with the
+        // largest x.
         let halves = [
             half(&mut points.iter().copied()),
             half(&mut points.iter().rev().copied()),
@@ -383,7 +385,8 @@ impl Motion {
         let n = pairs.len().max(1) as f64;
         let from = pairs.iter().map(|pair| pair[0]).sum::<DVec2>() / n;
         let to = pairs.iter().map(|pair| pair[1]).sum::<DVec2>() / n;
-        // With vectors as complex numbers, the direction of the sum of conj(p - from) (q - to) is the best rotation.
+        // Here p is a point of the shape, and q is its packed position. With vectors as complex numbers, the direction
+        // of the sum of conj(p - from) (q - to) is the best rotation.
         let turn = pairs.iter().fold(DVec2::ZERO, |sum, [p, q]| {
             let (p, q) = (*p - from, *q - to);
             sum + DVec2::new(p.dot(q), p.perp_dot(q))

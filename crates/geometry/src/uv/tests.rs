@@ -95,8 +95,8 @@ fn charts_are_not_mirrored_and_stretched_little() {
     }
 }
 
-/// Returns a strip of `n` squares between two helices with radii 0.5 and 1 around the z axis. A turn has 48 squares, and
-/// rises by 0.2.
+/// Returns a strip of `n` squares between two helices with radii 0.5 and 1 around the z axis. A turn has 48 squares,
+/// and rises by 0.2.
 fn ramp(n: u32) -> Mesh {
     let row = |i: u32| {
         let turn = f64::from(i) / 48.0;
@@ -140,7 +140,7 @@ fn a_developable_surface_becomes_one_chart_without_stretch() {
 
 #[test]
 fn the_faces_of_a_chart_are_divided_among_its_neighbors() {
-    // Growing and joining charts alone gives six charts.
+    // Without the step that dissolves charts, there would be six charts.
     assert_eq!(unwrapped(&shapes::icosahedron()).charts.n, 4);
 }
 
@@ -288,8 +288,9 @@ fn unwrapping_can_be_cancelled() {
     assert!(overlapping_faces(&mesh, &uvs, &Never).is_err());
 }
 
-/// Returns texture coordinates that map the faces of a cube to overlapping unit squares, except that the first face is
-/// mapped to a mirrored square and the last face to a larger one, both separate.
+/// Returns texture coordinates for a mesh of quadrilaterals. The first face is mapped to a mirrored square, and the
+/// last face to a larger square. These two squares overlap no other square. The other faces are mapped to overlapping
+/// unit squares.
 fn stacked(mesh: &Mesh) -> Vec<DVec2> {
     let square = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
     let mut uvs = vec![DVec2::ZERO; mesh.n_half_edges()];
@@ -309,7 +310,7 @@ fn stacked(mesh: &Mesh) -> Vec<DVec2> {
 
 #[test]
 fn packed_charts_have_one_scale_and_keep_their_shapes() {
-    // Few charts are nested, 300 charts are packed in rows.
+    // The few charts of the cube are nested. The 300 charts of the grid are packed in rows.
     for (mesh, size) in [(shapes::cube(), 256), (shapes::grid(20, 15), 512)] {
         let before = stacked(&mesh);
         let overlapping = |uvs: &[DVec2]| overlapping_faces(&mesh, uvs, &NoProgress).unwrap();
@@ -357,7 +358,8 @@ fn charts_that_overlap_themselves_are_packed_by_their_hulls() {
 
 #[test]
 fn a_chart_of_many_triangles_that_overlaps_itself_is_packed_by_its_hull() {
-    // The projection along the axis: both caps become the same disk, and the sides have zero area.
+    // The texture coordinates are a projection along the axis of the cylinder: both caps become the same disk, and the
+    // sides have zero area.
     let mesh = shapes::cylinder(300, true);
     let uv = |h| mesh.position(mesh.origin(HalfEdgeId::new(h))).truncate();
     let uvs: Vec<DVec2> = (0..mesh.n_half_edges()).map(uv).collect();
@@ -367,7 +369,8 @@ fn a_chart_of_many_triangles_that_overlaps_itself_is_packed_by_its_hull() {
     assert!(packed.uvs.iter().all(inside));
 }
 
-/// The extreme points of the charts along u are close to each other, compared with the size of the charts.
+/// The charts are narrow along u. The points with the smallest and the largest u are therefore close to each other,
+/// compared with the size of the chart.
 #[test]
 fn long_convex_charts_of_many_triangles_do_not_overlap_after_packing() {
     let mut mesh = shapes::cylinder(2000, true);

@@ -20,7 +20,7 @@ pub(super) fn with_uv(mut mesh: Mesh, chart: impl Fn(DVec3) -> f64) -> Mesh {
 #[test]
 fn a_seam_stays_and_texture_coordinates_do_not_blend_across_it() {
     let chart = |p: DVec3| if p.x < 0.5 { 0.0 } else { 1.0 };
-    // The slit ends inside the square; above it, the two sides agree.
+    // The slit ends at y = 0.5. Above its end, the two sides have the same texture coordinates.
     let slit = |p: DVec3| {
         if p.x > 0.5 && p.y < 0.5 {
             0.5 - p.y

@@ -128,9 +128,11 @@ struct Corner {
 #[derive(Clone, Copy)]
 struct Point {
     position: DVec3,
-    /// The weight of the values at the target of the half-edge when the values of the new vertex are interpolated.
+    /// The values of the new vertex are a weighted mean of the values at three corners of the face. This is the weight
+    /// of the corner at the target of the half-edge.
     along: f64,
-    /// The weight, in the same interpolation, of the values at the origin of the previous half-edge of the face.
+    /// The weight of the corner at the origin of the previous half-edge of the face. The corner at the origin of the
+    /// half-edge has the rest of the weight.
     before: f64,
 }
 

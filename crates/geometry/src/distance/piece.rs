@@ -194,11 +194,11 @@ impl Piece {
     }
 }
 
-/// Cuts pieces in two until no point of a piece can be more than `tolerance` further from the other surface than the
-/// furthest sample. Stops earlier if [`MAX_VISITS`] nodes were visited. A piece is not cut if the cut cannot lower its
-/// upper bound. If a round has too many pieces, the pieces with the smallest bounds are left uncut. Returns the
-/// furthest sample and an upper bound of the distances of all points of the surface, including the points of pieces
-/// that were not cut. `ceiling` is an upper bound of the distances of the points that are in none of the `pieces`.
+/// Cuts pieces in two until the upper bound of every piece is at most `tolerance` above the distance of the furthest
+/// sample. Stops earlier if [`MAX_VISITS`] nodes were visited. A piece is not cut if the cut cannot lower its upper
+/// bound. If a round has too many pieces, the pieces with the smallest bounds are left uncut. Returns the furthest
+/// sample and an upper bound of the distances of all points of the surface, including the points of pieces that were
+/// not cut. `ceiling` is an upper bound of the distances of the points that are in none of the `pieces`.
 pub(super) fn refine(
     mut pieces: Vec<Piece>,
     mut farthest: Farthest,

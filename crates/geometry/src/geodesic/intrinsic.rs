@@ -4,8 +4,8 @@
 //! ```text
 //!          k                    k
 //!        /   \                / | \        The two triangles at an edge are laid out in a plane. The edge i-j is
-//!       i-----j      --->    i  |  j       replaced by k-l, whose length is measured there. So the surface stays
-//!        \   /                \ | /        the same, and the triangles have no position in space.
+//!       i-----j      --->    i  |  j       replaced by k-l, whose length is measured in this plane. The flip
+//!        \   /                \ | /        does not change the surface. The triangles have no position in space.
 //!          l                    l
 //! ```
 //!

@@ -353,7 +353,8 @@ mod tests {
     #[test]
     fn clusters_are_the_same_for_any_number_of_threads() {
         let points = noise(100_000);
-        // Near one of these distances is the limit above which most points of this cloud merge into one cluster.
+        // Above a certain distance, most points of this cloud merge into one cluster. One of the tested distances is
+        // near this limit.
         for distance in [0.005, 0.015, 0.02] {
             let with = |threads| {
                 let pool = rayon::ThreadPoolBuilder::new()

@@ -223,7 +223,7 @@ fn rigid(
 }
 
 /// Returns the scale s that replaces the scale `r` of a similarity transformation: s minimizes
-/// 2 (s - r)^2 + lambda (s^2 - 1)^2, by Newton's method.
+/// 2 (s - r)^2 + lambda (s^2 - 1)^2, where lambda is [`AREA_WEIGHT`]. The minimum is computed by Newton's method.
 fn scale_next_to(r: f64) -> f64 {
     let mut s = if r > 1.0 { r } else { 1.0 };
     for _ in 0..20 {

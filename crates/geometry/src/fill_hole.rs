@@ -83,8 +83,9 @@ struct Hole<'m> {
     shape: f64,
 }
 
-/// The cheapest triangulation of a part of the rim (consecutive vertices around the hole): its cost, and the third
-/// corner of the triangle whose side joins the two ends of the part.
+/// The cheapest triangulation of a part of the rim (consecutive vertices around the hole). The first number is the cost
+/// of the triangulation. One of its triangles has a side that joins the two ends of the part. The second number is the
+/// third corner of this triangle.
 type Best = (f64, usize);
 
 impl<'m> Hole<'m> {

@@ -1,4 +1,4 @@
-//! Algorithms on a [`Mesh`](mesh::Mesh) that need more than one element and its neighbors.
+//! Algorithms on a [`Mesh`](mesh::Mesh). Most of them use more than one element and its neighbors.
 //!
 //! | items | contents |
 //! | --- | --- |

@@ -107,10 +107,10 @@ impl Cut {
 /// Triangulates faces, one after another. Its buffers are used again for each face.
 ///
 /// A quadrilateral is cut along its shorter diagonal. If both diagonals are equally long (relative difference of the
-/// squared lengths at most 1e-12), the quadrilateral is cut along the diagonal at its vertex with the lowest id. A
-/// diagonal is bad if one of its two triangles has zero area or is flipped, as seen along the face normal. If only one
-/// diagonal is bad, the other diagonal is used. A quadrilateral with a reflex corner is therefore cut at that corner.
-/// If both diagonals are bad, the quadrilateral is cut as if both were good.
+/// squared lengths at most 1e-12), the diagonal that ends at the vertex with the lowest id is used. A diagonal is bad
+/// if one of its two triangles has zero area or is flipped, as seen along the face normal. If only one diagonal is bad,
+/// the other diagonal is used. A quadrilateral with a reflex corner is therefore cut at that corner. If both diagonals
+/// are bad, the quadrilateral is cut as if both were good.
 ///
 /// A face with more than four corners is projected along its normal and cut by ear clipping (Held, "FIST: Fast
 /// Industrial-Strength Triangulation of Polygons", 2001, as implemented by the crate `earcut`). The time of ear
@@ -120,8 +120,8 @@ impl Cut {
 ///
 /// Some faces become a fan around their vertex with the lowest id: faces with more than ten million corners, and faces
 /// that cannot be cut in these ways. A face cannot be cut if its area is zero or its sides cross. A face with more than
-/// 4096 corners also becomes a fan if some of its sides overlap. If a face with n corners, more than 4096, needs more
-/// than 1024 n flips, the flipping stops early, and some of its triangles are not Delaunay triangles.
+/// 4096 corners also becomes a fan if some of its sides overlap. In a face with n corners, where n is more than 4096,
+/// at most 1024 n diagonals are flipped. If this limit is reached, some triangles are possibly not Delaunay triangles.
 ///
 /// # Examples
 ///

@@ -15,9 +15,9 @@ pub use symmetrize::{SymmetrizeError, Symmetrized, symmetrize};
 /// A vertex counts as on the plane if its distance from the plane is at most this fraction of the largest extent of the
 /// mesh.
 const RELATIVE_TOLERANCE: f64 = 1e-9;
-/// A vertex also counts as on the plane if its distance from the plane is at most this fraction of a certain
-/// coordinate: the largest absolute coordinate of all vertices and of the given point of the plane. Coordinates far
-/// from the origin have rounding errors of this size.
+/// A vertex also counts as on the plane if its distance from the plane is at most this number times c. Here c is the
+/// largest absolute coordinate of all vertices and of the given point of the plane. Coordinates far from the origin
+/// have rounding errors of this size.
 const ROUNDING_TOLERANCE: f64 = 1e-14;
 
 /// The result of [`bisect`].

@@ -6,9 +6,11 @@
 //!          . : # : .                   <- <- o -> ->                        2 1 0 1 2
 //! ```
 //!
-//! Source of the heat method: Crane, Weischedel, Wardetzky, "Geodesics in Heat", 2013. The method uses the Laplacian of
-//! the intrinsic Delaunay triangulation, which is accurate even if triangles are very thin. Source of this Laplacian:
-//! Sharp, Crane, "A Laplacian for Nonmanifold Triangle Meshes", 2020.
+//! The sources heat the surface for a short time. After that, the heat decreases in the directions X, away from the
+//! nearest source. The result is the function whose gradient is nearest to X. Source of this method: Crane, Weischedel,
+//! Wardetzky, "Geodesics in Heat", 2013. The method uses the Laplacian of the intrinsic Delaunay triangulation, which
+//! is accurate even if triangles are very thin. Source of this Laplacian: Sharp, Crane, "A Laplacian for Nonmanifold
+//! Triangle Meshes", 2020.
 
 mod intrinsic;
 #[cfg(test)]

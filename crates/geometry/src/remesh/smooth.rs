@@ -160,8 +160,8 @@ impl Work<'_> {
         for h in self.mesh.vertex_half_edges(v) {
             let [a, b, c] = self.triangle(h);
             let cross = cross([a, b, c]);
-            // A triangle attracts the vertex in proportion to its area times the sum of the target lengths at its other
-            // two corners.
+            // The weight of the center of a triangle is the area of the triangle times the sum of the target lengths at
+            // the other two corners.
             let size = self.sizes[self.mesh.target(h).index()]
                 + self.sizes[self.mesh.target(self.mesh.next(h)).index()];
             let area = cross.length() * size;

@@ -6,8 +6,8 @@ use super::Counts;
 use super::original::{Original, Place, Track};
 use super::size::Sizes;
 
-/// The smallest cosine of the angle by which one step (a split, a collapse, a flip or a movement) is allowed to turn a
-/// triangle: 0.5, for 60°.
+/// One step (a split, a collapse, a flip or a movement) is allowed to turn a triangle by at most 60°. This is the
+/// cosine of that angle.
 pub(super) const TURN: f64 = 0.5;
 
 /// The state of the mesh between two steps of remeshing.

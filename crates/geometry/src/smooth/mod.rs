@@ -305,9 +305,9 @@ impl<'a> Smoother<'a> {
     }
 
     /// Moves all vertices that are not pinned by the same distance along their normals, so that the mesh has the volume
-    /// `target`. The first distance is computed from the derivative of the volume, which is the area around these
-    /// vertices. `target` is a volume in the scaled coordinates, which are scene coordinates divided by 2 to the power
-    /// of `exponent`.
+    /// `target`. The first distance is computed from the derivative of the volume with respect to the distance. This
+    /// derivative is the area around the vertices that move. `target` is a volume in the scaled coordinates, which are
+    /// scene coordinates divided by 2 to the power of `exponent`.
     fn restore_volume(
         &self,
         mesh: &mut Mesh,

@@ -24,9 +24,9 @@ pub(super) struct Limits {
     /// The smallest allowed cosine of the angle between the smoothed normal of a face of the chart and the mean normal
     /// of the chart.
     pub(super) min_cosine: f64,
-    /// The largest allowed ratio between two area scales: the scale of a triangle and the mean scale of the chart, the
-    /// larger scale divided by the smaller one. The area scale of a triangle is its area in the plane, divided by its
-    /// area on the surface.
+    /// The area scale of a triangle is its area in the plane, divided by its area on the surface. The area scale of
+    /// each triangle is compared with the mean scale of the chart. This is the largest allowed ratio of the larger to
+    /// the smaller of these two scales.
     pub(super) max_stretch: f64,
 }
 

@@ -36,11 +36,13 @@ const MAX_NESTED: usize = 256;
 /// A triangle whose area is at most this fraction of the area of its chart is ignored when the chart is packed.
 const MIN_AREA: f64 = 1e-11;
 
-/// The smallest height of a triangle of a convex hull, as a fraction of the diagonal of its bounding box. Thinner
-/// triangles are left out: the crate `uvunwrap` ignores triangles whose height is below 1e-6 times the diagonal.
+/// The smallest height of a triangle of a convex hull, as a fraction of the diagonal of the bounding box of the hull.
+/// Thinner triangles are left out: the crate `uvunwrap` ignores triangles whose height is below 1e-6 times the
+/// diagonal.
 const MIN_HEIGHT: f64 = 4e-6;
 
-/// A shape with more than this number of triangles is replaced by its convex hull, if the hull is not larger.
+/// A shape with more than this number of triangles is replaced by its convex hull if the area of the hull is not larger
+/// than the sum of the areas of the triangles.
 const MAX_CONVEX: usize = 256;
 
 /// Areas whose difference is at most this fraction of the area count as equal.

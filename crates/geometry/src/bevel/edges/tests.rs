@@ -84,7 +84,7 @@ fn one_edge_becomes_one_face() {
 
 #[test]
 fn the_width_is_the_distance_to_the_edge_at_any_angle() {
-    // The edge from 0 to 1, with two faces whose other edges meet it at different angles.
+    // The edge from vertex 0 to vertex 1 is beveled. The other edges at these two vertices meet it at different angles.
     let p = |x: f64, y: f64| DVec3::new(x, y, 0.0);
     let positions = vec![
         p(0., 0.),

@@ -64,8 +64,8 @@ fn a_seam_stays_and_texture_coordinates_do_not_blend_across_it() {
             } else {
                 0.0
             };
-            // Near the end of the slit, the values are not linear and the two formulas differ, so corners there
-            // are not compared.
+            // Near the end of the slit, the texture coordinates are not linear, so interpolated values differ from the
+            // expected ones. Corners there are not compared.
             if p.y <= 0.5 - 1.0 / 16.0 || p.y >= 0.5 + 1.0 / 16.0 {
                 let expected = DVec2::new(p.x + 10.0 * shift, p.y);
                 assert!(

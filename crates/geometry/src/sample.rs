@@ -170,7 +170,7 @@ impl Grid {
     }
 
     /// Calls `each` with the index of every other point whose distance from point `i` is less than the size of a cell.
-    /// The order of the calls does not vary.
+    /// The order of the calls depends only on the points.
     fn each_near(&self, i: usize, mut each: impl FnMut(usize)) {
         let [x, y, z] = self.cells[i];
         for dx in [-1.0, 0.0, 1.0] {

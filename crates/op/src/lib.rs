@@ -49,10 +49,13 @@ mod edit;
 mod error;
 mod error_location;
 mod files;
+mod mesh_plan;
 mod operation;
 mod parameter;
 mod plan;
 pub mod prelude;
+mod problem;
+mod range;
 mod registry;
 mod report;
 mod selection;
@@ -70,16 +73,17 @@ pub use error::{OpError, Refusal};
 pub use error_location::ErrorLocation;
 pub use files::{FileError, FileLog, FileUse, Files};
 pub use mesh::{readable, readable_bytes};
+pub use mesh_plan::{MeshPlan, PlannedAttribute};
 pub use operation::{MeshOperation, Operation};
 pub use parameter::{
     Angle, AngleBetween, Axis, BadVector, ClosedFraction, Count, Direction, Distance, Factors,
     Fraction, Length, Levels, Number, OutOfRange, PositiveFactor, PositiveLength, Seconds,
     Sharpness, Turn, Vector,
 };
-pub use plan::{
-    MeshPlan, Plan, PlanContext, PlannedAttribute, PlannedGeometry, PlannedObject, Problem, Range,
-};
+pub use plan::{Plan, PlanContext, PlannedGeometry, PlannedObject};
+pub use problem::Problem;
 pub use progress::{Cancelled, NoProgress, Progress};
+pub use range::Range;
 pub use registry::{DuplicateOperation, Entry, Registry, Step, to_ron};
 pub use report::{Loss, ReadingChange, ReadingElements, Refused, Report};
 pub use selection::{

@@ -1,4 +1,4 @@
-//! Tests of plans.
+//! Tests of the plans of meshes.
 
 use super::*;
 

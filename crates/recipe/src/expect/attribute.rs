@@ -4,7 +4,8 @@ use mesh::{Column, Domain, EdgeId, Element, FaceId, HalfEdgeId, Id, Mesh, Vertex
 use op::{Elements, check_component};
 use scene::Object;
 
-use super::subject::{EdgeByVertices, Subject, Violation, check_number, selected};
+use super::subject::{EdgeByVertices, Subject, selected};
+use super::violation::{Violation, check_number};
 
 /// Checks that all values of an attribute are in a range.
 pub(super) fn check(

@@ -5,9 +5,9 @@ use op::{Elements, FaceSelection, Progress};
 use scene::Object;
 
 use super::places::double_edges;
-use super::subject::{
-    ActualValue, EdgeByVertices, Subject, Violation, check_count, check_integer, check_number,
-    fails_unless, rounded, selected, smallest_corner_angle,
+use super::subject::{EdgeByVertices, Subject, selected, smallest_corner_angle};
+use super::violation::{
+    ActualValue, Violation, check_count, check_integer, check_number, fails_unless, rounded,
 };
 use super::{Expectation, OtherMesh, PlacedSubject, attribute, output, same, symmetry, textures};
 use geometry::distance::{Distance, TOLERANCE, diagonal};

@@ -10,6 +10,7 @@ mod subject;
 mod symmetry;
 mod text;
 mod textures;
+mod violation;
 
 use std::fmt;
 
@@ -22,8 +23,9 @@ pub(crate) use attribute::values;
 pub(crate) use output::golden;
 pub(crate) use placed::PlacedSubject;
 pub(crate) use same::same_faces;
-pub use subject::{ActualValue, Reader, Subject, Violation};
+pub use subject::{Reader, Subject};
 pub use symmetry::Group;
+pub use violation::{ActualValue, Violation};
 
 /// A condition on a scene. The condition is checked for all meshes together, or only for the meshes of the objects that
 /// `on:` names.

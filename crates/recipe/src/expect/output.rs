@@ -10,7 +10,8 @@ use op::Files;
 use scene::{Digest, Scene};
 use store::TemporaryFolder;
 
-use super::subject::{ActualValue, Subject, Violation, fails_unless};
+use super::subject::Subject;
+use super::violation::{ActualValue, Violation, fails_unless};
 
 /// The maximum size, in bytes, of a written file that `test --update` copies over its reference file.
 const MAX_RECORDED: u64 = 64 << 20;

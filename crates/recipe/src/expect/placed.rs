@@ -4,7 +4,8 @@ use std::borrow::Cow;
 
 use scene::Scene;
 
-use super::subject::{Subject, Violation};
+use super::subject::Subject;
+use super::violation::Violation;
 
 /// The maximum total size of all instances, in bytes. Because many nodes can reference the same mesh, the instances can
 /// be much larger than the meshes.

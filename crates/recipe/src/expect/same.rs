@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use mesh::{DVec3, Mesh, VertexId};
 
-use super::subject::Violation;
+use super::violation::Violation;
 
 /// An index for finding the vertices of a mesh by position. The list `tree` is a k-d tree. The vertex in the middle of
 /// the list splits the other vertices by one coordinate: the coordinate along which the bounding box of the vertices is

@@ -6,7 +6,8 @@ use geometry::uv;
 use mesh::{DVec2, Domain, FaceId, Mesh, Value};
 use op::Progress;
 
-use super::subject::{Subject, Violation};
+use super::subject::Subject;
+use super::violation::Violation;
 
 /// Returns the meshes that have the texture coordinates `name`.
 fn textured<'s>(

@@ -5,7 +5,7 @@ use mesh::{Column, DVec3, Domain, Rule, Values};
 use scene::Scene;
 
 use super::{check, cube, holds_and_fails, lines, mesh_from, scene};
-use crate::expect::subject::rounded;
+use crate::expect::violation::rounded;
 
 #[test]
 fn self_intersections_are_counted_by_face() {

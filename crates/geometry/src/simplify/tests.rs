@@ -2,7 +2,9 @@ use super::*;
 use crate::distance::{Distance, diagonal};
 use crate::shapes;
 use crate::surface_index::self_intersecting_faces;
-use mesh::{CREASE, DVec2, DVec3, Domain, HalfEdgeId, MATERIAL, UV, VERTEX_NORMAL};
+use mesh::{
+    CREASE, Column, DVec2, DVec3, Domain, HalfEdgeId, MATERIAL, Rule, UV, VERTEX_NORMAL, Values,
+};
 use progress::NoProgress;
 use proptest::prelude::*;
 
@@ -284,10 +286,10 @@ fn vertices_with_different_tags_are_not_merged() {
         .unwrap();
     let mut tip = vec![false; mesh.n_vertices()];
     tip[tagged.index()] = true;
-    let column = mesh::Column {
+    let column = Column {
         name: "tip".into(),
-        rule: mesh::Rule::Copy,
-        values: mesh::Values::Tag(tip),
+        rule: Rule::Copy,
+        values: Values::Tag(tip),
     };
     mesh.insert_column(Domain::Vertex, column);
     let result = simplified(&mesh, &to(4));
@@ -311,6 +313,31 @@ fn pinned_vertices_keep_their_bits() {
     for v in pinned {
         assert!(after.positions().contains(&mesh.position(v)));
     }
+}
+
+#[test]
+fn isolated_vertices_keep_their_values() {
+    let mut mesh = torus();
+    for f in mesh.vertex_faces(VertexId::new(500)).collect::<Vec<_>>() {
+        mesh.delete_face(f).unwrap();
+    }
+    mesh.compact();
+    assert_eq!(mesh.vertex_half_edge(VertexId::new(500)), None);
+    let names: Vec<f64> = (0..mesh.n_vertices()).map(|v| v as f64).collect();
+    let column = Column {
+        name: "number".to_owned(),
+        rule: Rule::Interpolate,
+        values: Values::Float(names),
+    };
+    mesh.insert_column(Domain::Vertex, column);
+    let after = simplified(&mesh, &to(200)).mesh;
+    let v = after
+        .vertices()
+        .find(|&v| after.vertex_half_edge(v).is_none());
+    let v = v.unwrap();
+    assert_eq!(after.position(v), mesh.position(VertexId::new(500)));
+    let column = after.attributes().column(Domain::Vertex, "number");
+    assert_eq!(column.unwrap().values.component(v.index(), 0), 500.0);
 }
 
 #[test]

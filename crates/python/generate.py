@@ -57,7 +57,7 @@ from meshwright._names import (  # noqa: E402
     variants,
     without_steps,
 )
-from meshwright._ron import definition, name_of, operations, options, resolve  # noqa: E402
+from meshwright._schema import definition, name_of, operations, options, resolve  # noqa: E402
 
 
 def kind(schema: Any, depth: int = 0) -> str:

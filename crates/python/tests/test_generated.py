@@ -12,7 +12,7 @@ import pytest
 
 import meshwright as mw
 from meshwright._names import TOKEN
-from meshwright._ron import operations
+from meshwright._schema import operations
 
 FOLDER = Path(__file__).resolve().parents[1]
 

@@ -102,7 +102,7 @@ def test_values_are_written_as_recipes_write_them() -> None:
 
 
 def test_every_example_of_an_operation_can_be_read() -> None:
-    from meshwright._ron import operations
+    from meshwright._schema import operations
 
     for entry in operations().values():
         recipe = mw.Recipe(f"(recipe: 1, steps: [{entry['example']}])")

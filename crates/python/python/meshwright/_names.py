@@ -7,7 +7,7 @@ import re
 from functools import cache
 from typing import Any
 
-from ._ron import Schema, definition, name_of, operations, options, resolve, root
+from ._schema import Schema, definition, name_of, operations, options, resolve, root
 
 SELECTIONS = ["VertexSelection", "EdgeSelection", "FaceSelection", "Region", "Elements"]
 EXPECTATIONS = ["Expectation", "OtherMesh", "Group"]

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any, Self, overload
 
-from . import _core, _ron
+from . import _core, _ron, _schema
 from ._history import History
 from ._mesh import Mesh
 from ._operations import SceneOperations
@@ -191,7 +191,7 @@ class Recipe(SceneOperations):
         :param on: The names of the objects to which the expectations apply. If omitted, they apply to all objects.
         """
         made = self._copy()
-        schema = _ron.definition("Expectation")
+        schema = _schema.definition("Expectation")
         each = [_ron.write(e, schema) for e in expectations]
         if after is not None or on is not None:
             names = [on] if isinstance(on, str) else on

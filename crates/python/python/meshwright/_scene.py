@@ -9,7 +9,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
-from . import _core, _ron
+from . import _core, _ron, _schema
 from ._history import History
 from ._mesh import Mesh
 from ._operations import SceneOperations
@@ -171,7 +171,7 @@ class Scene(SceneOperations, Mapping[str, Mesh]):
         progress: bool | Progress | None = None,
         budget: int | None = None,
     ) -> tuple[Self, dict[str, bytes]]:
-        if operation not in _ron.operations():
+        if operation not in _schema.operations():
             raise AttributeError(f"no operation is named {operation}")
         step = whole_step(operation, fields, on, id)
         text = f"(recipe: 1, steps: [\n{step}\n])"

@@ -14,8 +14,8 @@ use crate::record::{load_data, store_data};
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub(crate) struct PastStep {
     pub(crate) ingredients: Ingredients,
-    /// If the result was not stored because the state of an input file is unknown: the path of that file, and why its
-    /// state is unknown.
+    /// The path of an input file whose state is unknown, and the reason why it is unknown. Such a file prevents the
+    /// result of the step from being stored.
     pub(crate) unknown_input: Option<(PathBuf, String)>,
 }
 

@@ -50,7 +50,8 @@ impl Inputs {
 #[derive(Debug)]
 pub(crate) struct FileChecker {
     run_start: SystemTime,
-    /// The states of the files that were read: `Content` or `Missing`; `None` if a file cannot be read.
+    /// For each path that was read, the state of the file, which is `Content` or `Missing`. The state is `None` if the
+    /// file cannot be read.
     known: BTreeMap<PathBuf, Option<PathState>>,
 }
 

@@ -7,8 +7,8 @@ use crate::folder::Hash;
 use crate::inputs::FileState;
 use recipe::RecipeStep;
 
-/// The version of the storage format. The names of records and histories depend on this version. So a program with
-/// another version of the format never finds these files.
+/// The version of the storage format. The names of the files with records and histories depend on this version, so a
+/// program with another version of the format never finds these files.
 const FORMAT: &str = "meshwright step cache 2";
 
 /// The data that determine the result of a step and that are known before the step runs.
@@ -59,7 +59,8 @@ impl Ingredients {
 }
 
 impl Key {
-    /// Returns the state of the scene after a step that has read or looked for these files.
+    /// Returns the state of the scene after the step with this key. `read` has the files that the step read or looked
+    /// for.
     pub(crate) fn after(self, read: &[FileState]) -> State {
         let files: Vec<_> = read
             .iter()

@@ -138,8 +138,9 @@ impl CachedRun for Session<'_> {
                     "the result of step {number} {label} is not stored in the cache, because the input files of the step cannot be determined ({}: {why})",
                     path.display()
                 ));
-                // Without the input files, the step has no key that identifies the scene. Therefore the scene gets an
-                // identity that is computed from the scene itself, so that later steps can still be cached.
+                // Usually, the key and the input files of a step identify the scene after the step. Here, the input
+                // files are unknown, so the identity of the scene is computed from the content of the scene. With this
+                // identity, later steps can still be cached.
                 if is_dense(done.scene) {
                     let digest = position.digest.unwrap_or_else(|| done.scene.digest());
                     position.digest = Some(digest);
@@ -451,8 +452,8 @@ fn is_worth_storing(bytes: u64, time: Duration) -> bool {
     bytes < ALWAYS_STORED || bytes as f64 / BYTES_PER_SECOND <= time.as_secs_f64()
 }
 
-/// Whether all meshes are dense. A mesh is dense if its arrays have no gaps, which removed elements leave. A mesh with
-/// gaps would change when it is stored and loaded, because its elements are renumbered.
+/// Whether all meshes are dense. Removed elements leave gaps in the arrays of a mesh, and a mesh without gaps is dense.
+/// A mesh with gaps would change if it were stored and loaded, because its elements would be renumbered.
 fn is_dense(scene: &Scene) -> bool {
     let mut meshes = scene.objects().iter().filter_map(|o| o.as_mesh());
     meshes.all(|mesh| mesh.is_dense())

@@ -439,7 +439,7 @@ fn expectations_that_hold_are_not_checked_again() {
     let outcome = place.run(text);
     assert_eq!(outcome.checked, 3);
     assert!(outcome.scene.is_none(), "the scene was not needed");
-    // If the file that the expectation compares with changes, the expectation is checked again.
+    // The expectation compares the scene with a file. If this file changes, the expectation is checked again.
     place.write("n.txt", "3");
     let outcome = place.run(text);
     assert_eq!(outcome.failures.len(), 1);

@@ -25,9 +25,9 @@ pub struct StepKeys {
 }
 
 impl StepKeys {
-    /// Returns the keys of a recipe that was read and checked. The keys depend on the contents
-    /// of the input files, but only of those in the forecast. The forecast does not list, for example, the material
-    /// files of a model.
+    /// Returns the keys of a recipe that was read and checked. The keys depend on the lengths and modification times of
+    /// the input files that the forecast lists. Other input files, such as the material files of a model, have no
+    /// effect on the keys.
     pub fn of(loaded: &Loaded) -> Self {
         let recipe = &loaded.recipe;
         let store = &*loaded.files.store;
@@ -93,7 +93,8 @@ impl StepKeys {
     }
 }
 
-/// Returns a text that changes when one of the files changes.
+/// Returns a text that contains the path, the length and the modification time of each file. The text changes when one
+/// of the files changes.
 fn stamps(paths: &[PathBuf], store: &dyn Store) -> String {
     paths
         .iter()

@@ -189,7 +189,6 @@ fn number(x: &serde_json::Number) -> String {
     text.strip_suffix(".0").unwrap_or(&text).to_owned()
 }
 
-/// Returns the variants of an enumeration.
 fn variants(schema: &Schema) -> Vec<VariantDoc> {
     let units = |schema: &Schema, doc: &str| {
         let unit = |name: &str| VariantDoc {

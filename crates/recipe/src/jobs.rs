@@ -286,17 +286,16 @@ impl<T> InOrder<T> {
 }
 
 /// The estimated number of bytes of memory for each byte of the input files. This estimate is used if a forecast has no
-/// upper limit for the memory of its meshes. It includes the file itself, the mesh of the file, and an edited copy of
-/// the mesh. The mesh of a text file is about as large as the file. The mesh of a binary file is up to three times as
-/// large as the file.
+/// upper limit for the memory of its meshes. The number includes the file itself, the mesh of the file, and an edited
+/// copy of the mesh. The mesh of a text file is about as large as the file. The mesh of a binary file is up to three
+/// times as large as the file.
 const BYTES_FOR_EACH_BYTE_READ: u64 = 8;
 
 impl Forecast {
     /// Returns the estimated peak memory of the run, in bytes. For each step, the forecast can have an upper limit for
     /// the memory that the meshes take after the step. If all steps have such a limit, the estimate is the size of the
-    /// input files plus the largest of these limits. Otherwise, the estimate is eight times the size of the input
-    /// files. If a step has a larger lower limit for the memory of the meshes, the estimate is the largest of these
-    /// lower limits.
+    /// input files plus the largest of these limits. Otherwise, the estimate is the larger of two numbers: eight times
+    /// the size of the input files, and the largest lower limit for the memory that the meshes take after a step.
     pub fn peak_bytes(&self) -> u64 {
         let size = |path: &std::path::PathBuf| Path::metadata(path).map_or(0, |m| m.len());
         let read: u64 = self.inputs.iter().map(size).sum();

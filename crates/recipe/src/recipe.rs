@@ -149,9 +149,9 @@ pub struct RecipeStep {
     /// The current name of the operation, even if the recipe uses an earlier name. If the operation is unknown, this is
     /// the name as written in the recipe.
     pub name: String,
-    /// The label, which is shown to users and which seeds random choices. The label consists of the names of the calls
-    /// around the step, its id, and the numbers of the repetitions around it, as in `clean/Weld#2`. A step without an
-    /// id has the name of its operation instead.
+    /// The label, which is shown to users and which seeds random choices. The label has three parts, as in
+    /// `clean/Weld#2`: the names of the calls that contain the step, the id of the step, and the numbers of the
+    /// repetitions that contain the step. If the step has no id, the second part is the name of the operation.
     pub label: String,
     /// The operation. `None` if the step could not be read.
     pub step: Option<Arc<dyn Step>>,
@@ -189,7 +189,8 @@ impl RecipeStep {
             .map(|on| on.iter().map(|(name, _)| name.clone()).collect())
     }
 
-    /// Returns the step as part of the repetition number `turn` of a `Repeat` around it.
+    /// Returns the step for the repetition number `turn` of the next `Repeat` around it. The number is added to the
+    /// label.
     pub(crate) fn in_turn(mut self, turn: u32) -> Self {
         self.turns.insert(0, turn);
         let turns: Vec<String> = self.turns.iter().map(u32::to_string).collect();
@@ -283,8 +284,8 @@ impl Recipe {
                 .as_ref()
                 .map(|s| s.canonical())
                 .unwrap_or_default();
-            // If the label is only the name of the operation, the digest uses `None`, so that the digest is the same as
-            // in older versions.
+            // A label that is only the name of the operation is hashed as `None`. With this rule, the digest is the
+            // same as in older versions.
             let id = (step.label != step.name).then_some(&step.label);
             let line = format!("{id:?} {:?} {} {canonical}\n", step.on_names(), step.name);
             hasher.update(line.as_bytes());

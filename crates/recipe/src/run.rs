@@ -92,7 +92,7 @@ pub fn run_from(
     match staging(&settings) {
         Ok(stage) => {
             let mut files = settings.files.clone();
-            // The files get a new log, which has only the file accesses of this run.
+            // The log of `runner` is new, so it has only the file accesses of this run.
             files.log.clone_from(&runner.log);
             if let Some(stage) = &stage {
                 stage.path().clone_into(&mut files.output);
@@ -271,7 +271,8 @@ impl Runner<'_> {
     }
 
     /// Advances `scene` to the scene before the step with the index `to`. All earlier steps must be done. If the cache
-    /// has stored scenes between the two, loads the latest of them. Then runs the remaining steps before `to` again.
+    /// has stored a scene that is later than `scene` and not later than the target, loads the latest such scene. Then
+    /// runs the remaining steps before `to` again.
     fn advance_scene(&mut self, to: usize, listener: &dyn Listener) -> Result<(), Stopped> {
         if self.scene_index < to
             && let Some(session) = &mut self.session
@@ -301,8 +302,7 @@ impl Runner<'_> {
         Ok(())
     }
 
-    /// Runs a step. If the step fails, reports the failure. The documentation of `run_step` describes the scene after a
-    /// failure.
+    /// Runs a step. If the step fails, reports the failure. See [`run_step`] for the scene after a failure.
     fn apply(
         &mut self,
         step: &RecipeStep,

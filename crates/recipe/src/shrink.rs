@@ -118,8 +118,8 @@ impl<F: FnMut(&Scene) -> Result<bool, OpError>> Search<F> {
                     None => false,
                 };
                 is_smaller |= is_done;
-                // After a removal, the faces that follow have the ids of the removed faces, so the next block starts at
-                // the same id.
+                // A removal compacts the mesh, which gives the ids of the removed faces to the faces after them.
+                // Therefore, the next block starts at the same id.
                 first = if is_done { first } else { last };
             }
             // Single faces are tried again, because a face can become removable after other faces were removed.

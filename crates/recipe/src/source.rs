@@ -6,7 +6,7 @@ use std::sync::Arc;
 use ron_tree::MAX_BYTES;
 use store::{Disk, Store, StoreError};
 
-/// The reason why a file is not the text of a recipe.
+/// Why the text of a recipe could not be loaded from a file.
 #[derive(Debug, thiserror::Error)]
 pub enum SourceError {
     /// The file cannot be read.
@@ -102,8 +102,8 @@ pub(crate) fn rebase_path(store: &dyn Store, text: &str, from: &Path, to: &Path)
     if Path::new(text).is_absolute() {
         return target;
     }
-    // If `a` is a link to a folder, `a/..` does not lead to the folder that contains the link. Therefore both paths are
-    // compared with links resolved.
+    // If `a` is a link to a folder, `a/..` does not lead to the folder that contains the link. Therefore, the links in
+    // both paths are resolved before the paths are compared.
     let is_same = |relative: &PathBuf| {
         let (rebased, original) = (
             store.canonical(&to.join(relative)),

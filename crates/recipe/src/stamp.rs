@@ -25,7 +25,7 @@ pub struct Stamp {
     pub program: String,
     /// The digest of the recipe, including the values of its parameters.
     pub recipe: String,
-    /// The rest of the stamp, unless the stamp was truncated.
+    /// The details of the run. `None` if the stamp was truncated before the end of these details.
     pub run: Option<Run>,
 }
 

@@ -208,7 +208,8 @@ fn fix(expectation: &Value, found: Option<&ActualValue>) -> Result<Fix, String> 
             shown: format!("{} is written", golden.display()),
         }),
         ActualValue::Position { at, tolerance } => {
-            // If every coordinate is off by at most half of the tolerance, the distance is within the tolerance.
+            // If every coordinate deviates by at most half of the tolerance, the distance is within the tolerance. Such
+            // coordinates need no edit.
             let edits = vector(recorded("is")?, at.to_array(), 0.5 * tolerance)?;
             Fix::several(edits, format!("({}, {}, {})", at.x, at.y, at.z))
         }
@@ -247,8 +248,8 @@ impl Fix {
     }
 }
 
-/// Returns edits for the coordinates of a vector that are off by more than `allowed`. The other coordinates are
-/// unchanged.
+/// Returns edits that replace coordinates of the vector `value` by those of `found`. A coordinate is replaced only if
+/// the two values differ by more than `allowed`.
 fn vector(value: &Value, found: [f64; 3], allowed: f64) -> Result<Vec<(Span, String)>, String> {
     not_from_parameter(value)?;
     let body = match &value.kind {
@@ -291,8 +292,9 @@ fn not_from_parameter(value: &Value) -> Result<(), String> {
     }
 }
 
-/// Formats a number as RON in the style of the number that it replaces: with or without a decimal point if both are
-/// possible, and with or without digit groups.
+/// Formats a number as RON in the style of `written`, which is the text of the number that it replaces. A whole number
+/// has a decimal point only if `written` has one or has an exponent. The digits are grouped if `written` has digit
+/// groups.
 fn float_like(x: f64, written: &str) -> Result<String, String> {
     if !x.is_finite() {
         return Err(format!("{x} cannot be recorded"));

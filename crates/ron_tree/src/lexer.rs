@@ -1,8 +1,8 @@
 //! Splits a recipe into tokens.
 //!
-//! Every byte of the text belongs to exactly one token, so that the concatenated tokens are the text. Invalid
-//! characters become tokens of their own kinds, and lexing continues after them. The lexer only finds the extent of
-//! literals; [`literal`](super::literal) reads their values.
+//! Every byte of the text belongs to exactly one token. Therefore, concatenating the tokens gives the text again.
+//! Invalid characters become tokens of their own kinds, and lexing continues after them. The lexer only finds the
+//! extent of literals; [`literal`](super::literal) reads their values.
 
 use crate::diagnostic::Span;
 
@@ -22,7 +22,7 @@ pub enum TokenKind {
     Whitespace,
     /// `// ..`, without the line feed.
     LineComment,
-    /// `/* .. */`, which nests.
+    /// `/* .. */`. A block comment can contain other block comments.
     BlockComment,
     /// `name` or `r#name`.
     Ident,
@@ -58,7 +58,7 @@ pub enum TokenKind {
     UnclosedString,
     /// A block comment without `*/`. The token extends to the end of the text.
     UnclosedComment,
-    /// Characters that start no other token.
+    /// Characters that cannot start any other kind of token.
     Unknown,
 }
 
@@ -112,7 +112,8 @@ pub struct Lexer<'s> {
     at: usize,
     /// Whether a `"` string must end in the line in which it starts.
     lines_end_strings: bool,
-    /// No raw string with this number of hashes or more ends in the rest of the text.
+    /// A number of hashes. The rest of the text contains no end of a raw string with this number of hashes or more, so
+    /// the lexer does not search for such an end again. This keeps the time for lexing linear.
     unclosed_hashes: usize,
 }
 
@@ -210,8 +211,8 @@ impl<'s> Lexer<'s> {
         if !self.lines_end_strings {
             return (TokenKind::UnclosedString, line.len());
         }
-        // The closing quote is missing. It was probably meant to be before the next field, or before trailing brackets, so
-        // the string ends there.
+        // The closing quote is missing. The string ends where the quote was probably meant to be: before the next field
+        // or before trailing brackets.
         let end = next_field(line).unwrap_or_else(|| {
             line.trim_end_matches([')', ']', '}', ',', ' ', '\t', '\r'])
                 .len()

@@ -243,7 +243,7 @@ impl<'s> Parser<'s> {
         self.current = self.next;
     }
 
-    /// Consumes the token `current` if it has this kind, and returns whether it does.
+    /// If the token `current` has this kind, consumes it and returns `true`. Otherwise, returns `false`.
     pub(super) fn take(&mut self, kind: TokenKind) -> bool {
         let found = self.current.kind == Some(kind);
         if found {

@@ -386,7 +386,7 @@ proptest! {
             prop_assert!(text.get(span.range()).is_some(), "{:?}", d);
         }
         let _ = (to_json(&parsed.value), parsed.value.to_string());
-        // If a source text has no diagnostics, all its values could be read.
+        // A text with a value that cannot be read must have a diagnostic.
         if parsed.diagnostics.is_empty() {
             prop_assert!(!parsed.value.has_errors());
         }

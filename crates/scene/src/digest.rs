@@ -384,8 +384,8 @@ mod tests {
 
     #[test]
     fn the_digest_of_a_known_scene_never_changes() {
-        // The digest in the first version of the canonical form. If this digest changes, every digest that users have
-        // recorded is wrong, and `FORM` needs a new version.
+        // This is the digest in the first version of the canonical form. If this digest changes, every digest that
+        // users have recorded is wrong, and `FORM` needs a new version.
         assert_eq!(
             scene(shapes::square()).digest().to_string(),
             "2387ae96ff730dac6ab311d51d5863e9"

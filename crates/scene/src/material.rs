@@ -209,7 +209,7 @@ pub struct Sampler {
     /// The filter where pixels of the image are smaller than pixels of the screen. `None` leaves the choice to the
     /// viewer.
     pub minify: Option<Filter>,
-    /// The filter between mipmap levels. If `None`, mipmaps are not used. This filter has no effect unless `minify` is
+    /// The filter between mipmap levels. If `None`, mipmaps are not used. This filter has an effect only if `minify` is
     /// set.
     pub mipmap: Option<Filter>,
 }
@@ -220,7 +220,7 @@ pub enum Wrap {
     /// The image is repeated.
     #[default]
     Repeat,
-    /// The image is repeated, every second copy mirrored.
+    /// The image is repeated, and every second copy is mirrored.
     Mirror,
     /// The color of the nearest border pixel.
     Clamp,

@@ -88,7 +88,8 @@ impl Scene {
                 ));
                 continue;
             }
-            // `number` does not restart at 1 for each instance, so that naming many instances takes linear time.
+            // All instances of an object share the counter `number`. If the counter restarted at 1 for each instance,
+            // naming many instances would take quadratic time.
             let mut number = 1;
             for &i in nodes {
                 let node = graph.nodes()[i]

@@ -53,7 +53,8 @@ impl Pose {
         pose
     }
 
-    /// Whether joints or morph targets change the points of a mesh. The placement of its node does not count.
+    /// Whether joints or morph targets change the points of a mesh. The placement of the node is not taken into
+    /// account.
     pub(crate) fn deforms(&self) -> bool {
         self.joints.is_some() || self.weights.iter().any(|&w| w != 0.0)
     }
@@ -104,9 +105,9 @@ impl Pose {
     }
 
     /// Returns the texture coordinates and colors of the mesh in this pose: the sums of the old values and the weighted
-    /// changes of the morph targets. Colors are clamped to 0 to 1, as in glTF 2.0, section 3.7.2.2. If the values or one
-    /// of their changes are stored on the corners, the new values are stored on the corners, too. Columns that do not
-    /// change are left out. `vertex_of` returns the vertex of a corner.
+    /// changes of the morph targets. Colors are clamped to 0 to 1, as in glTF 2.0, section 3.7.2.2. If the values or
+    /// one of their changes are stored on the corners, the new values are also stored on the corners. Columns that do
+    /// not change are left out. `vertex_of` returns the vertex of a corner.
     fn morphed_values(
         &self,
         attributes: &Attributes,
@@ -277,7 +278,7 @@ impl Pose {
     }
 }
 
-/// Returns an old value plus the weighted changes. `place` returns the index of the value in a domain.
+/// Returns an old value plus the weighted changes. `place` returns the index at which the values of a domain are read.
 fn plus_changes<T>(old: T, changes: &[Change], place: impl Fn(Domain) -> usize) -> T
 where
     T: Value + Add<Output = T>,

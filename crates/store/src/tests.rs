@@ -172,7 +172,7 @@ fn a_link_is_replaced_by_create_and_kept_by_replace() {
 #[cfg(target_os = "linux")]
 #[test]
 fn the_error_of_a_folder_that_accepts_no_files_does_not_name_the_temporary_file() {
-    // Even the superuser cannot create files here.
+    // Even the superuser cannot create files in `/proc`.
     let error = Disk.create(Path::new("/proc/a.obj")).err().unwrap();
     let text = error.to_string();
     assert!(

@@ -77,7 +77,6 @@ impl SheetStyle {
 
 /// The positions and sizes of the parts of a sheet, in pixels.
 struct Layout {
-    /// The number of columns.
     columns: usize,
     /// The height of column headings; 0 if there are none.
     heading_height: u64,
@@ -89,7 +88,6 @@ struct Layout {
     rows: Vec<u64>,
     /// The height of captions; 0 if no image has one.
     caption: u64,
-    /// The size of the sheet.
     size: [u64; 2],
 }
 

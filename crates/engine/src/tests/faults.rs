@@ -89,7 +89,8 @@ struct FaultyFile<'s> {
 impl Write for FaultyFile<'_> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         self.store.call()?;
-        // Like a disk that becomes full, the file takes a part of the bytes before it fails.
+        // The file accepts only a part of the bytes, and the next write can fail. A file on a disk that becomes full
+        // behaves in the same way.
         self.file.write(&bytes[..bytes.len().min(100)])
     }
 

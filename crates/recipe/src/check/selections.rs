@@ -19,8 +19,8 @@ enum Named<'v> {
     Object(&'v str),
 }
 
-/// Reports each element and each material that a selection of the step names, if one of the meshes of the step
-/// certainly does not have it. Also reports each object that a selection names but that does not exist.
+/// Checks the elements, materials and objects that the selections of a step name. Reports an element or a material if
+/// one of the meshes of the step certainly does not have it. Reports an object if it does not exist.
 pub(super) fn missing_elements(step: &RecipeStep, plan: &Plan, found: &mut Vec<Diagnostic>) {
     // If the recipe expects the operation to refuse its input, a missing element can be the expected reason. Therefore
     // no error is reported.

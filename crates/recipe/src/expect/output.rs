@@ -131,9 +131,10 @@ fn with_written_file(
     Violation::unmet(format!("{}; the written file {why}", violation.message))
 }
 
-/// Whether a copy of the written file would contain the same objects in an otherwise empty folder. The copy has the
-/// name of the reference file. Returns `false` for an OBJ file with a material library, because the copy is read
-/// without the library. Returns true if the written file cannot be read as objects.
+/// Whether the written file can be read without other files. To find out, reads a copy of the file from an otherwise
+/// empty folder, and compares the objects in the copy with the objects in the file. The copy has the name of the
+/// reference file. Returns `false` for an OBJ file with a material library, because the library is missing beside the
+/// copy. Returns `true` if the written file cannot be read as objects.
 fn stands_alone(written: &Path, golden: &Path, bytes: &[u8], subject: Subject) -> bool {
     let Ok(scene) = subject.reader.scene(written, subject.files) else {
         return true;
@@ -217,8 +218,8 @@ fn digests(
     Ok([scene.digest(), other.digest()])
 }
 
-/// Removes the recorded provenance from the bytes of a file. In an SVG file, this is the metadata. In a GIF file, it is
-/// the comment.
+/// Removes the recorded provenance from the bytes of a file. The provenance of an SVG file is in its metadata, and the
+/// provenance of a GIF file is in its comment.
 fn without_stamp(mut bytes: Vec<u8>) -> Vec<u8> {
     let find = |bytes: &[u8], text: &[u8]| bytes.windows(text.len()).position(|w| w == text);
     let (open, close): (&[u8], &[u8]) = (b"<metadata>meshwright ", b"</metadata>");

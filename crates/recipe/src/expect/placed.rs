@@ -19,8 +19,8 @@ pub(crate) struct PlacedSubject<'a> {
 }
 
 impl<'a> PlacedSubject<'a> {
-    /// Places all objects in scene space. `other` is the object with which an expectation compares. This object must
-    /// have exactly one instance.
+    /// Places all objects in scene space. `other` is the name of the object with which the expectation compares the
+    /// checked meshes. This object must have exactly one instance.
     ///
     /// # Errors
     ///

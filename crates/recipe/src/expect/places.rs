@@ -191,9 +191,9 @@ impl CheckedMesh<'_> {
         places
     }
 
-    /// Returns two locations that show where two surfaces are farthest apart. The first location is the element of this
-    /// mesh at that place. The second is the line from the point on one surface to the nearest point on the other
-    /// surface.
+    /// Returns two locations that show the largest distance between two surfaces. This distance is the length of a line
+    /// from a point on one surface to the nearest point on the other surface. The first location is the element of this
+    /// mesh at the end of the line. The second location is the line itself.
     fn farthest(&self, found: &Distance) -> Vec<ErrorLocation> {
         let worst = found.worst();
         let on = if found.is_worst_forth() {

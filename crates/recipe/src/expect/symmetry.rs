@@ -34,7 +34,6 @@ impl Motion {
 }
 
 impl Group {
-    /// Returns the motions of the group.
     pub(super) fn motions(self) -> Vec<Motion> {
         let axes = [DVec3::X, DVec3::Y, DVec3::Z];
         let orders = [

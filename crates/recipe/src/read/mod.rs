@@ -4,9 +4,9 @@
 //! step is checked against the schema of its operation. Third, each valid step is deserialized into the struct of its
 //! operation. An error in one step does not hide errors in other steps.
 //!
-//! If a step contains steps ([`flow`]), reading replaces it by the steps inside it. The check and the run therefore
-//! receive a list of steps without nesting. A called recipe has its own scope when it is read, with its own parameters
-//! and ids.
+//! A step that contains other steps (module [`flow`]) is replaced by the steps inside it. The check and the run
+//! therefore receive a list of steps without nesting. A called recipe has its own scope when it is read, with its own
+//! parameters and ids.
 
 mod expectations;
 mod flow;
@@ -67,7 +67,7 @@ pub fn read(source: &Source, registry: &Registry, values: Values) -> Reading {
     read_by(&Schemas::new(registry), &Disk, source, values)
 }
 
-/// Like [`read`](read()), but reads called recipes from `store`. If several recipes are read, they can share `schemas`.
+/// Like [`read`](read()), but reads called recipes from `store`. Several calls of this function can share `schemas`.
 pub fn read_by(schemas: &Schemas, store: &dyn Store, source: &Source, values: Values) -> Reading {
     let mut shared = Shared {
         schemas,
@@ -248,7 +248,9 @@ impl<'s, 'a> Reader<'s, 'a> {
         values(self);
         self.shared.scopes[self.scope].parameters = self.parameters.values().cloned().collect();
         let mut drafts = self.steps(take_items(root.field_mut("steps")));
-        // For each id, the index of its last step in each repetition. An id in a branch that is not taken has no index.
+        // For each id, the indices in `drafts` of the steps that have this id. An id inside a `Repeat` has one index
+        // for each repetition. For the id of a step that contains steps, the index of its last step is used. An id in a
+        // branch that is not taken has no index.
         let mut ends: HashMap<String, Vec<usize>> = HashMap::new();
         for (i, draft) in drafts.iter().enumerate() {
             for id in &draft.ends {

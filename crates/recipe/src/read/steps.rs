@@ -18,7 +18,6 @@ use ron_tree::{Diagnostic, Span, Value, ValueKind};
 const MAX_SUGGESTIONS: usize = 1000;
 
 impl Reader<'_, '_> {
-    /// Reads a list of steps.
     pub(super) fn steps(&mut self, items: Vec<Value>) -> Vec<Draft> {
         let mut drafts = Vec::new();
         for mut item in items {
@@ -49,8 +48,8 @@ impl Reader<'_, '_> {
         self.fill(enabled) && enabled.kind == ValueKind::Bool(false)
     }
 
-    /// Reads a disabled step, and then discards it together with its errors and warnings. But its ids become known, and
-    /// the parameters that it uses are not reported as unused.
+    /// Reads a disabled step, and then discards it together with its errors and warnings. Other parts of the recipe can
+    /// still refer to the ids in a disabled step. The parameters that the step uses are not reported as unused.
     fn disabled(&mut self, item: Value) {
         let before = (
             self.diagnostics.len(),
@@ -85,7 +84,8 @@ impl Reader<'_, '_> {
             run = inner;
         }
         let Some((name, span)) = run.name() else {
-            // If an error was already reported, the missing name is possibly a consequence of that error.
+            // If an error in this step was already reported, the name is possibly missing because of that error. In
+            // this case, the missing name is not reported.
             if !run.has_errors() && self.diagnostics.len() == before {
                 let message = format!("expected an operation, found {}", run.describe());
                 self.error(run.span, message, "");
@@ -153,8 +153,8 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// Returns a placeholder for a step that could not be read. The placeholder keeps the indices of the other steps
-    /// unchanged, and the id of the unreadable step remains known.
+    /// Returns a placeholder for a step that could not be read. With the placeholder, the indices of the other steps
+    /// stay unchanged, and other parts of the recipe can still refer to the id of this step.
     pub(super) fn broken_step(&mut self, written: Value) -> Draft {
         let run = written.field("run").unwrap_or(&written);
         let (name, span) = run.name().unwrap_or(("?", written.span));

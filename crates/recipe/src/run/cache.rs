@@ -47,14 +47,15 @@ pub trait CachedRun {
         time: Duration,
     ) -> RerunReason;
 
-    /// Of the scenes after the steps `from + 1` to `to` (counted from 1), loads the latest one that is stored. Returns
-    /// the number of steps before this scene, and the scene.
+    /// Searches the stored scenes after the steps `from + 1` to `to` (counted from 1), and loads the latest of them.
+    /// Returns the number of steps before this scene, and the scene.
     fn load_scene(&mut self, from: usize, to: usize) -> Option<(usize, Scene)>;
 
     /// Whether the step with the index `index` leaves the scene unchanged. Indices start at 0.
     fn keeps_scene(&self, index: usize) -> bool;
 
-    /// Whether it is known that an expectation holds for the current scene.
+    /// Whether the cache has a record that an expectation holds for the current scene. Such an expectation need not be
+    /// checked again.
     fn is_known_to_hold(&mut self, placed: &RecipeExpectation, files: &Files) -> bool;
 
     /// Records that an expectation holds for the current scene.
@@ -103,7 +104,7 @@ pub struct CompletedStep<'a> {
     pub uses: &'a [FileUse],
     /// The files that the step wrote, as paths relative to `stage`.
     pub written: Vec<PathBuf>,
-    /// If the recipe writes files: the temporary folder that holds the outputs until the run succeeds.
+    /// The temporary folder that holds the outputs until the run succeeds. `None` if the recipe writes no files.
     pub stage: Option<&'a Path>,
 }
 

@@ -124,14 +124,14 @@ fn problems(source: &str) -> Vec<String> {
         .collect()
 }
 
-/// Returns the only error in these parameters, which are added to `levels`.
+/// Returns the only error of a step with the valid parameter `levels` and these parameters.
 fn problem(parameters: &str) -> String {
     let mut found = problems(&format!("Everything(levels: 1, {parameters})"));
     assert_eq!(found.len(), 1, "{parameters}: {found:#?}");
     found.remove(0)
 }
 
-/// Returns the help of the only error in these parameters.
+/// Returns the help text of the only error of a step with the valid parameter `levels` and these parameters.
 fn help(parameters: &str) -> String {
     let parsed = parse(&format!("Everything(levels: 1, {parameters})"));
     check_step(&parsed.value, &schema())
@@ -185,7 +185,8 @@ fn valid_parameters_have_no_errors_and_are_read_by_ron() {
             .iter()
             .any(|name| source.contains(name))
         {
-            // Without a schema, the name of a struct looks like a variant, and `()` looks like a unit.
+            // These texts are not converted to JSON here: without a schema, the name of a struct looks like a variant,
+            // and `()` looks like a unit.
             continue;
         }
         // `to_json` gives the same JSON as serde, except for defaults.
@@ -618,7 +619,7 @@ fn tokens(text: &str) -> Vec<String> {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 2000, ..ProptestConfig::default() })]
 
-    /// For nearly valid texts: if no error is reported, `ron` accepts the text too.
+    /// If the check reports no error for a text that is nearly valid, `ron` also accepts the text.
     #[test]
     fn texts_that_ron_refuses_have_errors(
         base in 0..GOOD.len(),

@@ -127,7 +127,6 @@ impl Checker {
         );
     }
 
-    /// Checks the content of a variant.
     fn check_content(&mut self, call: &Call, schema: &Schema) {
         let name = &*call.name.text;
         let place = Place::named(name);

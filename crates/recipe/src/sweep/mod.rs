@@ -162,7 +162,7 @@ impl SweepReading {
     }
 }
 
-/// Returns the schema of the fields of a sweep, in which values of parameters can be anything.
+/// Returns the schema of the fields of a sweep. In this schema, the parameters can have any values.
 fn envelope() -> serde_json::Value {
     let values = json!({ "type": "object", "additionalProperties": {} });
     json!({

@@ -105,7 +105,7 @@ fn a_range_has_both_ends_and_round_numbers_between_them() {
         cells("over: {\"n\": Range(from: 3, to: 3, steps: 1)}").concat(),
         ["3"]
     );
-    // All whole numbers.
+    // If `steps` is omitted, the range contains all whole numbers.
     assert_eq!(
         cells("over: {\"n\": Range(from: 4, to: 2)}").concat(),
         ["4", "3", "2"]

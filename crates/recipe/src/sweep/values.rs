@@ -11,7 +11,7 @@ use crate::schema;
 use crate::schema_check;
 use ron_tree::{Diagnostic, Span, Value, ValueKind};
 
-/// A description of several values, such as a range, instead of a list of the values.
+/// A short form that stands for a list of values.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 enum Values {
@@ -29,7 +29,7 @@ enum Values {
     },
 }
 
-/// Returns the values of `[..]` or `Range(..)` for a parameter.
+/// Reads the values of a parameter, which are written as `[..]` or `Range(..)`.
 pub(super) fn settings(
     param: &Param,
     value: &Value,
@@ -145,7 +145,7 @@ fn whole_numbers(from: f64, to: f64) -> u32 {
     ((to - from).abs() + 1.0) as u32
 }
 
-/// Returns one value for a parameter.
+/// Reads one value of a parameter.
 pub(super) fn setting(
     param: &Param,
     value: &Value,

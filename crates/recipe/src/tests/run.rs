@@ -338,7 +338,7 @@ fn a_run_can_be_cancelled_at_any_call_and_nothing_is_written() {
 fn outputs_do_not_follow_links_out_of_the_folder() {
     let (folder, elsewhere) = (folder(), folder());
     let reading = read(&steps("Sheet(columns: 1), Write(path: \"link/new/a.txt\")"));
-    // The link is created after the recipe was read.
+    // The link in the output folder is created only after the recipe was read.
     let files = files(&reading, folder.path());
     let settings = Settings {
         files: &files,

@@ -97,7 +97,8 @@ fn any_double() -> impl Strategy<Value = f64> {
     ]
 }
 
-/// Excludes the line feed: `ron` writes it unescaped, but recipes accept only `'\n'`.
+/// Generates any character except the line feed. `ron` writes a line feed without an escape, but recipes accept only
+/// the escape `'\n'`.
 fn any_char() -> impl Strategy<Value = char> {
     any::<char>().prop_filter("a line feed", |&c| c != '\n')
 }
@@ -177,7 +178,7 @@ proptest! {
         prop_assert_eq!(bits(&read), bits(&shapes));
     }
 
-    /// For nearly valid source texts, both deserializers give the same value, or both reject the text.
+    /// If a source text is nearly valid, either both deserializers return the same value, or both reject the text.
     #[test]
     fn texts_that_ron_refuses_are_refused(
         edits in prop::collection::vec((0_usize..4, any::<prop::sample::Index>(), any::<prop::sample::Index>()), 0..3),

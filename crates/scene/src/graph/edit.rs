@@ -48,7 +48,7 @@ impl Graph {
                 is_named = true;
             }
         }
-        // Without a label, the mesh has the name of the object, so nothing else is renamed.
+        // A mesh without a label has the name of the object, so its name changes with the object.
         if let Some(mut label) = self.labels.remove(from) {
             if !is_named || label.name.as_deref() == Some(from) {
                 label.name = Some(to.to_owned());
@@ -84,8 +84,8 @@ impl Graph {
     }
 
     /// Adds a child that references the object `part` to each node that references the object `whole`. The child has
-    /// the skin and the morph weights of its parent, and lies where its parent lies: its own placement is the identity.
-    /// If only one node references `whole`, the child is named `part`.
+    /// the skin and the morph weights of its parent. Its placement is the identity, so the child has the same position
+    /// in the scene as its parent. If only one node references `whole`, the child is named `part`.
     pub fn add_part(&mut self, whole: &str, part: &str) {
         let nodes = self.nodes_of(whole);
         for &parent in &nodes {
@@ -150,11 +150,11 @@ impl Graph {
     }
 
     /// Returns a graph for the objects that `is_wanted` accepts. The graph has the nodes that reference these objects,
-    /// the joints of their skins, the roots of these joints, and the ancestors of all these nodes. Joints and ancestors
-    /// keep no objects that `is_wanted` refuses, and no skins and morph weights of such objects. The returned graph
-    /// also has the skins and labels of the accepted objects. It has the animations of its nodes, except those that
-    /// animate the morph weights of a node without an object. All arrays and all parts of the document are kept;
-    /// cameras and lights are not.
+    /// the joints of their skins, the roots of these joints, and the ancestors of all these nodes. If a joint or an
+    /// ancestor references an object that `is_wanted` refuses, the node is kept without the object, its skin and its
+    /// morph weights. The returned graph also has the skins and labels of the accepted objects. It has the animations
+    /// of its nodes, but no channels for the morph weights of nodes without an object. All arrays and all parts of the
+    /// document are kept. Cameras and lights are removed.
     pub(crate) fn only(&self, is_wanted: impl Fn(&str) -> bool) -> Self {
         let mut graph = Self {
             nodes: self.nodes.clone(),

@@ -358,8 +358,8 @@ impl<'a> Session<'a> {
         restored
     }
 
-    /// Stores the scene after a step, if the scene can be restored exactly and storing is worthwhile: the scene is
-    /// small, or takes at most as long to store as to compute again.
+    /// Stores the scene after a step, if the scene can be restored exactly and storing the scene is worthwhile. Storing
+    /// is worthwhile if the scene is small, or if storing it takes at most as long as computing it again.
     fn store_scene(&mut self, scene: &Scene, number: usize, label: &str) -> Option<SceneRef> {
         let bytes = estimated_bytes(scene);
         let why = if !is_dense(scene) {
@@ -381,8 +381,8 @@ impl<'a> Session<'a> {
         Some(stored)
     }
 
-    /// Stores the output files of a step, if they are small or take at most as long to store as to compute again.
-    /// Returns `None` if the step has no outputs.
+    /// Stores the output files of a step, if they are small or if storing them takes at most as long as computing them
+    /// again. Returns `None` if the step has no outputs.
     fn store_outputs(&mut self, files: &Files, done: &CompletedStep) -> Option<Outputs> {
         let requested: Vec<_> = done
             .uses

@@ -294,8 +294,9 @@ const BYTES_FOR_EACH_BYTE_READ: u64 = 8;
 impl Forecast {
     /// Returns the estimated peak memory of the run, in bytes. For each step, the forecast can have an upper limit for
     /// the memory that the meshes take after the step. If all steps have such a limit, the estimate is the size of the
-    /// input files plus the largest of these limits. Otherwise, the estimate is the larger of two numbers: eight times
-    /// the size of the input files, and the largest lower limit for the memory that the meshes take after a step.
+    /// input files plus the largest of these limits. Otherwise, the estimate is eight times the size of the input
+    /// files. However, the estimate is never less than the memory that the meshes certainly take after any of the
+    /// steps.
     pub fn peak_bytes(&self) -> u64 {
         let size = |path: &std::path::PathBuf| Path::metadata(path).map_or(0, |m| m.len());
         let read: u64 = self.inputs.iter().map(size).sum();

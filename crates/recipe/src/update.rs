@@ -99,9 +99,9 @@ pub fn update(recipe: &Recipe, outcome: &Outcome) -> Update {
     }
 }
 
-/// Finds the expectations in the text that do not hold after at least one repetition of their step. For each of them,
-/// returns a list with one entry for each repetition. The entry is `None` if the expectation holds in that repetition,
-/// and otherwise the failure.
+/// Finds the expectations in the text that do not hold after at least one repetition of their step. For each of these
+/// expectations, returns a list with one entry for each repetition. The entry is the failure of the expectation in this
+/// repetition, or `None` if the expectation holds.
 fn unmet_in_text<'o>(
     recipe: &Recipe,
     outcome: &'o Outcome,

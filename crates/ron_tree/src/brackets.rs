@@ -26,7 +26,8 @@ pub(super) struct Contents {
 }
 
 impl Contents {
-    /// Whether the group seems to be a tuple, because so far it has values without names and no fields.
+    /// Whether the group seems to be a tuple: the group is in round brackets, and all of its items so far are values
+    /// without names.
     pub(super) fn is_tuple(&self) -> bool {
         self.bracket == Bracket::Round && self.fields.is_empty() && !self.values.is_empty()
     }

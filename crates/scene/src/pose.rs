@@ -152,9 +152,9 @@ impl Pose {
     }
 
     /// Returns the normals and tangents of the mesh and of its morph targets in this pose, before joints move them.
-    /// These columns replace the columns of the same names in `attributes`. Columns that do not change are left out. If
-    /// one of the old columns of normals has values for corners, all new columns of normals have values for corners;
-    /// otherwise, they have values for vertices. `vertex_of` returns the vertex of a corner.
+    /// These columns replace the columns of the same names in `attributes`. Columns that do not change are left out.
+    /// The new columns of normals have values for corners if at least one of the old columns of normals has values for
+    /// corners. Otherwise, they have values for vertices. `vertex_of` returns the vertex of a corner.
     ///
     /// For each morph target, the difference between its normal and the old normal is multiplied by the weight of the
     /// target. The new normal is the normalized sum of the old normal and these weighted differences, as in glTF 2.0,

@@ -8,7 +8,8 @@ use mesh::{
 use rayon::prelude::*;
 
 /// Returns a mesh with all points, normals, tangents and deltas of morph targets transformed. All ids stay the same. If
-/// the map is a reflection, faces are reversed as by [`Mesh::reverse`], but attributes with [`Rule::Drop`] are kept.
+/// the map is a reflection, faces are reversed as in [`Mesh::reverse`]. Unlike [`Mesh::reverse`], this function keeps
+/// attributes with [`Rule::Drop`].
 ///
 /// Normals are multiplied by the cofactor matrix of the map: the inverse transpose, multiplied by the determinant
 /// (Turkowski, "Properties of Surface-Normal Transformations", 1990). The determinant of a reflection is negative, so

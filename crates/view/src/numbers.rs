@@ -202,9 +202,9 @@ impl Quantity {
         quantities
     }
 
-    /// Returns the kind of elements that the quantity belongs to, and a list of one number for each of these elements,
-    /// by the index of the element. The number of an element without a value is NaN. Returns `None` if the mesh does
-    /// not have this quantity.
+    /// Returns the kind of elements that the quantity belongs to, and one number for each of these elements, in the
+    /// order of their indices. The number of an element without a value is NaN. Returns `None` if the mesh does not
+    /// have this quantity.
     fn values(&self, mesh: &Mesh, targets: &[Mesh]) -> Option<(Domain, Vec<f64>)> {
         let each = |domain, value: &dyn Fn(usize) -> Option<f64>| {
             let all = 0..mesh.domain_len(domain);
@@ -307,7 +307,8 @@ impl Quantity {
     }
 }
 
-/// Returns the values of the first attribute of this name, in the order vertices, faces, corners, edges.
+/// Searches vertices, faces, corners and edges, in this order, for an attribute of this name. Returns the values of the
+/// first such attribute.
 fn attribute(mesh: &Mesh, name: &str, component: Option<u32>) -> Option<(Domain, Vec<f64>)> {
     let domains = [Domain::Vertex, Domain::Face, Domain::Corner, Domain::Edge];
     let mut columns = domains.into_iter().filter_map(|domain| {

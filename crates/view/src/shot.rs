@@ -50,7 +50,7 @@ pub struct Subject<'s> {
 impl<'s> Subject<'s> {
     /// Prepares a scene with its overlays and numbers. Also returns a message for each texture that cannot be drawn.
     ///
-    /// `caption` is written below the view unless it is empty. `images` is called with the path of an image file, as
+    /// If `caption` is not empty, it is written below the view. `images` is called with the path of an image file, as
     /// written in a material, and returns the bytes of this file. `budget` is the memory budget in bytes.
     ///
     /// # Errors

@@ -32,8 +32,8 @@ pub(crate) struct Target<'a> {
 ///
 /// The candidates are directions on the outer side of the surface. A candidate is clear if no face hides the middle of
 /// the target from a camera in this direction. Returns the clear candidate that is nearest to the unit vector
-/// `preferred`. If no candidate is clear, the search is repeated for a camera at the distance `near` from the target,
-/// so that faces behind this camera are ignored. If still no candidate is clear, returns `preferred`.
+/// `preferred`. If no candidate is clear, the search is repeated for a camera at the distance `near` from the target.
+/// Faces behind this camera are ignored. If still no candidate is clear, returns `preferred`.
 pub(crate) fn clear_direction(
     scene: &Scene,
     target: &Target,

@@ -20,7 +20,7 @@ pub(super) fn all_files(folder: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// Damages a file. The second argument is the contents of all files.
+/// Damages a file. The second argument has the contents of all files of the cache.
 type Damage = fn(&Path, &[Vec<u8>]);
 
 /// Returns a recipe whose scene is so large that its arrays are stored as blobs.

@@ -269,7 +269,7 @@ fn count(of: &Elements, object: &Object, mesh: &Mesh, subject: Subject) -> Resul
 }
 
 /// Checks that the Hausdorff distance of two meshes is certainly below a limit. The measurement has a tolerance. If the
-/// limit is small, a fraction of the limit is used as the tolerance, so that small limits can be checked, too.
+/// limit is small, the tolerance is a fraction of the limit. Therefore, small limits can be checked, too.
 fn distance_below(
     mesh: &Mesh,
     other: &Mesh,

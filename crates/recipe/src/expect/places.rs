@@ -224,7 +224,7 @@ fn point(at: DVec3) -> ErrorLocation {
     }
 }
 
-/// Creates a location at a point where an element was expected but does not exist.
+/// Creates a location at the expected position of an element that does not exist.
 fn expected(at: DVec3) -> ErrorLocation {
     ErrorLocation {
         name: ErrorLocation::EXPECTED.to_owned(),

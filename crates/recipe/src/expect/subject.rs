@@ -171,8 +171,8 @@ impl<'a> Subject<'a> {
         })
     }
 
-    /// Calls `check` for each mesh with the elements of a selection in it, and fails if the selections of all meshes are
-    /// empty.
+    /// Calls `check` for each mesh, with the elements that the selection matches in this mesh. Fails if the selection
+    /// matches no element in any mesh.
     fn selected_in_each_mesh<S: Select>(
         &self,
         of: &S,

@@ -62,9 +62,9 @@ impl Group {
     }
 }
 
-/// Counts the motions that map the vertices of the mesh onto themselves. The image of each vertex must lie within the
-/// tolerance of a vertex, and no two images are matched with the same vertex. If `connectivity` is set, each motion
-/// must also map every face onto a face.
+/// Counts the motions that map the vertices of the mesh onto themselves. The image of each vertex is matched with a
+/// vertex at a distance of at most the tolerance. Each vertex is matched only once. If `connectivity` is set, each
+/// motion must also map every face onto a face.
 pub(super) fn count(mesh: &Mesh, motions: &[Motion], tolerance: f64, connectivity: bool) -> u64 {
     let points = PositionIndex::new(mesh);
     let keeps = |motion: &Motion| {
@@ -76,7 +76,7 @@ pub(super) fn count(mesh: &Mesh, motions: &[Motion], tolerance: f64, connectivit
     motions.iter().filter(|motion| keeps(motion)).count() as u64
 }
 
-/// Whether one of the motions maps the vertex to a point at which there is no vertex.
+/// Whether one of the motions maps the vertex to a point that has no vertex within the tolerance.
 pub(super) fn has_unmatched_image(
     mesh: &Mesh,
     points: &PositionIndex,

@@ -115,7 +115,7 @@ fn measures_in_space_see_every_instance_and_counts_see_each_object_once() {
     let unknown = ["door".to_owned()];
     let missing = Err("no object is named \"door\"".to_owned());
     assert_eq!(check_on(&scene, Some(&unknown), "Area(eq: 4)"), missing);
-    // With a single instance, the placed mesh is compared.
+    // If a node references the object, the mesh is checked at the position of the node.
     scene.graph_mut().push(scene::Node {
         object: Some("flat".to_owned()),
         placement: scene::Placement::Parts {

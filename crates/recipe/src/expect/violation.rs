@@ -10,7 +10,7 @@ use mesh::DVec3;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{message}")]
 pub struct Violation {
-    /// The expected and the actual value, in one line.
+    /// The expected and the actual value, or the reason why the evaluation failed, in one line.
     pub message: String,
     /// The actual value, if the expectation would hold with this value as the expected value.
     pub found: Option<ActualValue>,

@@ -73,7 +73,8 @@ impl Mesh {
     }
 }
 
-/// The number of bytes that a processor loads from memory at a time, on all common processors.
+/// The number of bytes that the processor loads from memory at a time.
+#[cfg(target_arch = "x86_64")]
 const CACHE_LINE: usize = 64;
 
 /// Asks the processor to prefetch the memory of element `i` of an array. The call is only a hint, and does nothing on

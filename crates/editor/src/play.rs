@@ -305,7 +305,8 @@ impl Editor {
 /// edits.
 fn is_loop_level(before: &Mesh, after: &Mesh) -> bool {
     // Loop subdivision is played as one split for each edge, one flip for each triangle, and one edit that moves the
-    // vertices. The splits add three edges inside each triangle. The one that ends at an old vertex is flipped.
+    // vertices. The splits add three edges inside each triangle. Of these three edges, the edge that ends at an old
+    // vertex is flipped.
     let n_edits = before.n_edges() + before.n_faces() + 1;
     n_edits <= MAX_EDITS
         && after.n_vertices() == before.n_vertices() + before.n_edges()

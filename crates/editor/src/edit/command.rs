@@ -18,8 +18,8 @@ pub struct Command {
     pub operation: String,
     /// The names of the parameters, and their values as RON.
     pub parameters: Vec<(String, String)>,
-    /// The selection that becomes the value of the first parameter that selects elements, if this parameter has no
-    /// value.
+    /// The selection of the elements on which the operation works. It becomes the value of the first parameter that
+    /// selects elements, if the command gives this parameter no value.
     pub selection: Option<SelectionText>,
     /// The object that the step acts on. If `None`, the step usually acts on all objects. But if the scene has several
     /// meshes and the command has a selection, the step acts only on the object of the selection.
@@ -77,9 +77,9 @@ pub enum CommandError {
 }
 
 impl SelectionText {
-    /// Returns the selection for the operation `name`. The step `before` is not needed if it has the same operation: a
-    /// command that tags elements needs no step that tags them first. In this case, returns the selection that the step
-    /// `before` contains. Otherwise, returns a copy of `self`.
+    /// Returns the selection in the form that the operation `name` needs. The step `before` adds a tag to elements. If
+    /// the operation `name` itself adds such a tag, the step `before` is not needed: in this case, returns the list of
+    /// elements that the step `before` contains. Otherwise, returns a copy of `self`.
     fn without_tag(&self, name: &str) -> Self {
         let elements = self.before.as_deref().and_then(|before| {
             let step = parse(before).value;
@@ -160,8 +160,8 @@ impl Editor {
         })
     }
 
-    /// Returns the command that a key starts, with the selection of the picked elements. Returns `None` if the action
-    /// is not an operation.
+    /// Returns the command that the key of an action starts. If the operation acts on elements, the command contains
+    /// the selection of the picked elements. Returns `None` if the action is not an operation.
     pub fn command_of(&mut self, action: Action) -> Option<Command> {
         let kind = self.picked.as_ref().map(crate::Picked::kind);
         let command = match action {
@@ -185,8 +185,8 @@ impl Editor {
         })
     }
 
-    /// Returns the first distance of a new extrusion, which the user can change: a fifth of the size of the object with
-    /// the picked elements.
+    /// Returns the initial distance of a new extrusion: a fifth of the size of the object with the picked elements. The
+    /// user can then change the distance.
     fn extrusion(&self) -> String {
         let object = self
             .picked()

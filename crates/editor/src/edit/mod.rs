@@ -196,7 +196,8 @@ impl Editor {
         self.indexes.on_ready(wake);
     }
 
-    /// Replaces the text, as typing does. Consecutive changes by typing become one entry of the history.
+    /// Replaces the text by a text that the user has typed. Consecutive changes by typing become one entry of the
+    /// history.
     pub fn set_text(&mut self, text: &str) {
         self.change(text, "type", true);
     }
@@ -367,8 +368,9 @@ impl Editor {
         }
     }
 
-    /// Returns the steps of the newest run that belong to a step of the text, as a range of indices. The indices can
-    /// differ from those of the text, because a preview can have more steps than the text.
+    /// Returns the steps of the newest run that come from the step `item` of the text, as a range of indices into the
+    /// steps of the run. During a preview, the run can have more steps than the text. The range takes these additional
+    /// steps into account.
     pub fn steps_of_item(&self, item: usize) -> std::ops::Range<usize> {
         let is_after = item >= self.cursor;
         let new = if is_after { self.preview_steps } else { 0 };

@@ -114,8 +114,9 @@ impl Editor {
         matches!(&self.proposals, Proposals::Searching(thread) if !thread.is_finished())
     }
 
-    /// Whether the picked elements can perhaps be written as a different selection, too. The result is not certain,
-    /// because these selections are computed only when they are requested. In a large mesh, this takes long.
+    /// Whether another selection possibly also describes the picked elements. The result can be true although no other
+    /// selection exists, because the selections are computed only when they are requested. In a large mesh, this
+    /// computation takes long.
     pub fn may_have_other_proposal(&self) -> bool {
         match &self.proposals {
             Proposals::Known(proposals) => proposals.len() > 1,

@@ -1,4 +1,4 @@
-//! Records a test: adds to the recipe the expectations that its scene meets now.
+//! Records a test: adds expectations to the recipe, such as its number of faces, that its scene meets at present.
 
 use engine::{FileReader, Silent};
 use op::Files;

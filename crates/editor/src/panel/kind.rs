@@ -20,9 +20,10 @@ pub enum FieldKind {
     Choice(Vec<(String, String)>),
     /// A text in quotes.
     Text,
-    /// A tuple of two or three numbers, such as `(x, y, z)`. The content of the variant is the length.
+    /// A tuple of two or three numbers, such as `(x, y, z)`. `Vector(3)` stands for a tuple of three numbers.
     Vector(usize),
-    /// A tuple of two or three whole numbers, such as `(1280, 960)`: the length, and the range of each number.
+    /// A tuple of whole numbers, such as `(1280, 960)`. The variant contains the number of items (2 or 3), and the
+    /// range of each item.
     Integers(usize, Limits),
     /// One variant of an enumeration in which some variants have content.
     Variants(Vec<Variant>),

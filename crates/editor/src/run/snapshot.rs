@@ -17,8 +17,8 @@ pub struct Snapshot {
     pub done: Arc<StepDone>,
 }
 
-/// The maximum number of digests that are kept, and also of results of expectations. If there are more digests than
-/// this, all digests are removed. If there are more results, all results are removed.
+/// The maximum number of digests that are kept. The same maximum applies to the results of expectations. If there are
+/// more digests than this, all digests are removed. If there are more results, all results are removed.
 const MAX_RESULTS: usize = 100_000;
 
 /// The known results. If a step does not change a mesh, the scenes before and after the step share the mesh.

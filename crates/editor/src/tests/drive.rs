@@ -107,7 +107,7 @@ fn picked_elements_go_only_to_the_first_selection() {
         steps(&smooth),
         "Smooth(vertices: Vertices([2]), by: Taubin())"
     );
-    // With a value for `vertices`, the picked vertex does not go to `pin`.
+    // If the command sets `vertices`, the picked vertex does not become the value of the other selection `pin` either.
     assert_eq!(
         steps(&smooth.with("vertices", "Boundary")),
         "Smooth(by: Taubin(), vertices: Boundary)"
@@ -190,7 +190,7 @@ fn rotating_and_scaling_the_same_elements_change_one_step() {
         "{}",
         editor.text()
     );
-    // The cube, two rotations around different axes, and a scaling.
+    // The four steps are the cube, two rotations around different axes, and one scaling.
     assert_eq!(editor.outline().steps.len(), 4);
     // The center of the picked elements stays where it is.
     assert!(editor.picked_center().unwrap().distance(start) < 1e-12);
@@ -222,7 +222,7 @@ fn patches_become_a_mesh_by_one_change() {
     );
     assert!(editor.undo());
     assert_eq!(editor.text(), text);
-    // Other objects are not welded.
+    // If the scene has other objects, only the former patches are welded.
     editor
         .apply(&Command::new("Cube").with("name", "\"a\""))
         .unwrap();
@@ -257,7 +257,7 @@ fn the_steps_after_a_preview_keep_their_results() {
 fn a_session_gives_a_recipe_that_replays_to_the_same_digest() {
     let (mut editor, store) = opened(CUBE);
     assert_eq!(counts(&editor), [8, 18, 12]);
-    // A diagonal of the front.
+    // The diagonal of a face of the cube.
     let mesh = editor.view().scene.objects()[0].as_mesh().unwrap().clone();
     let diagonal = mesh
         .edges()

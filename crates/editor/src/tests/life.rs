@@ -125,7 +125,7 @@ fn a_recipe_that_is_saved_in_another_folder_loads_the_same_files() {
     assert!(!editor.document().is_dirty());
     settled(&mut editor);
     assert_eq!(editor.run().digest, digest);
-    // In the same folder, the text stays.
+    // If the new file is in the same folder, the text does not change.
     let text = editor.text().to_owned();
     editor.save_as(Path::new("recipes/c.ron")).unwrap();
     assert_eq!(editor.text(), text);
@@ -264,7 +264,7 @@ fn errors_in_the_text_have_spans_and_the_steps_before_stay() {
     settle(&mut editor);
     let run = editor.run();
     assert!(run.has_failed() && run.diagnostics.iter().all(|d| d.span.is_some()));
-    // The cube is known from the run before.
+    // The scene with the cube is still known from the previous run.
     assert_eq!(editor.view().scene.objects().len(), 1);
     assert!(!editor.view().is_current);
     editor.set_text("");
@@ -346,7 +346,7 @@ fn a_run_can_be_canceled_and_a_newer_text_wins() {
     assert_eq!(editor.view().scene.objects().len(), 1);
     assert!(editor.undo());
     settled(&mut editor);
-    // The waiting run is canceled by the next text.
+    // A new text cancels a run that waits in its step.
     editor.apply(&wait).unwrap();
     editor.wait(Duration::from_millis(50));
     let end = editor

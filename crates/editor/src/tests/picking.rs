@@ -6,7 +6,8 @@ use scene::{Object, Scene};
 use crate::select::propose_one;
 use crate::{Area, Indexes, PickMode, Picked, Projection, keep_visible, pick, pick_area, propose};
 
-/// Looks from z = 5 at the square from (-1, -1) to (1, 1), which is 800 pixels wide.
+/// Returns the projection of a camera at z = 5 that looks along -z. The square from (-1, -1) to (1, 1) in the plane z =
+/// 0 is 800 pixels wide.
 fn front() -> Projection {
     // The depth is 0 at z = 5 and 1 at z = -5.
     let to_clip = DMat4::from_cols(
@@ -57,7 +58,7 @@ fn a_point_picks_the_smallest_thing_within_the_radius() {
         panic!()
     };
     assert_eq!(mesh.position(v), DVec3::new(-0.5, 0.5, 0.5));
-    // Beside the surface, and too far from it.
+    // The first two pixels are beside the cube and within the pick radius. The third pixel is too far from the cube.
     assert!(matches!(element(400.0, 195.0), Some(Element::Edge(_))));
     assert!(matches!(element(196.0, 196.0), Some(Element::Vertex(_))));
     assert_eq!(element(400.0, 190.0), None);

@@ -54,7 +54,7 @@ fn splits_flips_and_moves_give_one_level_of_loop_subdivision() {
         "Icosahedron(name: \"a\")",
         "Tetrahedron(name: \"a\")",
         "Cube(name: \"a\", triangles: true)",
-        // With a boundary.
+        // This mesh has a boundary.
         "Grid(name: \"a\", columns: 3, rows: 2), Triangulate()",
     ] {
         let scene_of = |steps: &str| {
@@ -71,7 +71,7 @@ fn splits_flips_and_moves_give_one_level_of_loop_subdivision() {
         while play.forward() {
             assert_eq!(play.mesh().defects(), [], "{shape}");
         }
-        // The faces may begin at other corners and have other numbers.
+        // The faces are compared as cycles of vertices, because their first corners and their indices may differ.
         let faces = |mesh: &mesh::Mesh| {
             let corners = |f| -> Vec<usize> {
                 let mut corners: Vec<usize> =
@@ -108,7 +108,7 @@ fn one_level_of_a_small_mesh_has_edits_and_several_levels_have_none() {
         let played = editor
             .play(1)
             .map(|(object, play)| (object, play.edits().len()));
-        // 30 splits, 20 flips and one move.
+        // The 51 edits are 30 splits, 20 flips and one movement of all vertices.
         assert_eq!(played, expected.then(|| ("icosahedron".to_owned(), 51)));
     }
 }

@@ -90,7 +90,8 @@ fn a_proposal_means_exactly_the_picked_elements_and_fails_closed() {
     let [v, w] = mesh.edge_vertices(inner).map(mesh::VertexId::index);
     let loops = text(&format!("EdgeLoop(Between({v}, {w}))"), ElementKind::Edges);
     assert!(loops.contains("EdgeLoop("), "{loops}");
-    // Many elements that only their numbers describe get a tag, which is written once.
+    // If only a long list of indices describes the elements, a step before gives them a tag, and the selection uses the
+    // tag.
     for (kind, operation) in [
         (ElementKind::Vertices, "TagVertices"),
         (ElementKind::Edges, "TagEdges"),
@@ -118,7 +119,7 @@ fn picks_without_a_meaning_become_a_tag_and_a_step() {
     );
     editor.set_picked(Some(set.unwrap()));
     assert_eq!(editor.proposals().len(), 1);
-    // A step that tags the elements needs no other tag.
+    // If the command itself tags the elements, no other step tags them first.
     let selection = editor.selection();
     let tag = Command {
         selection,
@@ -177,7 +178,8 @@ fn a_selection_of_another_kind_is_converted_and_names_its_object() {
 #[test]
 fn a_written_selection_picks_its_elements_and_is_used_by_the_next_step() {
     let (mut editor, _) = opened("(recipe: 1, steps: [Cube(name: \"a\")])");
-    // Without a pick, the first mesh and a kind that fits are used.
+    // No elements are picked yet. So the selection is evaluated on the first mesh, and the kind of elements follows
+    // from the text.
     editor
         .pick_by_text("Sharp(above: 30)", ElementKind::Faces)
         .unwrap();
@@ -189,7 +191,7 @@ fn a_written_selection_picks_its_elements_and_is_used_by_the_next_step() {
     assert_ne!(other, "Sharp(above: 30)");
     let again = Picked::by_text(&editor.view().scene, "a", &other, Some(ElementKind::Edges));
     assert_eq!(again.unwrap().len(), 12);
-    // A wrong text keeps the picked elements.
+    // An invalid selection leaves the picked elements unchanged.
     for wrong in [
         "Sharp(",
         "Sharp(over: 3)",
@@ -216,7 +218,7 @@ fn the_selections_of_a_large_pick_are_searched_beside_the_window() {
         std::thread::sleep(Duration::from_millis(2));
     }
     assert_eq!(editor.proposals(), propose(&scene, &set, ""));
-    // A command waits for the search.
+    // A command waits until the search has ended.
     editor.set_picked(Some(set));
     assert!(editor.selection().is_some());
 }
@@ -319,7 +321,7 @@ fn a_control_point_under_the_cursor_is_dragged_in_its_plane() {
     use scene::{Geometry, Object, Scene};
 
     let size = DVec2::new(400.0, 300.0);
-    // A camera at (2, 3, 9) that looks along -z, slightly turned.
+    // A camera at (2, 3, 9). Its view direction is rotated slightly away from the direction -z.
     let (near, far) = (0.5, 30.0);
     let lens = DMat4::from_cols(
         DVec4::new(2.4, 0.0, 0.0, 0.0),
@@ -349,7 +351,8 @@ fn a_control_point_under_the_cursor_is_dragged_in_its_plane() {
             ("a", index, point)
         );
         assert!(hit.dragged_to(&view, pixel).unwrap().distance(point) < 1e-9);
-        // The new position is below the cursor, in the plane z = 0 or at the same depth.
+        // The new position is visible at the cursor. A point of a curve stays in the plane z = 0, and a point of a
+        // patch keeps its depth.
         let to = hit
             .dragged_to(&view, pixel + DVec2::new(40.0, 25.0))
             .unwrap();
@@ -385,6 +388,6 @@ fn dragging_a_control_point_of_patches_is_one_step() {
         "{text}"
     );
     assert_eq!(editor.outline().steps.len(), 2);
-    // The first point of the next patch is at the same position.
+    // The first point of the next patch had the same position, and moves too.
     assert_eq!([points(&editor)[3], points(&editor)[16]], [to; 2]);
 }

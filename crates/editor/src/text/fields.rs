@@ -52,7 +52,8 @@ pub(crate) fn set_field(
     }
 }
 
-/// A value on the path. Also says whether the name of the value's variant was already used as a part of the path.
+/// A value on the path. `in_variant` says whether the name of the value's variant was already used as a part of the
+/// path.
 #[derive(Clone, Copy)]
 struct Place<'v> {
     value: &'v Value,

@@ -75,7 +75,7 @@ impl Side {
     }
 }
 
-/// A camera that looks at a point, with the directions and the scale of its picture.
+/// A camera that looks at a point of the scene, with perspective or with a parallel projection.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     /// The point in the middle of the picture, in scene units.
@@ -170,7 +170,7 @@ impl Camera {
         Some(0.5 * size + DVec2::new(v.dot(x), -v.dot(y)) * scale)
     }
 
-    /// Turns the camera by a drag of this many pixels.
+    /// Turns the camera around the target. `pixels` is the distance that the mouse was dragged.
     pub fn orbit(&mut self, pixels: DVec2) {
         const DEGREES_PER_PIXEL: f64 = 0.4;
         self.yaw = (self.yaw - pixels.x * DEGREES_PER_PIXEL).rem_euclid(360.0);
@@ -184,8 +184,8 @@ impl Camera {
         self.target -= (x * pixels.x - y * pixels.y) * self.pixel_size(size.y);
     }
 
-    /// Multiplies the distance to the target by `factor`. A point that is seen at the pixel `at`, and is as deep in the
-    /// scene as the target, stays at this pixel.
+    /// Multiplies the distance to the target by `factor`. Points at the depth of the target that are visible at the
+    /// pixel `at` stay at this pixel.
     pub fn zoom(&mut self, factor: f64, at: DVec2, size: DVec2) {
         let [x, y, _] = self.axes();
         let d = (at - 0.5 * size) * self.pixel_size(size.y);
@@ -238,8 +238,8 @@ impl Camera {
         projection * away * rotation * DMat4::from_translation(-self.target)
     }
 
-    /// Returns the number of pixels per scene unit: at distance 1 with perspective, at every distance without
-    /// perspective.
+    /// Returns the number of pixels per scene unit. With perspective, this is the number at distance 1 from the camera.
+    /// Without perspective, the number is the same at all distances.
     pub fn scale(&self, height: f64) -> f64 {
         if self.is_perspective {
             0.5 * height / tangent()

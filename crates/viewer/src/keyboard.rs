@@ -1,4 +1,4 @@
-//! Keys that do something in the whole window.
+//! Converts pressed keys to the actions that they start in the whole window.
 
 use editor::{Action, Keys};
 use eframe::egui::{Context, Event, Id, Key, Modifiers, Popup};

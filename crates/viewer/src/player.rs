@@ -53,12 +53,10 @@ impl Player {
             .get(self.play.position().saturating_sub(1))
     }
 
-    /// Returns the number of edits.
     pub(crate) fn n_edits(&self) -> usize {
         self.play.edits().len()
     }
 
-    /// Returns the number of edits per second.
     pub(crate) fn speed(&self) -> f64 {
         self.speed
     }

@@ -240,7 +240,7 @@ impl NotSelectable for Ui {
     }
 }
 
-/// What the list says about a step.
+/// The information about a step that the list shows.
 struct Summary {
     is_known: bool,
     time: String,

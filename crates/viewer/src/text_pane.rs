@@ -257,8 +257,9 @@ fn completions(parts: &Parts, ui: &Ui, id: Id) -> Words {
     }
 }
 
-/// Returns the variants of the parameter whose value contains a byte of the text. For a selection inside of another
-/// selection, the variants are the same. Empty outside of the parameters of a step.
+/// Returns the variants of the parameter whose value contains a byte of the text. If the byte is in a selection inside
+/// another selection, these are also the variants of the inner selection. Returns no variants if the byte is not in the
+/// value of a parameter of a step.
 fn variants_at(editor: &editor::Editor, at: usize) -> Vec<recipe::VariantDoc> {
     let outline = editor.outline();
     let field = outline.step_at(at).and_then(|step| {

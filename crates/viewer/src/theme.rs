@@ -20,9 +20,9 @@ pub struct Colors {
     pub text: Color32,
     /// Text of less importance.
     pub weak: Color32,
-    /// What is selected or has the focus.
+    /// Selected items, and the item that has the focus.
     pub accent: Color32,
-    /// The background of what is selected.
+    /// The background of selected items.
     pub accent_fill: Color32,
     /// Success.
     pub good: Color32,

@@ -8,7 +8,7 @@ pub(crate) fn dot(ui: &mut Ui, color: Color32) {
     ui.painter().circle_filled(rect.center(), 4.0, color);
 }
 
-/// Returns how many vertices, edges and faces all meshes have together.
+/// Returns the total numbers of vertices, edges and faces of the meshes of a scene.
 pub(crate) fn counts(scene: &scene::Scene) -> [usize; 3] {
     let meshes = scene.objects().iter().filter_map(|object| object.as_mesh());
     meshes.fold([0; 3], |[v, e, f], mesh| {

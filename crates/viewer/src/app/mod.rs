@@ -89,7 +89,7 @@ pub(crate) struct Parts {
     pub(crate) prompt: Option<Prompt>,
     /// An animation that is being written.
     pub(crate) export: Option<Export>,
-    /// What the user wants to do although the recipe has unsaved changes.
+    /// The action that waits until the user has decided about the unsaved changes.
     pub(crate) pending: Option<Pending>,
     /// The time at which the run in progress started.
     running_since: Option<Instant>,
@@ -235,7 +235,7 @@ impl Parts {
         self.places = self.places_of_errors();
     }
 
-    /// Takes the results of the engine.
+    /// Handles the changes that the editor reports, and requests repaints while a run is in progress.
     fn poll(&mut self, ctx: &egui::Context) {
         self.check_device(ctx);
         if let Some(update) = self.editor.poll() {

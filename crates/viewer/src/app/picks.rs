@@ -116,8 +116,8 @@ impl Parts {
         self.report(result);
     }
 
-    /// Like [`pick_text`](Self::pick_text), but the next step fails if the selection then selects more or fewer
-    /// elements than now.
+    /// Like [`pick_text`](Self::pick_text), but stores the number of picked elements in the selection. The next step
+    /// then fails if the selection selects another number of elements.
     fn pick_checked(&mut self, text: &str) {
         self.pick_text(text);
         let n = self.editor.picked().map(Picked::len);

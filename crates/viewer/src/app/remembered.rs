@@ -20,7 +20,7 @@ pub(crate) struct Remembered {
     pub(crate) size: Option<[f32; 2]>,
     /// Whether the window fills the screen.
     pub(crate) is_maximized: bool,
-    /// Whether the window is dark (and not light). If omitted, the window follows the system.
+    /// Whether the window has the dark theme. If omitted, the window has the theme of the system.
     is_dark: Option<bool>,
     /// The fractions of the height of the left side that the steps and the text occupy.
     left: Option<[f32; 2]>,

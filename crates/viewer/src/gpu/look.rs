@@ -11,9 +11,9 @@ pub enum Wireframe {
     /// Lines on top of the shaded surface.
     #[default]
     Shaded,
-    /// Lines only; the surface hides the lines behind it.
+    /// Lines only. The surface is not visible, but it hides the lines behind it.
     HiddenLine,
-    /// All lines, and no surface.
+    /// Lines only, including the lines behind the surface.
     Lines,
 }
 

@@ -28,8 +28,9 @@ pub(super) struct Key {
 }
 
 impl Key {
-    /// Whether both objects have the same color and style, and have no seams, materials or numbers as colors. Their
-    /// buffers then depend only on the color, the style and the geometry.
+    /// Whether the buffers of both objects depend only on the color, the style and the geometry, and both have the same
+    /// color and style. Seams, materials and colors that show numbers must be absent, because the buffers would depend
+    /// on them too.
     pub(super) fn looks_like(&self, other: &Self) -> bool {
         self.color == other.color
             && self.style == other.style

@@ -20,7 +20,7 @@ pub(super) struct Pipelines {
     pub(super) patch: wgpu::RenderPipeline,
 }
 
-/// What differs between pipelines.
+/// The settings in which the pipelines differ.
 struct Kind<'a> {
     name: &'a str,
     vertex: &'a str,

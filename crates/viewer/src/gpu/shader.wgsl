@@ -4,10 +4,13 @@
 struct Globals {
     projection: mat4x4f,
     rotation: mat4x4f,
-    // Width and height in pixels, distance from the target, pixels per unit (at distance 1 with perspective).
+    // The width and height of the picture in pixels, the distance from the camera to the target, and the number of
+    // pixels per scene unit. With perspective, this number is for distance 1 from the camera.
     size: vec4f,
-    // The lighting (0 flat or smooth, 1 Phong, 2 clay, 3 plain), the lines (0 none, 1 on the surface, 2 hidden lines
-    // removed, 3 lines only), whether the projection has perspective, whether normals of the mesh are used.
+    // x: the lighting. 0 is flat or smooth, 1 Phong, 2 clay, and 3 plain.
+    // y: the lines. 0 is none, 1 on the surface, 2 hidden lines removed, and 3 lines only.
+    // z: whether the projection has perspective.
+    // w: whether the normals of the mesh are used.
     modes: vec4u,
     wire: vec4f,
     // The width of the wireframe in pixels.
@@ -22,8 +25,10 @@ struct Object {
     color: vec4f,
     // The color of the back, if w is 1.
     back: vec4f,
-    // Where normals and colors are stored: 0 one for all, 1 per triangle, 2 per point, 3 per corner. Then whether the
-    // surface is shown without lighting, and whether it has a texture.
+    // x: where the normals are stored. 0 is one for all, 1 one per triangle, 2 one per point, and 3 one per corner.
+    // y: where the colors are stored, in the same way.
+    // z: whether the surface is shown without lighting.
+    // w: whether the surface has a texture.
     modes: vec4u,
     emissive: vec3f,
     roughness: f32,
@@ -39,7 +44,7 @@ struct Object {
 @group(2) @binding(5) var image: texture_2d<f32>;
 @group(2) @binding(6) var image_sampler: sampler;
 
-// Stands for "no normal": the normal of the triangle is used.
+// If the value of a normal is this constant, the shader uses the normal of the triangle instead.
 const NO_NORMAL: u32 = 0x80008000u;
 
 fn to_linear(c: vec3f) -> vec3f {
@@ -74,7 +79,8 @@ struct Surface {
     @location(2) color: vec3f,
     @location(3) weights: vec3f,
     @location(4) @interpolate(flat) flags: u32,
-    // The value is taken inside of the triangle, so that no pixel at a border shows another part of the image.
+    // At the border of a triangle, the position in the image is computed at a point inside the triangle. Otherwise, the
+    // pixel could show another part of the image.
     @location(5) @interpolate(perspective, centroid) uv: vec2f,
 }
 
@@ -86,7 +92,8 @@ fn surface_vertex(@builtin(vertex_index) i: u32) -> Surface {
     var out: Surface;
     out.at = to_camera(vec3f(points[3u * point], points[3u * point + 1u], points[3u * point + 2u]));
     out.position = globals.projection * vec4f(out.at, 1.0);
-    // Bit j: whether the edge across from corner j is an edge of the mesh. Bit 3: whether there is a normal.
+    // Bit j (0, 1 or 2) says whether the side opposite corner j is an edge of the mesh. Bit 3 says whether the corner
+    // has a normal.
     let bits = vec3u(triangles[first], triangles[first + 1u], triangles[first + 2u]) >> vec3u(31u);
     out.flags = bits.y | (bits.z << 1u) | (bits.x << 2u);
     out.weights = vec3f(f32(i % 3u == 0u), f32(i % 3u == 1u), f32(i % 3u == 2u));
@@ -153,7 +160,8 @@ fn wire(weights: vec3f, flags: u32) -> f32 {
 
 @fragment
 fn surface_fragment(in: Surface, @builtin(front_facing) is_front: bool) -> @location(0) vec4f {
-    // Derivatives are computed before any branch.
+    // The derivatives are computed first, because WGSL does not allow derivatives after a branch that differs between
+    // pixels.
     let flat_normal = cross(dpdx(in.at), dpdy(in.at));
     let line = wire(in.weights, in.flags);
     var texel = vec4f(1.0);
@@ -181,7 +189,7 @@ fn surface_fragment(in: Surface, @builtin(front_facing) is_front: bool) -> @loca
         }
         n = m;
     }
-    // The colors of the image are multiplied by alpha.
+    // The colors of the image are premultiplied by alpha. The division by alpha gives the original colors.
     var color = in.color * texel.rgb / max(texel.a, 0.001);
     var alpha = object.color.a * texel.a;
     if !is_front && object.back.w == 1.0 {
@@ -222,7 +230,8 @@ fn background_fragment(in: Background) -> @location(0) vec4f {
     return vec4f(mix(globals.background_top.rgb, globals.background.rgb, in.t), 1.0);
 }
 
-// Moves a point in camera space towards the camera by this many pixels, without moving it in the picture.
+// Moves a point in camera space towards the camera, by the length that this many pixels have in the scene. The point
+// stays at the same place in the picture.
 fn nearer(v: vec3f, pixels: f32) -> vec3f {
     if globals.modes.z == 1u {
         return v * (1.0 - pixels / globals.size.w);

@@ -21,7 +21,6 @@ pub(crate) struct Draft {
 struct Previewed {
     /// The version of the text.
     version: u64,
-    /// The step cursor.
     cursor: usize,
     /// The new steps.
     steps: Vec<String>,

@@ -221,7 +221,7 @@ impl ViewPane {
         self.gpu.as_ref()?.painter.read()
     }
 
-    /// Forgets the fit, so that the camera is fitted to the next scene.
+    /// Requests that the camera is fitted to the scene that the view shows next.
     pub(crate) fn forget_fit(&mut self) {
         self.is_fitted = false;
     }

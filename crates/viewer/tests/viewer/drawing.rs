@@ -134,7 +134,8 @@ fn a_cube_has_the_colors_of_the_renderer_without_a_graphics_card() {
         let mut stage = Stage::new(&state, &scene, &look);
         let found = stage.draw(&look, &Overlay::default());
         keep(&format!("cube-{shading:?}"), &found);
-        // The edges between faces are blended differently.
+        // Most pixels must agree. The pixels at edges differ, because the colors of the faces are blended differently
+        // there.
         assert_near(&found, &stage.expected(&scene, shading), 97);
     }
 }
@@ -178,7 +179,8 @@ fn wireframes_show_the_edges_of_polygons_and_no_diagonals() {
     assert!((400..2500).contains(&on_surface), "{on_surface}");
     assert!(count(Wireframe::HiddenLine) > 5000);
     assert!(count(Wireframe::Lines) > 5000);
-    // In the middle of each face is a diagonal, if diagonals are drawn.
+    // If the diagonals of the faces were drawn, the middle of the front face would have another color than its
+    // surroundings.
     let look = Look {
         wireframe: Wireframe::Shaded,
         ..bare()
@@ -271,7 +273,7 @@ fn numbers_are_shown_as_colors() {
 fn views_from_opposite_sides_and_both_upward_axes_differ() {
     let Some(state) = device() else { return };
     let mut mesh = shapes::cube();
-    // A wedge has no symmetry.
+    // The mesh becomes a wedge without symmetry.
     for p in mesh.positions_mut() {
         *p = DVec3::new(p.x, p.y * (1.0 + p.x), p.z * (1.3 + 0.5 * p.y + 0.2 * p.x));
     }
@@ -318,7 +320,7 @@ fn flips_upload_only_what_changed_and_the_picture_is_that_of_the_new_mesh() {
             }
         }
         assert_eq!(stage.painter.n_uploads(), 1, "{shading:?}");
-        // A change of the number of elements converts the object.
+        // If the number of elements changes, the whole object is converted and uploaded again.
         flipped.split_edge(mesh::EdgeId::new(7), 0.5).unwrap();
         let new = scene(flipped);
         stage.painter.set_scene(&new, &look);

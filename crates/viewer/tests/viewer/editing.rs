@@ -107,7 +107,7 @@ fn a_recipe_with_an_error_keeps_its_text_and_shows_the_message() {
     );
     assert_eq!(window.text(), text);
     window.check_picture("error");
-    // Once the error is corrected, the cube is there.
+    // After the error is corrected, the scene has the cube again.
     let corrected = text.replace("Cubee(", "Cube(");
     window.harness.state_mut().editor_mut().set_text(&corrected);
     window.settle();

@@ -209,7 +209,8 @@ fn dragging_a_ring_rotates_and_dragging_the_center_scales_the_picked_face() {
     };
     let center = pick_front(&mut window);
     window.press_with(Modifiers::SHIFT, Key::R);
-    // Where a ring is parallel to the screen, its radius is 84 points of the screen.
+    // The drag below starts on the ring around the z axis. In the directions that are parallel to the screen, a ring
+    // has a radius of 84 logical pixels.
     let back = DVec3::new(0.46, 0.37, 0.8).normalize();
     let aside = back.cross(DVec3::Y).normalize();
     let pixels = window.at(center + aside * 0.1).distance(window.at(center));

@@ -16,7 +16,8 @@ fn plain() -> Look {
     }
 }
 
-/// Encodes an image with 6 times 4 fields of 8 times 8 pixels with different colors. Every second field has this alpha.
+/// Encodes an image of 6 x 4 fields with different colors. Each field has 8 x 8 pixels. Every second field has the
+/// given alpha.
 fn fields(alpha: u8) -> Vec<u8> {
     let color = |i: u32| {
         let [x, y] = [i % 48 / 8, i / 48 / 8];
@@ -107,7 +108,7 @@ fn surfaces_are_invisible_where_their_texture_is_cut_out() {
         let opaque = square(material(0), [0.0, 1.0]);
         let mut stage = Stage::new(&state, &opaque, &plain());
         let opaque = stage.draw(&plain(), &Overlay::default());
-        // Half of the 24 fields are cut out.
+        // Half of the 24 fields are cut out, so about as many pixels are cut out as remain.
         let differs = |(p, q): &(&[u8; 4], &[u8; 4])| p != q;
         let n_cut = found
             .pixels

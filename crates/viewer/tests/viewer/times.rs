@@ -44,7 +44,8 @@ fn times_of_growing_meshes() {
     }
 }
 
-/// The time from a key press to the command that draws the changed mesh, and the times of its parts.
+/// The time from a key press until the frame with the changed mesh was drawn, and the times of the parts of this
+/// process.
 #[test]
 #[ignore = "a measurement"]
 fn times_of_an_edit_of_a_million_triangles() {

@@ -26,7 +26,7 @@ fn dragging_an_arrow_moves_the_picked_face() {
     let at = window.at(center);
     window.click(at, Modifiers::NONE);
     window.press(Key::G);
-    // From a point on the arrow of the y axis upwards.
+    // The drag starts on the arrow of the y axis, and follows the arrow upwards.
     let [base, above] = [0.0, 0.1].map(|y| window.at(center + mesh::DVec3::Y * y));
     let up = (above - base).normalized();
     let points: Vec<Pos2> = [50.0, 55.0, 70.0, 90.0].map(|t| base + up * t).into();
@@ -38,7 +38,7 @@ fn dragging_an_arrow_moves_the_picked_face() {
     );
     let scene = window.harness.state().editor().view().scene;
     let moved = scene.objects()[0].as_mesh().unwrap().face_center(face) - center;
-    // The picture of the offset is as long as the drag.
+    // In the picture, the face has moved as far as the cursor: 40 pixels.
     let pixels = window.at(center + moved).distance(window.at(center));
     assert!((pixels - 40.0).abs() < 2.0, "{pixels} {moved}");
     assert!(moved.x == 0.0 && moved.z == 0.0);
@@ -219,7 +219,7 @@ fn a_lost_graphics_device_closes_the_window_and_the_next_start_offers_the_text()
     let unsaved = window.text();
     let device = device.get().unwrap();
     device.destroy();
-    // The loss is reported when the commands given before are done.
+    // The device reports its loss only after it has completed the previous commands.
     device.poll(wgpu::PollType::wait_indefinitely()).unwrap();
     let mut closes = false;
     for _ in 0..3 {

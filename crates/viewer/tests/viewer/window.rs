@@ -158,7 +158,7 @@ impl Window {
         0.5 * (p + q)
     }
 
-    /// Returns an edge between two faces that both face the camera, as the numbers of its vertices.
+    /// Returns the indices of the two vertices of an edge whose two faces both face the camera.
     pub(crate) fn visible_edge(&self) -> [usize; 2] {
         let scene = self.harness.state().editor().view().scene;
         let mesh = scene.objects()[0].as_mesh().unwrap().clone();
@@ -183,7 +183,8 @@ impl Window {
         }
     }
 
-    /// Compares the window with a stored picture. With the environment variable `UPDATE_PICTURES`, stores it.
+    /// Compares the window with a stored picture. If the environment variable `UPDATE_PICTURES` is set, first stores
+    /// the picture of the window.
     pub(crate) fn check_picture(&mut self, name: &str) {
         self.harness.remove_cursor();
         self.settle();

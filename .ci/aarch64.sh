@@ -6,8 +6,8 @@
 #
 #   .ci/aarch64.sh [FOLDER]     FOLDER keeps downloads and builds. Defaults to target/ci/aarch64.
 #
-# If target/ci/scenes exists, the files written by the scenes are compared with those in it. Some pictures of the
-# reference are compared with those in the repository.
+# If target/ci/scenes exists, the files that the scenes write are compared with the files in this folder. Some pictures
+# of the reference are compared with those in the repository.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 work=$(mkdir -p "${1:-target/ci/aarch64}" && cd "${1:-target/ci/aarch64}" && pwd)
@@ -19,7 +19,7 @@ skip() { echo "the digests on 64-bit ARM are not compared: $*"; exit 0; }
 command -v apt-get > /dev/null || skip "apt-get is missing"
 [ "$(id -u)" = 0 ] || skip "installing packages requires root"
 
-# Package lists for both processors, separate from those of the machine.
+# The package lists for both processors are separate from those of the machine.
 mkdir -p "$work/lists/partial" "$work/cache/archives/partial" "$work/debs"
 cat > "$work/apt.conf" << END
 Dir::State::lists "$work/lists";
@@ -33,7 +33,8 @@ if ! [ -x "$work/root/usr/bin/rustc" ]; then
     apt update > "$work/apt.txt" 2>&1 || skip "package lists cannot be downloaded"
     std=$(APT_CONFIG=$work/apt.conf apt-cache depends rustc-web 2> /dev/null | grep -c libstd-rust-web-dev || true)
     [ "$std" != 0 ] || skip "the package rustc-web does not exist"
-    # The compiler, the libraries it is linked with, and the standard libraries for both processors, all of one version.
+    # Downloads the compiler, the libraries that it is linked with, and the standard libraries for both processors. All
+    # packages must have the same version.
     version=$(APT_CONFIG=$work/apt.conf apt-cache policy rustc-web | awk '/Candidate/ { print $2 }')
     linked=$(APT_CONFIG=$work/apt.conf apt-cache depends "libstd-rust-web-dev=$version" |
         awk '/Depends: libstd-rust-web-/ { print $2 }')

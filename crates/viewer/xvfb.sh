@@ -65,7 +65,7 @@ xdotool windowactivate --sync "$window"
 sleep 1
 picture 1-opened
 
-# The diagonal of the front face, which passes through the middle of the face.
+# Picks the diagonal of the front face with a click on the middle of the face.
 click 642 508
 picture 2-picked
 key f

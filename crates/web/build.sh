@@ -2,9 +2,9 @@
 # Builds the package for browsers and Node in target/web, and tests it in Node. Builds the engine with threads in
 # target/ci/web/threads. Then builds the page in target/web/page, and tests it in Chromium.
 #
-# The standard library for WebAssembly comes from the installed toolchain if it has one. Otherwise a compiler and the
-# sources of its standard library are Debian packages, which are unpacked in target/ci/web. If a tool is not available, the
-# script prints the reason and exits with code 0.
+# If the installed toolchain has the standard library for WebAssembly, the script uses this toolchain. Otherwise, the
+# script unpacks Debian packages in target/ci/web: a compiler, and the sources of its standard library. If a tool is not
+# available, the script prints the reason and exits with code 0.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 work=$PWD/target/ci/web
@@ -55,7 +55,8 @@ fi
 npm install --silent --no-audit --no-fund --prefix "$work/tools" binaryen@132.0.0 ||
     skip "binaryen cannot be installed from npm"
 
-# Threads need atomic operations. Both engines are compiled with them, so that only the last crate is compiled twice.
+# Threads need atomic operations. The engine without threads is compiled with the same flag, so that both engines can
+# use the same compiled dependencies.
 [ -z "${compiler:-}" ] || export CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS="-C target-feature=+atomics"
 export CARGO_INCREMENTAL=0
 CARGO_TARGET_DIR=$work/target "${compiler[@]:-env}" "${build[@]}"

@@ -115,7 +115,7 @@ export interface Colors {
 }
 
 export interface Options {
-    /** The path of the recipe, which other paths are relative to. Defaults to `recipe.ron`. */
+    /** The path of the recipe. Paths in the recipe are relative to its folder. Defaults to `recipe.ron`. */
     path?: string;
     /** The name of one of the presets of the recipe. */
     preset?: string;
@@ -140,7 +140,10 @@ export class Session {
     static create(source?: Parameters<typeof load>[0]): Promise<Session>;
     /** Creates a session without files. The engine must be loaded. */
     constructor();
-    /** Writes a file, which recipes can then read. Folders are created. Throws if a folder has this path. */
+    /**
+     * Writes a file, which recipes can then read. Missing folders of the path are created. Throws if the path is the path
+     * of a folder, or if a part of the path is a file.
+     */
     write(path: string, content: string | Uint8Array): void;
     /** Reads a file, such as an output of a run. Throws if the file does not exist. */
     read(path: string): Uint8Array;

@@ -76,7 +76,7 @@ const { Session, load } = await import(pathToFileURL(join(engine, "meshwright.js
 await load();
 const names = readFileSync(join(root, "tests/digests.txt"), "utf8").trim().split("\n").map((line) => line.split(" ")[0]);
 const files = {};
-/// Scenes whose z-axis points upwards, apart from those whose recipes have a picture that says so.
+/// Scenes whose z axis points upwards although their recipes do not say so with `up: Z`.
 const Z_UP = ["figure", "mirrored_head", "warrior"];
 const scenes = names.map((name) => {
     const session = new Session();
@@ -99,7 +99,7 @@ const scenes = names.map((name) => {
 });
 writeFileSync(join(out, "gallery/scenes.json"), JSON.stringify({ scenes, files }));
 
-// For servers that send compressed files. The engine is compressed already.
+// Some servers send compressed files, which are written here. The engine was compressed before.
 for (const name of ["main.js", "worker.js", "operations.html", "gallery/scenes.json"]) {
     writeFileSync(join(out, `${name}.br`), brotliCompressSync(readFileSync(join(out, name))));
 }

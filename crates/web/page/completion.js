@@ -18,7 +18,7 @@ export class Completions {
         this.#examples = new Map(operations.map((operation) => [operation.name, operation]));
     }
 
-    /// The source of completions for CodeMirror.
+    /// Returns the completions in the form that CodeMirror needs.
     source = (context) => {
         const word = context.matchBefore(/[A-Za-z_][A-Za-z0-9_]*/);
         const before = context.state.sliceDoc(Math.max(0, context.pos - 2), context.pos);
@@ -152,7 +152,8 @@ export class Completions {
         return text.replaceAll("\n", " ") + standard || undefined;
     }
 
-    /// Returns the operations that take a selection of `Vertex`, `Edge` or `Face` elements, as texts of steps with the selection.
+    /// Returns the operations that take a selection of elements. `kind` is `Vertex`, `Edge` or `Face`. Each operation
+    /// has the text of a step that uses the given selection.
     stepsWith(kind, selection) {
         const reference = `#/$defs/${kind}Selection`;
         return [...this.#examples.values()].flatMap(({ name, example, summary }) => {
@@ -163,8 +164,8 @@ export class Completions {
         });
     }
 
-    /// Returns the fields of an operation that may have inputs. `type` is `number`, `boolean`, `choice` or `other`, `names`
-    /// also has the other names of the field, and `standard` is its default.
+    /// Returns the fields of an operation that can have inputs in a form. `type` is `number`, `boolean`, `choice` or
+    /// `other`. `names` has the name of the field and its earlier names, and `standard` is the default value.
     inputs(operation) {
         const properties = this.#examples.has(operation) ? this.#schema.$defs[operation]?.properties ?? {} : {};
         const fields = Object.entries(properties).filter(([, node]) => !JSON.stringify(node).includes("Selection\""));

@@ -32,7 +32,8 @@ export function sizeText(bytes) {
             : bytes < 999e6 ? `${(bytes / 1e6).toPrecision(3)} MB` : `${(bytes / 1e9).toPrecision(3)} GB`;
 }
 
-/// Returns a function that calls `action` once no further call has come for `milliseconds`.
+/// Returns a function that postpones `action`: the action is called when no call of the function has come for the given
+/// number of milliseconds.
 export function debounced(milliseconds, action) {
     let timer;
     return (...values) => {

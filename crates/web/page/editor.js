@@ -115,7 +115,8 @@ export class Editor {
         this.#view.scrollDOM.scrollTop = 0;
     }
 
-    /// Undoes or redoes a change for a key that no text field gets. Returns whether the text has changed.
+    /// Handles the keys of undo and redo if the focus is not in the editor, an input or a dialog. Returns whether the
+    /// text has changed.
     undoOutside(event) {
         const key = (event.ctrlKey || event.metaKey) && !event.altKey ? event.key.toLowerCase() : "";
         if (!["y", "z"].includes(key) || event.defaultPrevented ||
@@ -148,7 +149,7 @@ export class Editor {
         return true;
     }
 
-    /// Adds a step after the first `count` steps as written. Returns false if there are fewer steps.
+    /// Inserts a step after the first `count` steps of the text. Returns false if the text has fewer steps.
     insertStep(step, count) {
         const place = outline(this.text).steps[count - 1];
         if (!place) {

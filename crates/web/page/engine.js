@@ -88,7 +88,7 @@ export class Engine {
         }
     }
 
-    /// Starts another engine after a trap.
+    /// Starts a new engine after the old engine has stopped with an error.
     #stopped(error) {
         this.#end(new Error(`The engine stopped (${error}), probably because memory is exhausted. The engine was started again.`));
         this.#start().catch(() => {});
@@ -133,7 +133,7 @@ export class Engine {
         try {
             await (this.#worker && this.#call("write", path, bytes));
         } catch (error) {
-            // The next worker gets all files.
+            // If the worker was ended, this is not an error, because the next worker gets all files.
             if (!(error instanceof Ended)) {
                 this.files.delete(path);
                 throw error;
@@ -147,7 +147,7 @@ export class Engine {
         try {
             await (this.#worker && this.#call("remove", path));
         } catch (error) {
-            // The next worker does not get the file.
+            // If the worker was ended, this is not an error, because the next worker does not get the removed file.
             if (!(error instanceof Ended)) {
                 throw error;
             }
@@ -174,9 +174,10 @@ export class Engine {
         return this.#call("run", recipe, set);
     }
 
-    /// Runs a recipe up to a step of the list that `check` returns, counted from 1. The steps that the engine has the
-    /// results of do not run again. Returns the result, and the number of steps of the text that have run: a `Call`,
-    /// `Repeat` or `If` is one step of the text, and stands for several steps of the list or for none.
+    /// Runs a recipe up to a step. `number` is the place of this step in the list that `check` returns, and counts from
+    /// 1 on. If the engine still has the result of a step, this step does not run again. Returns the result, and the
+    /// number of steps of the text that have run. This number can differ from `number`: a `Call`, `Repeat` or `If` is
+    /// one step of the text, but several steps of the list or none.
     async runTo(number, recipe, set) {
         let [written, most] = [1, outline(recipe).steps.length];
         while (written < most) {

@@ -88,7 +88,7 @@ export class Files {
                 continue;
             }
             const bytes = new Uint8Array(await file.arrayBuffer());
-            // Not awaited, since the worker may be busy.
+            // The code does not wait for the worker here, because the worker may be busy.
             this.#engine.write(name, bytes).catch((error) => notify(error.message));
             added.push([name, bytes]);
         }
@@ -143,7 +143,7 @@ export class Files {
             "Steps such as Save(path: \"a.obj\") write files, which can be downloaded here.")]);
     }
 
-    /// Disables the downloads while the engine has only the results up to a step.
+    /// Disables the downloads. Used when the engine has run only some of the steps, and so does not have all outputs.
     lock() {
         for (const button of byId("outputs").querySelectorAll("button")) {
             button.disabled = true;

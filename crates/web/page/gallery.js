@@ -21,7 +21,7 @@ async function fetched() {
     return response.json();
 }
 
-/// Returns the files of the scenes that a recipe names: `[path, bytes]`.
+/// Returns those files of the gallery that a recipe names, as a list of `[path, bytes]`.
 export async function namedFiles(recipe) {
     if (!/"(assets|lib)\//.test(recipe)) {
         return [];

@@ -92,8 +92,8 @@ engine.onEvent = (event) => {
     }
 };
 
-/// Checks the recipe. If a recipe is running, the check starts after that run. With `keepSteps`, the steps of the last
-/// run stay.
+/// Checks the recipe. If a recipe is running, the check starts after that run. With `keepSteps`, the list still shows
+/// the steps of the last run.
 async function check(keepSteps = false) {
     if (running) {
         checkAgain = true;
@@ -189,7 +189,8 @@ async function chooseStep(number, line) {
     }
 }
 
-/// Runs the recipe up to a step, and shows the meshes after this step. The engine still has the results of these steps.
+/// Runs the recipe up to a step, and shows the meshes after this step. Steps whose results the engine still has do not
+/// run again.
 async function showStep(number) {
     setRunning(true);
     showing = true;
@@ -215,7 +216,7 @@ async function showStep(number) {
     ended();
 }
 
-/// Returns the text and the values as one key.
+/// Returns the text and the values as one string, by which runs are compared.
 function current() {
     return JSON.stringify([editor.text, parameters.values]);
 }
@@ -268,8 +269,8 @@ function write(needed) {
     files.show();
 }
 
-/// Runs the recipe that was just opened. If its last run has not ended, the recipe may be one that exhausts the memory,
-/// so it is only checked.
+/// Runs the recipe that was just opened. If the last run of this recipe did not end, it may have exhausted the memory.
+/// The recipe is then only checked.
 function runOpened() {
     trusted = !isUnfinished(current());
     if (trusted) {
@@ -354,7 +355,8 @@ function listen() {
     byId("save-recipe").addEventListener("click", () => download("recipe.ron", editor.text, "text/plain"));
     document.querySelector("nav").addEventListener("click", ({ target }) => target.dataset.tab && showTab(target.dataset.tab));
     addEventListener("hashchange", openShared);
-    // The visitor leaves the page, so it was not the run that ended it.
+    // If the visitor leaves the page during a run, the run counts as ended, because the run did not cause the end of
+    // the page.
     addEventListener("pagehide", () => running && runEnds());
     addEventListener("keydown", (event) => {
         if (event.key === "Enter" && (event.ctrlKey || event.metaKey) && !event.defaultPrevented) {

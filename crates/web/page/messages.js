@@ -8,7 +8,8 @@ const IN_PAGE = [
     [" or the memory budget (`--budget`)", ""],
 ];
 
-/// Returns problems with messages for the page. A command that the page cannot replace is named as one of the program.
+/// Returns the problems with messages that fit the page. If the page has nothing that replaces a command, the message
+/// says that the command belongs to the command-line program.
 export function inPage(problems) {
     return problems.map((problem) => ({ ...problem, message: translated(problem.message), help: problem.help && translated(problem.help) }));
 }

@@ -1,5 +1,5 @@
-// The search field of the reference of operations: it hides the operations, and the types of their parameters, that do
-// not contain all of its words in their name or summary.
+// The search field of the reference of operations. The reference lists operations, and the types of their parameters.
+// An entry is hidden if its name and summary do not contain all words of the search field.
 const field = document.querySelector("#search");
 const entries = [...document.querySelectorAll("h2")].map((heading) => {
     const parts = [heading];

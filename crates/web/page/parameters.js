@@ -4,7 +4,7 @@ import { byId, element } from "./dom.js";
 export class Parameters {
     /// The values that the visitor has set, by the names of the parameters.
     values = {};
-    /// The declarations of the inputs.
+    /// The presets and parameters for which the inputs were made, as JSON.
     #declared = "[]";
 
     /// `onChange` is called after a value has changed, and `onPreset` with the name of a preset that was chosen.
@@ -24,7 +24,8 @@ export class Parameters {
         this.onChange();
     }
 
-    /// Shows inputs for the parameters of a checked recipe, and the names of its presets. Inputs in use are kept.
+    /// Shows inputs for the parameters of a checked recipe, and the names of its presets. If the
+    /// presets and the parameters are the same as before, an input that the visitor is using keeps its value.
     show(parameters, presets) {
         for (const name of Object.keys(this.values)) {
             if (!parameters.some((parameter) => parameter.name === name)) {

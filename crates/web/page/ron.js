@@ -65,8 +65,9 @@ export function around(text, position) {
     return stack;
 }
 
-/// Returns the position after the last step of a recipe, whether a comma comes before that position, and whether there
-/// is a step; `null` if there are no steps.
+/// Returns where another step can be added to the list of steps. `end` is the position after the last step and its
+/// comma, `comma` says whether there is such a comma, and `empty` says whether the list has no steps. Returns `null` if
+/// the recipe has no list of steps.
 export function endOfSteps(text) {
     let depth = 0;
     let before = [];
@@ -89,8 +90,9 @@ export function endOfSteps(text) {
     return null;
 }
 
-/// Returns where the steps and the expectations of a recipe are: `steps` has the start and the end of each step, and
-/// `expect` those of the field `expect` with its comma; `null` if there is no such field.
+/// Returns the places of the steps and the expectations of a recipe. `steps` has the start and the end of each step.
+/// `expect` has the start and the end of the field `expect`, including its comma. It is `null` if there is no such
+/// field.
 export function outline(text) {
     const steps = [];
     let expect = null;
@@ -134,8 +136,8 @@ export function cut(text, count) {
     return removed.reduce((left, [start, end]) => left.slice(0, start) + left.slice(end), text);
 }
 
-/// Returns the index of the step at a position: the last step that starts before the position or on its line, and does
-/// not end before it; `null` if there is none.
+/// Returns the index of the step at a position. This is the last step that starts before the position or on its line,
+/// if the step does not end before the position. Returns `null` if there is no such step.
 export function stepAt(text, position) {
     const { steps } = outline(text);
     const line = text.lastIndexOf("\n", position - 1) + 1;

@@ -219,7 +219,8 @@ export class Stage {
             const isForPicked = target.selectedOptions[0].parentElement.label.startsWith("Picked");
             target.value = "";
             if (!isForPicked) {
-                // A step for the whole mesh often gives the numbers to other elements.
+                // After a step for the whole mesh, the numbers often belong to other elements. So no elements stay
+                // picked.
                 this.#select([]);
             }
             this.#addStep(step);

@@ -2,7 +2,7 @@
 import { byId, element } from "./dom.js";
 import { outline, stepAt, written } from "./ron.js";
 
-/// Values with more numbers, such as lists of points, have no inputs.
+/// The maximum number of inputs for a value. A value with more numbers, such as a list of points, has no inputs.
 const MAX_NUMBERS = 4;
 
 export class StepForm {
@@ -48,7 +48,8 @@ export class StepForm {
         });
     }
 
-    /// Returns the inputs for a field. `place` is where the value is or would be written: `{ from, to, before }`.
+    /// Returns the inputs for a field. `place` is `{ from, to, before }`: the range of the text that a new value
+    /// replaces, and the text that must be written before the value.
     #needed(field, step) {
         const { name, names, type, standard } = field;
         const parts = names.map((other) => step.fields.get(other)).find(Boolean);

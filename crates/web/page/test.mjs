@@ -89,7 +89,7 @@ async function downloaded(page, action) {
     return readFileSync(await (await waiting).path());
 }
 
-/// Returns the number of vertices that are outside of the view. Runs in the page.
+/// Returns the number of vertices that are outside of the view. This function is evaluated in the page.
 function outside() {
     const { view, meshes: [mesh] } = meshwright.stage;
     const box = document.querySelector("#canvas").getBoundingClientRect();
@@ -105,7 +105,7 @@ const tests = {
         console.log(`  load and first picture: ${Math.round(performance.now() - page.begin)} ms`);
         await ready(page);
         assert.equal(await text(page, "#met"), "3 of 3 met");
-        // The check after the delay of typing keeps what the run has shown.
+        // Shortly after the run, the page checks the text. This check must not remove the results of the run.
         await page.waitForTimeout(300);
         assert.match(await text(page, "#summary"), /^6 of 6 steps/);
         await screenshot(page, "first");
@@ -122,7 +122,8 @@ const tests = {
         assert.equal(await page.locator("#expectations .unmet").count(), 0);
         await screenshot(page, "teapot");
         const output = await downloaded(page, () => page.getByRole("button", { name: "Download teapot.png" }).click());
-        // The provenance in the file differs, the size does not. The recipe itself compares the pixels.
+        // The provenance in this file and in the stored file differs, but both files have the same size. The recipe
+        // itself compares the pixels.
         assert.equal(output.length, readFileSync(join(root, "scenes/assets/goldens/teapot.png")).length);
         // The gallery replaces the text as one change.
         await page.locator(".cm-content").click();
@@ -148,7 +149,7 @@ const tests = {
         await faces(24);
         await page.keyboard.press("Control+z");
         await faces(6);
-        // The first text of the page stays.
+        // Undo does not remove the first text of the page.
         for (let i = 0; i < 5; i += 1) {
             await page.keyboard.press("Control+z");
         }
@@ -245,7 +246,7 @@ const tests = {
         await page.waitForFunction(() => /Reset/.test(document.querySelector("#parameters").innerText)
             && document.querySelector("#steps tr:nth-child(9) td:nth-child(4)").textContent === "216");
         assert.equal(await page.locator("#parameter-levels").inputValue(), "1");
-        // A shared recipe has the value, and the same digest.
+        // If the shared recipe is opened, it has the value of the slider, and the same digest.
         const digest = await text(page, "#digest");
         await page.locator("#share").click();
         await page.waitForSelector("#link:visible");
@@ -269,7 +270,7 @@ const tests = {
         await screenshot(page, "dropped");
         await page.getByRole("button", { name: "Remove roof.obj" }).click();
         await page.waitForSelector("#problem-list .error");
-        // The view still has the mesh, and its colors.
+        // The view still shows the mesh, and can color it by another quantity.
         await page.locator("#color-by").selectOption({ label: "area" });
         await page.waitForFunction(() => document.querySelector("#legend").textContent.startsWith("area"));
         assert.equal(await page.locator("#notice").isVisible(), false);
@@ -358,7 +359,7 @@ const tests = {
         const picture = () => downloaded(page, () => page.locator("#save-picture").click());
         const isPng = (bytes) => bytes.subarray(0, 8).equals(Buffer.from("\x89PNG\r\n\x1a\n", "latin1"));
         assert(isPng(await picture()));
-        // The engine renders patches.
+        // The view does not show patches, so the engine renders the picture of this recipe.
         await page.locator("#open-gallery").click();
         await page.getByRole("button", { name: "teapot" }).click();
         await page.waitForSelector("#digest-part:visible");
@@ -407,7 +408,7 @@ const tests = {
         }));
         await reference.evaluate(() => document.querySelector("#flipedges").scrollIntoView());
         await screenshot(reference, "operations");
-        // The words of a search are in the name or in the summary.
+        // The search finds an operation if its name or its summary contains all words.
         const entries = () => reference.locator("body > ul:first-of-type > li:visible a").allInnerTexts();
         const all = (await entries()).length;
         assert.equal(await text(reference, "#found"), `${all} of ${all} operations`);
@@ -428,7 +429,7 @@ const tests = {
         await write(page, "(recipe: 1, steps: [\n    Cube(name: \"cube\", triangles: true),\n])");
         await run(page);
         await page.getByLabel("Edge", { exact: true }).check();
-        // The edge of the front and the right side, which the camera sees.
+        // The edge between the front and the right side of the cube, which is visible from the camera.
         const [v, w, x, y] = await page.evaluate(() => {
             const { view, meshes: [mesh] } = meshwright.stage;
             const corners = [0, 1, 2, 3, 4, 5, 6, 7].filter((i) => mesh.positions[3 * i] > 0 && mesh.positions[3 * i + 2] > 0);
@@ -450,7 +451,7 @@ const tests = {
         } else {
             console.log("  the program is not built, so its digest is not compared");
         }
-        // Picked by its number, for people who use no mouse.
+        // The edge is picked by its number, as people without a mouse do.
         await page.locator("#number").fill("0");
         const flipped = await downloaded(page, () => page.getByRole("button", { name: "Download flipped.obj" }).click());
         await page.locator("#add-step").selectOption({ label: "SplitEdges" });
@@ -532,7 +533,7 @@ const tests = {
         await screenshot(page, "compared");
         await compare(0);
         assert.equal(await picture(), after);
-        // Another recipe is not compared.
+        // The meshes of another recipe are not compared with these meshes.
         await page.locator("#open-gallery").click();
         await page.locator("#scenes button").first().click();
         await page.waitForSelector("#run:visible");
@@ -591,7 +592,7 @@ const tests = {
         await color("mean curvature");
         assert.match(await text(page, "#legend"), /^mean curvature\n-[\d.]+\n[\d.]+$/);
         await screenshot(page, "colors");
-        // The next run keeps the choice, unless its meshes do not have the quantity.
+        // The next run keeps the chosen quantity if its meshes have this quantity.
         await color("bend");
         await write(page, "(recipe: 1, steps: [Cube()])");
         await run(page);
@@ -617,7 +618,7 @@ const tests = {
             await page.reload();
             await ready(page);
             assert.equal(await page.evaluate(() => meshwright.editor.text), recipe);
-            // It runs at once.
+            // The recipe of the link has run without a click on Run.
             assert.match(await text(page, "#digest"), /^[0-9a-f]{32}$/, `${name}:\n${recipe}`);
         }
     },
@@ -648,7 +649,7 @@ const tests = {
         }
         assert.match(await text(page, "#stage-note"), /it was not run: absent.obj/);
         assert.equal(await page.locator("main img[onerror], main script, main b").count(), 0);
-        // Links do not replace the visitor's own text, as long as they are not edited.
+        // The recipe of a link does not replace the visitor's own text before the visitor edits it.
         await page.goto(`${origin}/?again`);
         await ready(page);
         assert.match(await page.evaluate(() => meshwright.editor.text), /jack/);
@@ -667,7 +668,7 @@ const tests = {
         await write(page, "(recipe: 1, steps: [Cube(name: \"a\"), Triangulate(), LoopSubdivide(levels: 9)])");
         await page.locator("#run").click();
         await page.waitForSelector("#steps tr:nth-child(5).running");
-        // A run that the visitor leaves runs again.
+        // If the visitor leaves the page during a run, the recipe runs again at the next visit.
         await page.reload();
         await page.waitForSelector("#steps tr:nth-child(5).running");
         await page.locator("#cancel").click();
@@ -698,15 +699,15 @@ const tests = {
         await shown("After step 1 of 4: Cube");
         assert.equal(await faces(), 6);
         assert.equal(await page.locator("#steps tr.shown").count(), 1);
-        // The cube is larger than the meshes at the end, and in the view.
+        // The cube is larger than the meshes after the last step. The camera has moved so that the cube fits the view.
         assert.equal(await page.evaluate(outside), 0);
         await screenshot(page, "step");
-        // The recipe and the results of the run stay.
+        // The text and the results of the whole run are still shown.
         assert.equal(await page.evaluate(() => meshwright.editor.text), recipe);
         assert.equal(await text(page, "#digest"), digest);
         assert.equal(await page.locator("#problem-list li").count(), 0);
         assert.equal(await page.getByRole("button", { name: "Download a.obj" }).isDisabled(), true);
-        // The second step repeats, so the meshes after all repetitions are shown.
+        // The second step is repeated, so the view shows the meshes after the last repetition.
         await step(2);
         await shown("After step 3 of 4: CatmullClark#2");
         assert.equal(await faces(), 96);
@@ -746,7 +747,8 @@ const tests = {
         await done("ExtrudeFaces\\s*12");
         assert.match(await text(page, "#picked"), /^Face 3: vertices/);
         assert.equal(await page.locator("#number").inputValue(), "3");
-        // An edge keeps its vertices, whatever its number is. The two halves of a split edge are other edges.
+        // A picked edge is identified by its vertices, because its number can change. After the edge is split, no edge
+        // has these vertices.
         await page.getByLabel("Edge", { exact: true }).check();
         await page.locator("#number").fill("0");
         const vertices = (await text(page, "#picked")).match(/vertices \d+ and \d+/)[0];
@@ -756,7 +758,7 @@ const tests = {
         await page.locator("#add-step").selectOption({ label: "SplitEdges" });
         await done("SplitEdges");
         assert.equal(await text(page, "#picked"), "Click an element of a mesh to pick it.");
-        // A step for the whole mesh gives the numbers to other elements.
+        // After a step for the whole mesh, the numbers belong to other elements. So no elements stay picked.
         await page.locator("#number").fill("0");
         await page.locator("#add-step").selectOption("CatmullClark(levels: 2)");
         await done("CatmullClark");
@@ -778,7 +780,7 @@ const tests = {
         await page.getByLabel("by: Distance").fill("3");
         await step("ExtrudeFaces\\(faces: Faces\\(\\[0\\]\\), by: Distance\\(3\\)\\),");
         assert.equal(await top(), 5);
-        // A field that is not written has its default as a placeholder.
+        // The input of a field that the step does not set shows the default value as a placeholder.
         assert.equal(await page.getByLabel("scale").getAttribute("placeholder"), "1");
         await page.getByLabel("scale").fill("0.5");
         await step("by: Distance\\(3\\), scale: 0.5\\),");
@@ -885,7 +887,7 @@ const tests = {
         assert.match(await page.evaluate(() => meshwright.editor.text), /\n    ExtrudeFaces\(faces: Faces\(\[\d, \d\]\), by: Distance\(0.5\)\),\n\]/);
         await page.waitForFunction(() => /ExtrudeFaces\s*1\d/.test(document.querySelector("#steps").textContent));
         await page.waitForSelector("#run:visible");
-        // What was in the view stays in the view, from the same direction.
+        // The larger cube fits the view too, because the camera moves back.
         await write(page, "(recipe: 1, steps: [Cube(name: \"cube\"),\n    Transform(scale: (1.5, 1.5, 1.5)),\n])");
         assert.notEqual(await run(page), "");
         assert.equal(await page.evaluate(outside), 0);
@@ -925,7 +927,8 @@ for (const [name, test] of Object.entries(tests)) {
     await check(name, test);
 }
 
-/// Measures the second run of a step. The name of the object differs, because an equal step would not run again.
+/// Measures a step in the second of two runs. The names of the objects differ, because otherwise the step would not run
+/// in the second run.
 async function longest(page) {
     await ready(page);
     const recipe = (name) => `(recipe: 1, steps: [Cube(name: "${name}"), Triangulate(), LoopSubdivide(levels: 9)])`;
@@ -944,7 +947,7 @@ if (existsSync(join(folder, "threads"))) {
         console.log(`  nine levels of Loop: ${Math.round(await longest(page))} ms`);
         const [threads, processors] = await page.evaluate(() => [meshwright.engine.threads, navigator.hardwareConcurrency]);
         assert.equal(threads, Math.min(processors, 16));
-        // The next engine has threads, too.
+        // If the engine is restarted, it has the same number of threads.
         await page.evaluate(() => meshwright.engine.restart());
         assert.equal(await page.evaluate(() => meshwright.engine.threads), threads);
     });

@@ -213,8 +213,8 @@ export class View {
         return true;
     }
 
-    /// Yields the vertices, as one vector that changes. If there are more than `most` vertices, it is enough to use some
-    /// of them.
+    /// Yields vertices of the meshes. If there are more than about `most` vertices, some of them are skipped. All
+    /// vertices are yielded as the same vector object, whose coordinates change.
     *#points(most) {
         const point = new THREE.Vector3();
         for (const { matrixWorld, userData: { mesh: { positions } } } of this.#content.children) {
@@ -239,7 +239,8 @@ export class View {
         return distance;
     }
 
-    /// Makes the current meshes those that were shown before, and moves them by `move`. If `keep` is false, drops them.
+    /// Moves the current meshes by `move`, and keeps them as the meshes that were shown before. If `keep` is false,
+    /// drops the current and the earlier meshes instead.
     #retire(keep, move) {
         for (const child of this.#earlier.children.flatMap((object) => object.children)) {
             child.geometry.dispose();

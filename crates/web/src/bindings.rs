@@ -24,7 +24,7 @@ thread_local! {
     static LISTENER: RefCell<Option<Listener>> = const { RefCell::new(None) };
 }
 
-/// Files in memory, and the scene of the last run. Documented in `meshwright.d.ts`.
+/// Files in memory, and the scene of the last run. `meshwright.d.ts` documents the methods.
 #[wasm_bindgen]
 #[derive(Default)]
 pub struct Session(session::Session);
@@ -201,7 +201,8 @@ pub struct Colored(Colors);
 
 #[wasm_bindgen]
 impl Colored {
-    /// Describes the legend, and the meshes without their colors.
+    /// Returns the legend and a list of the meshes as JSON. For each mesh, the list has the name, and the kind of
+    /// elements that have colors.
     pub fn described(&self) -> String {
         let meshes = self.0.meshes.iter();
         let meshes = meshes.map(|m| serde_json::json!({ "name": m.object, "per": m.per }));
@@ -209,7 +210,7 @@ impl Colored {
         serde_json::json!({ "legend": self.0.legend, "meshes": meshes }).to_string()
     }
 
-    /// The colors of the mesh with this index. These colors can be taken only once.
+    /// The colors of the mesh with this index. The colors of each mesh can be taken once.
     pub fn colors(&mut self, mesh: usize) -> Vec<u8> {
         let mesh = self.0.meshes.get_mut(mesh);
         mesh.map_or_else(Vec::new, |m| std::mem::take(&mut m.colors))

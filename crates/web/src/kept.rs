@@ -23,7 +23,7 @@ pub(crate) struct Kept {
 /// The scenes after the first steps of a recipe.
 #[derive(Debug, Default)]
 struct Scenes {
-    /// `None` for a scene that is not kept.
+    /// The scene after each step. `None` if the scene is not kept.
     after: Vec<Option<Scene>>,
     memory: SceneMemory,
 }
@@ -67,7 +67,8 @@ impl Kept {
         self.steps.iter().map(report).collect()
     }
 
-    /// Keeps the scene after the next step. A step that changes a mesh of a kept scene changes a copy of the mesh.
+    /// Keeps the scene after the next step. The kept scene stays as it is if a later step changes one of its meshes:
+    /// the later step changes a copy of the mesh.
     pub(crate) fn add_scene(&self, scene: &Scene) {
         let mut scenes = self.scenes();
         scenes.after.push(Some(scene.clone()));

@@ -119,9 +119,9 @@ impl Session {
         })
     }
 
-    /// Checks and runs a recipe. Calls `listen` with the events `step`, `progress` (at most ten times per second) and
-    /// `done` of `meshwright run --format json`. If `listen` returns false for an event `progress`, the run is
-    /// canceled.
+    /// Checks and runs a recipe. Calls `listen` with the events `step`, `progress` and `done`, which have the same form
+    /// as in the output of `meshwright run --format json`. At most ten events `progress` are sent per second. If
+    /// `listen` returns false for an event `progress`, the run is canceled.
     ///
     /// The run starts at the first step that differs from the last run or that writes a file. The run starts earlier if
     /// the scene before this step was not kept, or if an expectation must be checked again. The first run after a file
@@ -283,7 +283,7 @@ impl Session {
         recipe::schema(self.engine.registry())
     }
 
-    /// Returns the operations: `name`, `summary` and `example` of each.
+    /// Returns all operations, each with `name`, `summary` and `example`.
     pub fn operations(&self) -> Json {
         let entries = self.engine.registry().entries().iter();
         let described = entries.map(|entry| {

@@ -1,6 +1,6 @@
-// Runs every recipe in scenes/ that tests/digests.txt lists, with its files as bytes: the digests must be the same.
-// Then reads the odd and hostile files of the fuzz tests, none of which may crash the engine, and lists the files that
-// npm would publish: scenes.mjs PACKAGE
+// Runs every recipe in scenes/ that tests/digests.txt lists, and checks that the digests equal those in the list. Then
+// reads the odd and hostile files of the fuzz tests, none of which may crash the engine. At the end, checks which files
+// npm would publish. Usage: scenes.mjs PACKAGE
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { readFileSync, readdirSync } from "node:fs";
@@ -54,7 +54,7 @@ for (const { title, quantity } of colored.quantities()) {
 assert.throws(() => colored.colors({ Attribute: { name: "missing" } }), /missing/);
 colored.free();
 
-// A changed parameter runs the steps from the first one that has it.
+// If a parameter has changed, the steps before the first step that uses the parameter do not run again.
 const slider = await Session.create();
 const twisted = `(recipe: 1, params: { "twist": Float(default: 10), "levels": Int(default: 2) }, presets: { "fine": { "levels": 3 } },
     steps: [Cube(name: "a"), CatmullClark(levels: arg("levels")), Twist(axis: Y, angle: arg("twist"))])`;

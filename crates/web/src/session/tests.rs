@@ -176,7 +176,8 @@ fn cached(result: &Json) -> Vec<bool> {
     steps.iter().map(|step| step["cached"] == true).collect()
 }
 
-/// Runs a recipe in a session that has run before and in a new one, and compares the results.
+/// Runs a recipe in a session that has kept results and in a new session, checks that the results are equal, and
+/// returns them.
 fn run_as_new(session: &mut Session, text: &str) -> Json {
     let result = run(session, text);
     let mut new = Session::new();

@@ -39,8 +39,8 @@ impl Player {
         &self.scene
     }
 
-    /// Returns the object and the edge of the edit that was done last. Before the first edit, returns those of the next
-    /// edit. `None` if the edit has removed the edge.
+    /// Returns the edge of the edit that was done last, and the name of its object. Before the first edit, returns the
+    /// edge of the next edit. Returns `None` if the edit has removed the edge, or if the edit moves vertices.
     pub(crate) fn edge(&self) -> Option<(&str, EdgeId)> {
         let edge = self.shown()?.edge?;
         (self.play.mesh().has_edge(edge)).then_some((self.object.as_str(), edge))

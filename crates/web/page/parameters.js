@@ -24,8 +24,8 @@ export class Parameters {
         this.onChange();
     }
 
-    /// Shows inputs for the parameters of a checked recipe, and the names of its presets. If the
-    /// presets and the parameters are the same as before, an input that the visitor is using keeps its value.
+    /// Shows inputs for the parameters of a checked recipe, and the names of its presets. If the presets and the
+    /// parameters are the same as before, an input that the visitor is using keeps its value.
     show(parameters, presets) {
         for (const name of Object.keys(this.values)) {
             if (!parameters.some((parameter) => parameter.name === name)) {

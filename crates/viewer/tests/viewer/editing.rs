@@ -64,7 +64,7 @@ fn a_cube_is_edited_by_clicks_and_keys_and_its_recipe_replays_to_the_same_digest
         window.text()
     );
 
-    // A slider of the parameters of the step.
+    // The panel of the step has a slider for `levels`.
     window
         .harness
         .get_by_role_and_label(Role::Slider, "levels")

@@ -136,7 +136,7 @@ fn every_widget_of_the_window_has_a_label() {
             .collect()
     };
     assert_eq!(unnamed(&window), [""; 0]);
-    // The panels of steps with many kinds of parameters, and the dialogs.
+    // The keys open panels with many kinds of parameters, and the dialogs. All their widgets must have names, too.
     for key in [Key::F, Key::L, Key::I, Key::H] {
         window.press(key);
         assert_eq!(unnamed(&window), [""; 0], "after {key:?}");

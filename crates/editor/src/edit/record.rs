@@ -1,4 +1,4 @@
-//! Records a test: adds expectations to the recipe, such as its number of faces, that its scene meets at present.
+//! Records a test: adds expectations, such as the present number of faces, to the recipe.
 
 use engine::{FileReader, Silent};
 use op::Files;

@@ -158,8 +158,7 @@ impl Runner {
         (*of == number).then(|| progress.clone())
     }
 
-    /// Sets the files whose changes are reported. With each file, the list has the stamp that the editor has seen last.
-    /// A change is reported when the current stamp of a file differs from this stamp.
+    /// Sets the files whose changes are reported. Each file has the stamp that the editor has seen last.
     pub(crate) fn watch(&self, files: Vec<(PathBuf, String)>) {
         self.shared.lock().watched = files;
     }

@@ -107,7 +107,7 @@ fn picked_elements_go_only_to_the_first_selection() {
         steps(&smooth),
         "Smooth(vertices: Vertices([2]), by: Taubin())"
     );
-    // If the command sets `vertices`, the picked vertex does not become the value of the other selection `pin` either.
+    // If the command sets `vertices`, the picked vertex does not become the value of `pin` instead.
     assert_eq!(
         steps(&smooth.with("vertices", "Boundary")),
         "Smooth(by: Taubin(), vertices: Boundary)"

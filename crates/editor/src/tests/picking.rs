@@ -6,8 +6,8 @@ use scene::{Object, Scene};
 use crate::select::propose_one;
 use crate::{Area, Indexes, PickMode, Picked, Projection, keep_visible, pick, pick_area, propose};
 
-/// Returns the projection of a camera at z = 5 that looks along -z. The square from (-1, -1) to (1, 1) in the plane z =
-/// 0 is 800 pixels wide.
+/// Returns a parallel projection that looks along -z. In the view, the square from (-1, -1) to (1, 1) is 800 pixels
+/// wide.
 fn front() -> Projection {
     // The depth is 0 at z = 5 and 1 at z = -5.
     let to_clip = DMat4::from_cols(

@@ -90,8 +90,8 @@ fn a_proposal_means_exactly_the_picked_elements_and_fails_closed() {
     let [v, w] = mesh.edge_vertices(inner).map(mesh::VertexId::index);
     let loops = text(&format!("EdgeLoop(Between({v}, {w}))"), ElementKind::Edges);
     assert!(loops.contains("EdgeLoop("), "{loops}");
-    // If only a long list of indices describes the elements, an additional step gives them a tag, and the selection uses
-    // this tag.
+    // If only a long list of indices describes the elements, an additional step gives them a tag, and the selection
+    // uses this tag.
     for (kind, operation) in [
         (ElementKind::Vertices, "TagVertices"),
         (ElementKind::Edges, "TagEdges"),

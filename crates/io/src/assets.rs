@@ -109,19 +109,19 @@ pub struct FileDependency {
     /// The path of the file.
     pub path: PathBuf,
     /// True if the program read the file or tried to read it, false if the program only checked whether the file
-    /// exists. If the value is true, the file can still be missing, because a failed attempt to read the file also
-    /// counts.
+    /// exists. Because failed attempts to read a file also set the flag, the file can be missing even if the flag is
+    /// true.
     pub is_read: bool,
 }
 
-/// Gives access to the files to which the requested file (the model that is read or written) refers, and records which
-/// files were accessed.
+/// Opens the files that the model file refers to, and records which files were opened. The model file is the file that
+/// the caller asked to read or write.
 pub(crate) struct Assets<'a> {
     store: &'a dyn Store,
-    /// The path of the requested file.
+    /// The path of the model file.
     pub(crate) path: &'a Path,
-    /// Folders that are searched for images before the folder of the requested file is searched. Their paths are
-    /// relative to the folder of the requested file.
+    /// Folders that are searched for images before the folder of the model file is searched. Their paths are relative
+    /// to the folder of the model file.
     pub(crate) image_folders: Vec<PathBuf>,
     seen: BTreeSet<FileDependency>,
 }
@@ -136,7 +136,7 @@ impl<'a> Assets<'a> {
         }
     }
 
-    /// Joins the folder of the requested file and a path that was returned by [`inside`] or [`inside_uri`].
+    /// Appends a path that was returned by [`inside`] or [`inside_uri`] to the folder of the model file.
     pub(crate) fn place(&self, name: &Path) -> PathBuf {
         folder_of(self.path).join(name)
     }
@@ -157,7 +157,7 @@ impl<'a> Assets<'a> {
     /// # Errors
     ///
     /// Returns an error if the file is missing or is not a regular file, or if a link in its path leads out of the
-    /// folder.
+    /// folder of the model file.
     pub(crate) fn read(&mut self, name: &Path, limit: u64) -> io::Result<Vec<u8>> {
         let path = self.place(name);
         self.seen.insert(FileDependency {
@@ -178,7 +178,7 @@ impl<'a> Assets<'a> {
         self.store.read_up_to(&real, limit).map_err(because)
     }
 
-    /// The files that were accessed, sorted by path.
+    /// The files that were read, or whose existence was checked, sorted by path.
     pub(crate) fn into_files(self) -> Vec<FileDependency> {
         self.seen.into_iter().collect()
     }

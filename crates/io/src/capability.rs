@@ -1,5 +1,5 @@
-//! Defines what each format can store. The writers use these definitions. The program also uses them to check a recipe
-//! before the recipe runs.
+//! Defines which content each format can store. The writers use these definitions, and the program uses them to check a
+//! recipe before it runs the recipe.
 
 use mesh::{COLOR, CORNER_NORMAL, Domain, MATERIAL, SMOOTHING, UV, VERTEX_NORMAL, Values, counted};
 
@@ -12,7 +12,7 @@ use crate::{Format, Rows, gltf};
 pub enum Storage {
     /// Nothing.
     Lost,
-    /// Everything, a part or nothing, depending on the values.
+    /// All values, some values or no value, depending on the values themselves.
     Partial,
     /// All finite values.
     Kept,
@@ -39,9 +39,9 @@ impl Stored<'_> {
         }
     }
 
-    /// Returns how much of an attribute is stored. Only the type of `values` is used. If `values` is `None`, the
-    /// attribute is assumed to have the usual type of attributes with this name. If there is no usual type, and
-    /// different types would give different results, returns [`Storage::Partial`].
+    /// Returns how much of an attribute the format stores. Of `values`, only the type is used. If `values` is `None`,
+    /// the attribute is assumed to have the usual type of attributes with this name. If attributes with this name have
+    /// no usual type, the result is [`Storage::Partial`] unless it is the same for all types.
     pub fn storage(&self, domain: Domain, name: &str, values: Option<&Values>) -> Storage {
         let of_type = |values: &Values| self.storage_of(domain, name, values);
         if let Some(values) = values {
@@ -175,8 +175,8 @@ impl Format {
         matches!(self, Self::Gltf | Self::Glb | Self::Stl)
     }
 
-    /// Whether files of this format store the names of several objects. Files of the format `.ply` do not store these
-    /// names. But when several objects are written to such a file, each face gets a tag with the name of its object.
+    /// Whether files of this format store the names of several objects. The result is false for PLY files, although the
+    /// PLY writer gives each face a tag with the name of its object.
     pub const fn keeps_names(self) -> bool {
         !matches!(
             self,

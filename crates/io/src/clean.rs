@@ -87,8 +87,9 @@ fn corners(polygons: &Polygons, f: usize) -> &[u32] {
     &polygons.corners[polygons.offsets[f] as usize..polygons.offsets[f + 1] as usize]
 }
 
-/// Returns the polygons that have repeated corners and at least three other corners. A corner is repeated if it has the
-/// same vertex as the previous corner. Sets the flag of each repeated corner of these polygons in `is_kept` to false.
+/// Returns the polygons that have repeated corners and keep at least three corners without them. A corner is repeated
+/// if it has the same vertex as the previous corner. In `is_kept`, the flag of each repeated corner of these polygons
+/// becomes false.
 fn repeated_corners(polygons: &Polygons, is_kept: &mut Vec<bool>) -> Vec<usize> {
     let kept_in = |corners: &[u32]| {
         let before = corners.iter().cycle().skip(corners.len().max(1) - 1);
@@ -192,8 +193,9 @@ fn sum_of_hashes(corners: &[u32]) -> u64 {
     hashes.fold(corners.len() as u64, u64::wrapping_add)
 }
 
-/// Returns the vertices of the corners in circular order, starting at the vertex with the lowest index. Of its two
-/// neighbors, the one with the lower index comes next.
+/// Rotates the vertices of a polygon so that the vertex with the lowest index comes first, and reverses their order if
+/// that makes the list lexicographically smaller. Polygons with the same vertices in the same or the opposite circular
+/// order give the same list.
 fn canonical(corners: &[u32]) -> Vec<u32> {
     let Some(start) = (0..corners.len()).min_by_key(|&i| corners[i]) else {
         return Vec::new();

@@ -7,7 +7,7 @@ use std::sync::atomic::Ordering::Relaxed;
 use mesh::parallel;
 use mesh::{FaceId, HalfEdgeId, Mesh, Values, VertexId};
 
-/// The maximum number of distinct values at a vertex that a corner is compared with.
+/// The value of a corner is compared with at most this number of distinct values at the same vertex.
 const MAX_COMPARED: usize = 64;
 
 /// Numbers for the distinct values at the corners of each vertex of a mesh. Corners of one vertex with the same value
@@ -19,7 +19,7 @@ pub(crate) struct CornerNumbers {
     same: Vec<AtomicU32>,
     /// The number of each value, stored at the first half-edge that has this value at its vertex. Numbers start at 0.
     numbers: Vec<AtomicU32>,
-    /// The first half-edge with each value. The values are in the order of their numbers.
+    /// For each number, the first half-edge whose value has this number.
     firsts: Vec<HalfEdgeId>,
 }
 
@@ -79,14 +79,14 @@ impl CornerNumbers {
         self.numbers[first as usize].load(Relaxed) as usize
     }
 
-    /// Returns a corner for each value. The values are in the order of their numbers.
+    /// Returns, for each number, the first corner whose value has this number.
     pub(crate) fn firsts(&self) -> &[HalfEdgeId] {
         &self.firsts
     }
 }
 
-/// Returns a value for each vertex. Returns `None` if `same` is false for two corners of a vertex. Vertices without a
-/// corner get zero.
+/// Converts values of corners to values of vertices. Returns `None` if `same` returns false for two corners of a
+/// vertex. A vertex without a corner gets zero.
 pub(crate) fn vertex_values(
     mesh: &Mesh,
     values: &Values,

@@ -10,10 +10,10 @@
 //! | name of an attribute | a number; for a tag, 1 if the element has the tag, otherwise 0 |
 //! | `name[0]`, `name[1]`, ... | the components of a vector |
 //!
-//! Lines end with a line feed, and fields with commas, quotes or line breaks are quoted (RFC 4180). Each number has the
-//! fewest digits from which a reader restores exactly the same 64-bit number. Numbers that are not finite are written
-//! as `nan`, `inf` and `-inf`. If the name of an attribute is already the name of another column, a number is appended
-//! to the name of the attribute.
+//! Lines end with a line feed, and fields with commas, quotes or line breaks are quoted (RFC 4180). Each number is
+//! written with as few digits as possible, but a reader restores exactly the same 64-bit number. Numbers that are not
+//! finite are written as `nan`, `inf` and `-inf`. If the name of an attribute is already the name of another column, a
+//! number is appended to the name of the attribute.
 
 use mesh::{Domain, FaceId, HalfEdgeId, Mesh};
 use scene::{Geometry, Object, Scene};
@@ -75,7 +75,7 @@ pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<SingleFile,
     Ok((out, joined.losses))
 }
 
-/// An object, and the total numbers of vertices and faces of the objects before it.
+/// An object of the scene, with the total number of vertices and the total number of faces of all objects before it.
 struct Part {
     name: String,
     vertices: usize,
@@ -103,8 +103,8 @@ impl Parts {
         Self(scene.objects().iter().map(part).collect())
     }
 
-    /// Returns the part (object) to which the current row belongs. This is the last part for which `has_started` is
-    /// true. If there are several parts, also appends the name of this part to the row.
+    /// Returns the object that contains the vertex or face of the current row, which is the last object for which
+    /// `has_started` returns true. If there are several objects, appends the name of the returned object to the row.
     fn push(&self, out: &mut Vec<u8>, has_started: impl Fn(&Part) -> bool) -> &Part {
         let part = &self.0[self.0.partition_point(has_started) - 1];
         if self.0.len() > 1 {

@@ -1,4 +1,4 @@
-//! The vertices of a file, without the copies of split vertices. When a mesh is not a manifold, a reader splits some
+//! Finds the original vertices of a mesh. If the polygons of a file do not form a manifold, the reader splits some
 //! vertices into an original and copies.
 
 use std::borrow::Cow;
@@ -15,11 +15,10 @@ pub(crate) const COPY_DISTANCE: &str = "distance to the original vertex";
 /// The vertices of a mesh without the copies of split vertices. These are the vertices of the file that the mesh was
 /// read from.
 pub(crate) struct FileVertices {
-    /// Two lists. The first contains the vertices to write. The second contains, for each vertex of the mesh, the index
-    /// with which the vertex is written. `None` if the mesh has no copies.
+    /// Two lists: the vertices that are written, and for each vertex of the mesh, its index in the written file. A copy
+    /// has the same index as its original. `None` if the mesh has no attribute [`COPY_DISTANCE`].
     originals: Option<(Vec<u32>, Vec<u32>)>,
-    /// For each copy, a pair of indices: the index with which the copy is written, and the index of the copy in the
-    /// mesh. The pairs are sorted.
+    /// For each copy, its index in the written file and its index in the mesh. The pairs are sorted.
     copies: Vec<(u32, u32)>,
     n: usize,
 }
@@ -62,7 +61,7 @@ impl FileVertices {
         !self.copies.is_empty()
     }
 
-    /// Returns the vertices of the mesh that are written with index `i`: the original, then its copies.
+    /// Returns the vertices of the mesh that become vertex `i` of the written file: the original, then its copies.
     pub(crate) fn all(&self, i: usize) -> impl Iterator<Item = VertexId> {
         let start = self.copies.partition_point(|(k, _)| (*k as usize) < i);
         let copies = self.copies[start..].iter();
@@ -78,12 +77,12 @@ impl FileVertices {
         self.has_copies() && self.vertex(self.number(v)) != v.index()
     }
 
-    /// The number of vertices to write.
+    /// The number of vertices in the written file.
     pub(crate) fn len(&self) -> usize {
         self.n
     }
 
-    /// The vertex of the mesh that is written with index `i`.
+    /// The original vertex of the mesh that becomes vertex `i` of the written file.
     pub(crate) fn vertex(&self, i: usize) -> usize {
         match &self.originals {
             Some((written, _)) => written[i] as usize,
@@ -91,7 +90,7 @@ impl FileVertices {
         }
     }
 
-    /// Returns the index with which a vertex of the mesh is written.
+    /// Returns the index of a vertex of the mesh in the written file.
     pub(crate) fn number(&self, v: VertexId) -> usize {
         match &self.originals {
             Some((_, numbers)) => numbers[v.index()] as usize,

@@ -1,4 +1,4 @@
-//! The table of formats: names, extensions, and which formats can be written.
+//! The table of formats: their names, their extensions, and whether files can be read and written.
 
 use std::fmt;
 use std::path::Path;
@@ -16,11 +16,11 @@ pub enum Format {
     Obj,
     /// glTF 2.0 as JSON text. Binary data is inside the text or in a separate file.
     Gltf,
-    /// glTF 2.0 in one binary file.
+    /// glTF 2.0 as one binary file.
     Glb,
-    /// Stanford PLY: polygons with any properties, as text or binary.
+    /// Stanford PLY: polygons with any properties, in text or binary files.
     Ply,
-    /// STL: triangles without connectivity, as text or binary.
+    /// STL: triangles without connectivity, in text or binary files.
     Stl,
     /// Object file format (Geomview): polygons as text.
     Off,
@@ -86,7 +86,7 @@ impl Format {
         !matches!(self, Self::Dae)
     }
 
-    /// Whether meshes in files of this format can be compressed and quantized. True for the two glTF formats.
+    /// Whether the writer of this format can compress and quantize meshes. True for `.gltf` and `.glb`.
     pub const fn packs(self) -> bool {
         matches!(self, Self::Gltf | Self::Glb)
     }

@@ -20,8 +20,8 @@ pub(crate) fn is_compressed(path: &Path) -> bool {
         .is_some_and(|e| e.eq_ignore_ascii_case("gz"))
 }
 
-/// Returns the path without `.gz`. This path determines the format, the name of the object and the names of additional
-/// files.
+/// Returns the path without `.gz`. The returned path determines the format of the file, the name of its object, and the
+/// names of additional files such as material libraries.
 pub(crate) fn plain(path: &Path) -> Cow<'_, Path> {
     if is_compressed(path) {
         Cow::Owned(path.with_extension(""))
@@ -44,7 +44,8 @@ pub(crate) fn unpacked(path: &Path, bytes: Vec<u8>, most: u64) -> Result<Vec<u8>
         message,
     };
     let mut out = Vec::new();
-    // Memory is allocated only for content that was decompressed, so a wrong size that the file declares has no effect.
+    // Memory is allocated while the content is decompressed. The size that the file declares is not used, because it
+    // can be wrong.
     let mut decoder = MultiGzDecoder::new(&bytes[..]).take(most.saturating_add(1));
     let read = decoder.read_to_end(&mut out);
     read.map_err(|why| error(format!("the compressed content is damaged: {why}")))?;

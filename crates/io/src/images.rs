@@ -71,8 +71,8 @@ pub(crate) fn load(objects: &mut [Object], assets: &mut Assets, most: u64, notes
     notes.left_out("image-missing", n_further, None, what);
 }
 
-/// Adds the same notes about missing images as [`load`], without reading images. `paths` are the paths of the image
-/// files that materials refer to.
+/// Adds the notes about missing images that [`load`] would add, without reading images. `paths` are the paths of the
+/// image files that materials refer to.
 pub(crate) fn note_missing<'p>(
     paths: impl IntoIterator<Item = &'p str>,
     assets: &mut Assets,
@@ -128,7 +128,7 @@ fn find(path: &str, assets: &mut Assets, room: &mut u64) -> Result<Image, String
     if media_type(&name, &bytes).is_none() {
         return Err("it is not an image".to_owned());
     }
-    // If the path is relative to the model, it is kept as written in the model.
+    // If the image was found relative to the folder of the model, its path is kept as written in the model.
     let path = if inside(path).as_ref() == Ok(&name) {
         path.to_owned()
     } else {
@@ -144,8 +144,8 @@ fn slashed(path: &Path) -> String {
     parts.collect::<Vec<_>>().join("/")
 }
 
-/// Extensions of image files with their media types. New image files get the first extension that is listed for their
-/// media type.
+/// Extensions of image files with their media types. A new image file gets the first extension in this list that has
+/// the media type of the image.
 const KINDS: [(&str, &str); 16] = [
     ("png", "image/png"),
     ("jpg", "image/jpeg"),
@@ -188,8 +188,8 @@ pub(crate) fn sniffed(bytes: &[u8]) -> Option<&'static str> {
     }
 }
 
-/// A scene, and the image files that must be written with it. For OBJ and glTF, the scene contains either the bytes or
-/// the path of each image.
+/// A scene, and the image files that must be written with it. If the format is OBJ or glTF, each image of the scene is
+/// either embedded or a path, so no image has both bytes and a path.
 pub(crate) struct Settled<'a> {
     pub(crate) scene: Cow<'a, Scene>,
     pub(crate) files: Vec<(PathBuf, Content<'static>)>,
@@ -274,8 +274,8 @@ struct Copies<'a> {
     store: &'a dyn Store,
     /// The file of the model.
     path: &'a Path,
-    /// The paths that are already used, relative to the folder of the model, and the image at each path. The value is
-    /// `None` for a path that belongs to the model itself, such as its `.mtl` file.
+    /// The image at each path that is already used. Paths are relative to the folder of the model. The value is `None`
+    /// if the path belongs to the model itself, such as the path of its `.mtl` file.
     taken: BTreeMap<PathBuf, Option<Arc<[u8]>>>,
     files: Vec<(PathBuf, Content<'static>)>,
     folders: BTreeSet<PathBuf>,
@@ -318,8 +318,8 @@ impl<'a> Copies<'a> {
         Ok(slashed(&name))
     }
 
-    /// Whether the image can have this path: either no file has this path, or the existing file has the same content as
-    /// the image. If no file exists, adds the image to the files to write.
+    /// Whether the image can have this path: no file has this path, or the file with this path has the same content as
+    /// the image. If no file has this path, the image is added to the list of files to write.
     fn is_free(&mut self, name: &Path, bytes: &Arc<[u8]>) -> Result<bool, WriteError> {
         let target = folder_of(self.path).join(name);
         if self.store.exists(&target) {

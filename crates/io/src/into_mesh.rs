@@ -18,9 +18,9 @@ use crate::{NonManifold, Orientation, Policies, Polygons, ReadOptions};
 
 impl Polygons {
     /// Builds a mesh of these polygons, and returns it with the materials. A corner attribute becomes a vertex
-    /// attribute if the corners of each vertex have the same value, and no vertex attribute has the same name. Tangents
-    /// and texture coordinates stay on the corners, and so do the changes of texture coordinates by morph targets. Texture
-    /// coordinates are the attributes whose names begin with `uv`.
+    /// attribute if the corners of each vertex have the same value, and no vertex attribute has the same name. Three
+    /// kinds of attributes always stay on the corners: tangents, texture coordinates, and the changes that morph
+    /// targets make to texture coordinates. Texture coordinates are the attributes whose names begin with `uv`.
     ///
     /// # Errors
     ///
@@ -94,7 +94,8 @@ impl Polygons {
                 source,
             }
         })?;
-        // In the mesh, copies of split vertices come after the original vertices.
+        // The mesh has the copies of split vertices after the original vertices, so the vertex indices of the polygons
+        // are valid in the mesh too.
         let given = PolygonArrays {
             positions: built.mesh.positions(),
             offsets,
@@ -137,7 +138,7 @@ fn mark_copies(built: &mut BuildOutput, n_positions: usize) {
     built.mesh.insert_column(Domain::Vertex, column);
 }
 
-/// For each element of the mesh, the element of the input that its attribute values come from.
+/// For each element of the mesh, the element of the input polygons whose attribute values it gets.
 struct Sources {
     n_positions: usize,
     /// For each copy of a split vertex, the original vertex. Copies come after the original vertices.

@@ -14,15 +14,15 @@ use crate::writing::dense;
 /// The joined mesh of a scene.
 #[derive(Debug)]
 pub(crate) struct Joined<'a> {
-    /// The joined mesh. Elements that were removed from the meshes of the objects are left out. The meshes of several
-    /// objects are appended in order.
+    /// The meshes of all objects, joined in the order of the objects. Elements that were removed from these meshes
+    /// leave no gaps in the arrays.
     pub(crate) mesh: Cow<'a, Mesh>,
     /// The name of the first object. Losses that concern the whole mesh are reported under this name.
     pub(crate) name: String,
     pub(crate) losses: Vec<Loss>,
 }
 
-/// How the names of several objects are handled.
+/// How a writer handles the names of objects when it joins their meshes.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) enum Names {
     /// The names are lost.
@@ -33,7 +33,8 @@ pub(crate) enum Names {
     Kept,
 }
 
-/// Joins the meshes of all objects of a scene for a format. Materials are lost.
+/// Joins the meshes of all objects of a scene for a format that stores one mesh. The joined mesh has no materials, and
+/// each lost material is reported.
 ///
 /// # Errors
 ///

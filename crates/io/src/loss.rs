@@ -24,8 +24,8 @@ pub struct Loss {
     pub reason: String,
 }
 
-/// Names in losses that have a domain but are not the names of attributes. All other losses with a domain are losses of
-/// attributes.
+/// If a loss has a domain, [`Loss::attribute`] is the name of an attribute or one of these names, which are not names
+/// of attributes.
 const NOT_ATTRIBUTES: [&str; 4] = ["influences", "joint weights", "morph targets", "polygon"];
 
 impl Loss {
@@ -145,7 +145,7 @@ impl<'a> Losses<'a> {
         self.add_columns_of_rows(mesh, format, Rows::default(), is_stored);
     }
 
-    /// Like [`add_columns`](Self::add_columns), but for a `.csv` table with these rows.
+    /// Like [`add_columns`](Self::add_columns), but `rows` is the kind of elements that a `.csv` table lists.
     pub(crate) fn add_columns_of_rows(
         &mut self,
         mesh: &Mesh,
@@ -168,7 +168,7 @@ impl<'a> Losses<'a> {
             let column = mesh.attributes().column(Domain::Vertex, name);
             column.is_some_and(|column| !is_stored(Domain::Vertex, column))
         };
-        // All joint attributes are counted as one loss, and all attributes of morph targets as another.
+        // The weights of all joints are reported as one loss, and the deltas of all morph targets as another.
         let joints = mesh.attributes().joints().into_iter();
         let joints: BTreeSet<String> = joints.map(|(joint, _)| joint_name(joint)).collect();
         let morphs = mesh.attributes().morphs().into_iter();

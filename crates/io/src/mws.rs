@@ -38,8 +38,8 @@ pub(crate) fn read(
     })
 }
 
-/// Returns the objects that reading would give, with their element counts. Decodes the whole file, because the file is
-/// refused if any part is invalid.
+/// Returns the objects that reading would give, with their element counts. The whole file is decoded, because reading
+/// refuses a file with an invalid part.
 pub(crate) fn peek(
     bytes: &[u8],
     name: Option<&str>,

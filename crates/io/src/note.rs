@@ -22,9 +22,9 @@ pub struct Note {
     pub line: Option<usize>,
     /// The number of elements, statements or other things that the note is about.
     pub count: usize,
-    /// The text that follows the count, such as `statements 'vp' left out`. The text is in the plural if the count can
-    /// exceed 1. The text names the elements, statements or other things, and says how the reader handled them. If the
-    /// count is 1, [`Display`](fmt::Display) writes the first noun in the singular.
+    /// The text that follows the count, such as `statements 'vp' left out`. It names the counted elements, statements
+    /// or other things, and says how the reader handled them. The text is in the plural if the count can exceed 1. If
+    /// the count is 1, [`Display`](fmt::Display) writes the first noun in the singular.
     pub what: String,
     /// The affected elements of the file, if they are known.
     pub elements: Option<Elements>,
@@ -39,7 +39,7 @@ impl Note {
     pub const MAX_PLACES: usize = 10_000;
 }
 
-/// The polygons of a file, which give the positions of elements.
+/// Polygons, from which the positions of vertices, edges and faces are computed.
 #[derive(Clone, Copy)]
 pub(crate) struct PolygonArrays<'a> {
     /// The position of each vertex.
@@ -165,8 +165,8 @@ const NOUNS: [&str; 62] = [
     "weights",
 ];
 
-/// Returns the text of a note about one thing: `1 mesh left out` instead of `1 meshes left out`. A text that does not
-/// begin with a known plural is unchanged.
+/// Converts the text of a note from the plural to the singular, for example `meshes left out` to `mesh left out`. The
+/// text is unchanged if none of its first three words is one of the [`NOUNS`].
 fn singular(what: &str) -> String {
     let mut words: Vec<String> = what.split(' ').map(str::to_owned).collect();
     let is_noun = |word: &String| NOUNS.contains(&word.as_str());
@@ -208,8 +208,8 @@ fn singular_noun(plural: &str) -> String {
     }
 }
 
-/// The maximum number of notes in the list. All further notes are only counted, because a large file can cause millions
-/// of notes.
+/// The maximum number of notes in the list. Further notes are counted but not listed, because a large file can cause
+/// millions of notes.
 const MAX_LISTED: usize = 1000;
 
 /// Collects the notes about one file while it is read.

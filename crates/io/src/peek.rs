@@ -1,5 +1,5 @@
-//! Counts the content of a file without building its objects. The counts are used to estimate a run of a recipe before
-//! the run starts.
+//! Counts the content of a file without building its objects. The program uses the counts to estimate the time and
+//! memory of a recipe before it runs the recipe.
 
 use std::ops::RangeInclusive;
 
@@ -33,8 +33,9 @@ pub struct PeekObject {
     pub geometry: PeekGeometry,
     /// The names of the materials of the object. `None` if the names are known only after reading.
     pub materials: Option<Vec<String>>,
-    /// The attributes that the mesh can have, apart from those that [`PeekMesh`] describes. If [`PeekMesh::is_exact`]
-    /// is set, these are all attributes of the mesh. `None` if the attributes are known only after reading.
+    /// The attributes that the mesh can have, except those that the flags of [`PeekMesh`] describe. If
+    /// [`PeekMesh::is_exact`] is set, the list contains all attributes of the mesh. `None` if the attributes are known
+    /// only after reading.
     pub attributes: Option<Vec<(Domain, String)>>,
 }
 
@@ -149,7 +150,7 @@ pub struct PeekMesh {
     pub simple_corners: u64,
     /// Whether reading keeps all vertices of the file. Reading can still split some of them.
     pub keeps_vertices: bool,
-    /// Whether reading gives the mesh without any changes, as from `.mws` files.
+    /// Whether the mesh after reading is exactly the mesh in the file. This is the case for `.mws` files.
     pub is_exact: bool,
 }
 
@@ -169,8 +170,8 @@ pub struct PeekRanges {
 /// The vertices of a face are compared with each other only if the face has at most this number of corners.
 pub(crate) const MAX_COMPARED: usize = 16;
 
-/// Whether the words are certainly indices of different elements: they differ from each other, are all positive or all
-/// negative, and have no leading zeros.
+/// Whether the words are certainly indices of different elements. Returns true only if the words differ from each
+/// other, are all positive or all negative, and have no leading zeros.
 pub(crate) fn are_different(words: &[&[u8]]) -> bool {
     let is_index = |digits: &[u8]| {
         digits.first().is_some_and(|&first| first != b'0') && digits.iter().all(u8::is_ascii_digit)
@@ -249,7 +250,7 @@ impl PeekMesh {
         self.simple_corners = self.simple_corners.saturating_add(n.saturating_mul(degree));
     }
 
-    /// Adds the counts of faces and corners of `other`, and extends the range of degrees.
+    /// Adds the counts of faces and corners of `other`, and extends the range of the numbers of corners of a face.
     pub(crate) fn add(&mut self, other: &Self) {
         self.simple_faces = self.simple_faces.saturating_add(other.simple_faces);
         self.simple_corners = self.simple_corners.saturating_add(other.simple_corners);

@@ -18,8 +18,8 @@ pub(crate) struct Placed<'s> {
 /// nodes can reference the same mesh.
 const MAX_PLACED_BYTES: u64 = 1 << 36;
 
-/// Returns the scene for a format. If the format has no nodes, every instance of an object becomes a separate object,
-/// with its points in scene space.
+/// Converts a scene to the form that a format can store. If the format has no nodes, every instance of an object
+/// becomes a separate object, with its points in scene space.
 ///
 /// # Errors
 ///

@@ -1,4 +1,4 @@
-//! Stores polygons with attributes in the same form as in a file.
+//! Stores the polygons of a file with their attributes, before a mesh is built from them.
 
 use glam::{DAffine3, DMat3, DVec3, DVec4};
 use mesh::{
@@ -62,7 +62,7 @@ impl Polygons {
         }
     }
 
-    /// Returns the offsets of `n` polygons of the same degree. The number of corners must fit in 32 bits.
+    /// Returns the offsets of `n` polygons with `degree` corners each. The total number of corners must fit in 32 bits.
     pub(crate) fn even_offsets(n: usize, degree: usize) -> Vec<u32> {
         parallel::collect(n + 1, |f| u32::try_from(f * degree).unwrap_or(u32::MAX))
     }
@@ -130,9 +130,9 @@ impl Polygons {
         gather(&mut self.attributes, Domain::Corner, &order);
     }
 
-    /// Applies the weights of morph targets, and then the joints. If there are no joints, applies `to_scene` in their
-    /// place. Returns the number of normals that are left out. Removes the joint weights, which have no meaning without
-    /// a skin.
+    /// Moves the vertices by the morph targets with their weights, and then by the joints. If the vertices have no
+    /// joints, `to_scene` is applied instead. Removes the joint weights, which have no meaning without a skin. Returns
+    /// the number of normals that are left out.
     pub(crate) fn apply_pose(&mut self, pose: &Pose, to_scene: &DAffine3) -> usize {
         let n = self.positions.len();
         pose.morph(&self.attributes, &mut self.positions);
@@ -220,7 +220,7 @@ impl Polygons {
     }
 }
 
-/// Replaces the values of all columns of a domain: the new value i of a column is its old value at `sources[i]`.
+/// In every column of a domain, the new value with index i is the old value with index `sources[i]`.
 pub(crate) fn gather(attributes: &mut Attributes, domain: Domain, sources: &[u32]) {
     for (of, mut column) in std::mem::take(attributes) {
         if of == domain {

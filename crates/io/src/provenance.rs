@@ -8,7 +8,8 @@ use store::Store;
 
 use crate::{Format, ReadError, gltf, gzip, mws};
 
-/// The number of bytes at the beginning of a file that are searched.
+/// The number of bytes at the beginning of a file in which the provenance is searched. In glTF files, the whole JSON is
+/// searched.
 const HEAD: u64 = 1 << 20;
 /// The maximum number of decompressed bytes of a compressed glTF file that are read.
 const MAX_DOCUMENT: u64 = 1 << 30;

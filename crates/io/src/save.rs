@@ -12,12 +12,12 @@ use mesh::parallel::consume;
 
 /// The content of a file that is about to be written.
 pub(crate) enum Content<'a> {
-    /// Bytes in memory.
+    /// Bytes that only this file uses.
     Bytes(Vec<u8>),
-    /// The bytes of an image.
+    /// The bytes of an image, which are shared with the scene.
     Shared(Arc<[u8]>),
-    /// The bytes that the blocks append, in order. Several blocks at a time are produced while the file is written, so
-    /// a large text is never completely in memory.
+    /// Functions that produce the blocks of the file in order. Only a few blocks are in memory at a time, so even a
+    /// large file takes little memory while it is written.
     Blocks(Vec<Block<'a>>),
 }
 
@@ -30,7 +30,7 @@ pub(crate) type Block<'a> = Box<dyn Fn(&mut Vec<u8>) + Send + Sync + 'a>;
 /// # Errors
 ///
 /// Returns [`WriteError::Io`] with the path of the file that could not be written. After this error, existing files are
-/// unchanged, unless the system failed to rename a file after others were already renamed.
+/// unchanged, unless the system failed to rename a temporary file after it had renamed others.
 pub(crate) fn save(
     store: &dyn Store,
     files: Vec<(PathBuf, Content)>,

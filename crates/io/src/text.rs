@@ -41,8 +41,8 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Creates a cursor for a part of a text file that does not begin at the start of the file. A byte order mark is
-    /// not skipped.
+    /// Creates a cursor for a part of a text file that begins after the start of the file. Unlike [`new`](Self::new),
+    /// this function does not skip a byte order mark.
     pub(crate) fn inside(bytes: &'a [u8]) -> Self {
         Self {
             bytes,
@@ -134,7 +134,7 @@ impl<'a> Cursor<'a> {
         self.argument().unwrap_or((self.place(), b""))
     }
 
-    /// Checks that the line has no more words. `why` is the end of the error message.
+    /// Checks that the line has no more words. `why` is appended to "the end of the line" in the error message.
     ///
     /// # Errors
     ///

@@ -22,13 +22,14 @@ const CHUNK: usize = 1 << 15;
 const BUCKET: usize = 1 << 14;
 const MAX_BUCKETS: usize = 1 << 10;
 
-/// For formats that identify vertices by position: counts the vertices that a reader merges with an earlier vertex.
-/// Only vertices with a face are considered. Positions are rounded to 32 bits before they are compared.
+/// Counts the vertices that a reader of the written file merges with an earlier vertex, for formats whose reader merges
+/// vertices with equal positions. Vertices without a face are not counted, because they are not written. Positions are
+/// compared after they are rounded to 32 bits.
 pub(crate) fn n_merged(mesh: &Mesh) -> usize {
     n_merged_as(mesh, |position| position.as_vec3().as_dvec3())
 }
 
-/// Like [`n_merged`], but positions are rounded by `round` instead of to 32 bits.
+/// Like [`n_merged`], but the function `round` rounds the positions.
 pub(crate) fn n_merged_as(mesh: &Mesh, round: impl Fn(DVec3) -> DVec3 + Sync) -> usize {
     let used = vertices_with_faces(mesh);
     let places = parallel::collect(used.len(), |i| round(mesh.position(VertexId::new(used[i]))));
@@ -53,7 +54,8 @@ fn rounded_places(mesh: &Mesh, vertices: &[usize]) -> Vec<DVec3> {
     })
 }
 
-/// Like [`n_merged`], but for formats whose reader merges vertices only if `compare` also returns `Equal` for them.
+/// Like [`n_merged`], but for formats whose reader merges two vertices only if they have equal positions and `compare`
+/// returns `Equal`.
 pub(crate) fn n_merged_if_equal(
     mesh: &Mesh,
     compare: impl Fn(usize, usize) -> Ordering + Sync,
@@ -74,7 +76,7 @@ pub(crate) fn n_merged_if_equal(
 pub(crate) fn weld(positions: Vec<DVec3>) -> (Vec<DVec3>, Vec<u32>) {
     let mut vertex_of = firsts(&positions);
     let is_first = |i: usize, first: u32| i == first as usize;
-    // For each chunk, the number of positions that do not occur earlier in the list.
+    // For each chunk, the number of positions that are the first occurrence of their value in the whole list.
     let counts = parallel::consume(vertex_of.chunks(CHUNK), |chunk, firsts| {
         let own = (chunk * CHUNK..).zip(firsts);
         own.filter(|&(i, &first)| is_first(i, first)).count()
@@ -110,8 +112,9 @@ pub(crate) fn weld(positions: Vec<DVec3>) -> (Vec<DVec3>, Vec<u32>) {
     (unique, vertex_of)
 }
 
-/// Like [`weld`], but merges positions only if their joint weights and deltas of morph targets are equal. Also merges
-/// the vertex attributes.
+/// Like [`weld`], but merges two vertices only if their values of all vertex attributes are also equal. These
+/// attributes are joint weights and deltas of morph targets. Of the attribute values, only those of the remaining
+/// vertices are kept.
 pub(crate) fn weld_equal(
     positions: &[DVec3],
     attributes: &mut Attributes,
@@ -138,9 +141,9 @@ pub(crate) fn weld_equal(
     (positions.collect(), vertex_of)
 }
 
-/// The elements are already divided into classes, and `classes` contains the class of each element. Splits each class
-/// into smaller classes of elements that are equal according to `compare`. Returns the first element of each smaller
-/// class in ascending order, and for each element, the index of its smaller class in this list.
+/// Divides elements into groups. Two elements are in the same group if they have the same class and `compare` returns
+/// `Equal`. `classes` contains the class of each element. Returns the first element of each group, in ascending order,
+/// and for each element, the index of its group.
 pub(crate) fn split_unequal(
     classes: &[u32],
     compare: impl Fn(usize, usize) -> Ordering + Sync,
@@ -179,7 +182,8 @@ fn firsts(positions: &[DVec3]) -> Vec<u32> {
         .next_power_of_two()
         .min(MAX_BUCKETS);
     let keys = Keys::new();
-    // `sorted` has the positions of each chunk, ordered by bucket. Each position is stored as its hash and its index.
+    // For each chunk, `sorted` contains an entry for each position, ordered by bucket. An entry combines a part of the
+    // hash and the index of the position.
     let mut sorted = mesh::zeroed::<u64>(positions.len());
     let chunks = sorted.chunks_mut(CHUNK).zip(positions.chunks(CHUNK));
     let starts: Vec<Vec<usize>> = parallel::consume(chunks, |chunk, (sorted, positions)| {
@@ -237,7 +241,8 @@ impl Table {
         }
     }
 
-    /// Returns the index of the first position that equals the position of `entry`.
+    /// Returns the index of the first position that was added to the table and equals the position of `entry`. If there
+    /// is none, adds `entry`.
     fn first(&mut self, entry: u64, positions: &[DVec3]) -> u32 {
         let number = low(entry);
         let mut at = low(entry >> self.shift) as usize;
@@ -263,7 +268,8 @@ fn bits(p: DVec3) -> [u64; 3] {
     p.to_array().map(|x| (x + 0.0).to_bits())
 }
 
-/// Random keys of the hash, which protect against files that are crafted so that the hashes of all positions collide.
+/// Random keys of the hash function. They protect against a file that is crafted so that all of its positions have the
+/// same hash.
 struct Keys([u64; 3]);
 
 impl Keys {

@@ -9,7 +9,7 @@ use crate::corners::vertex_values;
 use crate::loss::Losses;
 use mesh::parallel;
 
-/// Returns the mesh itself or, if elements were removed from it, a compacted copy without gaps in its arrays.
+/// Returns the mesh itself if its arrays have no gaps from removed elements. Otherwise, returns a copy without gaps.
 pub(crate) fn dense(mesh: &Mesh) -> Cow<'_, Mesh> {
     if mesh.is_dense() {
         return Cow::Borrowed(mesh);
@@ -51,7 +51,7 @@ pub(crate) fn uvs_of_vertices(mesh: &Mesh, uvs: &Values) -> Option<Values> {
     vertex_values(mesh, uvs, |a, b| bits(a) == bits(b))
 }
 
-/// The reason that is reported when non-finite numbers are lost.
+/// The reason in the report of a loss of non-finite numbers.
 pub(crate) const NOT_FINITE: &str = "non-finite numbers, written as 0";
 
 /// Returns the values of a column, with non-finite values replaced by zero. Adds a loss for the replaced values.

@@ -110,7 +110,7 @@ pub struct PackingReport {
     /// The size in bytes that the files would have without compression and quantization. Copied images are not counted,
     /// and compression with gzip is not considered.
     pub bytes_before: u64,
-    /// The size in bytes of these files as they were written, without copied images and before compression with gzip.
+    /// The size in bytes of the same files with compression and quantization, and also without copied images and gzip.
     pub bytes_after: u64,
     /// The largest distance between a position and its quantized position, in scene units. `None` if no positions are
     /// quantized. If the transform of a node has a shear, this value is an upper bound of the distance.

@@ -13,6 +13,6 @@ pub(super) const BOUND: usize = 50;
 pub(super) const VERTEX: usize = 64;
 pub(super) const CORNER: usize = 48;
 pub(super) const VALUE: usize = 24;
-/// The cost of reading a number. A number that is read several times is counted each time. The cost of numbers limits
-/// time rather than memory.
+/// The cost of reading a number. The cost is subtracted each time the number is read, so the memory budget also limits
+/// the time for reading.
 pub(super) const NUMBER: usize = 20;

@@ -30,7 +30,7 @@ pub(super) fn decoded(bytes: &[u8]) -> Result<Cow<'_, str>, Fault> {
     })
 }
 
-/// Parses `text`. Document type declarations are refused, so the text can use only the five predefined entities of XML.
+/// Parses `text`. Document type declarations are refused, because they can define entities that expand to a huge text.
 ///
 /// # Errors
 ///
@@ -122,8 +122,8 @@ fn place_at(text: &str, at: usize) -> TextPosition {
 /// The code of a note, and the text that follows the count in the message.
 pub(super) type What = (&'static str, &'static str);
 
-/// For each note, the count and the line of the first element that was counted. The key is the kind, the text and the
-/// code of the note.
+/// The notes about the file. The key is the kind, the text and the code of a note. The value is the count of the note
+/// and the line of the first element that was counted.
 type Tally = BTreeMap<(NoteKind, &'static str, &'static str), (usize, usize)>;
 
 /// A parsed COLLADA file, with a map from ids to elements.
@@ -134,8 +134,8 @@ pub(super) struct Document<'a> {
     pub(super) size: usize,
     /// The content that was left out or changed.
     tally: RefCell<Tally>,
-    /// The remaining memory budget of the file in bytes. A file can instantiate a geometry several times, but only
-    /// within this budget.
+    /// The remaining memory budget of the file in bytes. The budget limits how often a file can instantiate the same
+    /// geometry.
     budget: Cell<usize>,
 }
 
@@ -208,12 +208,13 @@ impl<'a> Document<'a> {
         Ok(())
     }
 
-    /// Finds the element that the attribute `key` of `node` refers to by `#id`. The element must be of the given
+    /// Finds the element that the attribute `key` of `node` refers to by `#id`. The name of the element must be in
     /// `kind`. Returns `None` if the attribute refers to another file.
     ///
     /// # Errors
     ///
-    /// Returns an error if the attribute is missing, or refers to an element that is missing or of a different kind.
+    /// Returns an error if the attribute is missing or is not a reference, or if it refers to an element that is
+    /// missing or has a different name.
     pub(super) fn follow(
         &self,
         node: Node<'a>,
@@ -232,12 +233,12 @@ impl<'a> Document<'a> {
         self.find(node, id, kind).map(Some)
     }
 
-    /// Finds the element with this id. The element must be of the given `kind`. `node` is the element that contains the
-    /// reference. Errors have the position of `node`.
+    /// Finds the element with this id. The name of the element must be in `kind`. `node` is the element that contains
+    /// the reference, and errors have its position.
     ///
     /// # Errors
     ///
-    /// Returns an error if the element is missing or of a different kind.
+    /// Returns an error if there is no element with this id, or if it has a different name.
     pub(super) fn find(&self, node: Node<'a>, id: &str, kind: &[&str]) -> Result<Node<'a>, Fault> {
         let found = self.ids.get(id).copied();
         let is_wanted = |found: &Node| kind.iter().any(|kind| is(*found, kind));

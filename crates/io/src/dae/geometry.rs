@@ -58,7 +58,7 @@ enum Kind {
 
 struct Input<'a> {
     kind: Kind,
-    /// Each corner has several indices. `offset` is the position, counted from 0, of the index for this input.
+    /// The position of the index for this input among the indices of a corner. Positions start at 0.
     offset: usize,
     source: Node<'a>,
 }
@@ -226,8 +226,8 @@ impl<'a, 'd> Geometries<'a, 'd> {
         for &input in &of_vertices {
             add(input, vertex)?;
         }
-        // The inputs of the vertices are read again for each list of polygons. Therefore, their cost is subtracted from
-        // the memory budget once for each list.
+        // The inputs of the `<vertices>` element are read again for each list of polygons that uses the element.
+        // Therefore, their cost is subtracted from the memory budget once for each list.
         self.document.take(list, cost::NUMBER * of_vertices.len())?;
         Ok(Inputs {
             stride,

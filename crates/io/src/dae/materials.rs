@@ -17,8 +17,8 @@ enum ChannelValue {
     Texture(String),
 }
 
-/// Reads the material of a `<material>` element. `known` is a cache of materials. In this cache, the key of a material
-/// is the index of its `<material>` element.
+/// Reads the material of a `<material>` element. `known` contains the materials that were read before. The key is the
+/// index of a `<material>` element or, for the appearance that an effect defines, of an `<effect>` element.
 ///
 /// # Errors
 ///

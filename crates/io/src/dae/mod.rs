@@ -24,7 +24,8 @@
 //! | lines, splines, skins, morphs, animations, cameras, lights, physics, `skew` | left out, with a note |
 //!
 //! Corners without a normal or a texture coordinate get zero, and corners without a color get white. If a file has no
-//! scene, each of its geometries becomes an object. A file can refer to other files, of which only images are read.
+//! scene, each of its geometries becomes an object. If a file refers to other files, only the images among them are
+//! read.
 //!
 //! Document type declarations are refused, so that entities cannot expand. A file can instantiate the same content
 //! several times. The total memory for this content is limited to 64 times the size of the file. The limit is never
@@ -72,7 +73,7 @@ pub(crate) fn read(
 ///
 /// # Errors
 ///
-/// Returns an error in the same cases as [`read`].
+/// Returns an error in the same cases as [`read`], except that materials are not checked.
 pub(crate) fn peek(bytes: &[u8], name: &str, notes: &mut Notes) -> Result<Vec<PeekObject>, Fault> {
     each_object(bytes, name, notes, |name, object| {
         let geometry = PeekGeometry::Mesh(object.counts());
@@ -131,7 +132,7 @@ struct Object<'a, 'd> {
     document: &'d Document<'a>,
     placed: &'d PlacedGeometry<'a>,
     surface: &'d Surface<'a>,
-    /// The materials that were read before. The key is the index of the `<material>` element.
+    /// The materials that were read before. The key is the index of a `<material>` or `<effect>` element.
     materials: &'d mut BTreeMap<u32, Material>,
 }
 
@@ -153,7 +154,7 @@ impl Object<'_, '_> {
         counts
     }
 
-    /// The polygons in scene coordinates, with their materials.
+    /// Returns the polygons in scene coordinates, with their materials.
     fn polygons(self) -> Result<Polygons, Fault> {
         let mut polygons = self.surface.polygons.clone();
         let lost = polygons.apply_transform(&self.placed.to_scene);
@@ -230,7 +231,7 @@ fn note_asset(document: &Document, notes: &mut Notes) -> Result<(), Fault> {
     Ok(())
 }
 
-/// Counts the content that the reader ignores.
+/// Counts the elements in the libraries that the reader leaves out, such as cameras.
 fn note_libraries(document: &Document) {
     for library in elements(document.root) {
         let what = match library.tag_name().name() {

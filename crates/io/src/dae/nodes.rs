@@ -19,7 +19,7 @@ pub(super) struct PlacedGeometry<'a> {
     pub(super) to_scene: DAffine3,
     /// The name of the node; empty if the node has no name.
     node_name: &'a str,
-    /// The `<material>` element of each symbol of the geometry.
+    /// The `<material>` element that the node assigns to each material symbol of the geometry.
     pub(super) materials: BTreeMap<&'a str, Node<'a>>,
 }
 
@@ -36,8 +36,8 @@ fn name(node: Node<'_>) -> &str {
     given.or(node.attribute("id")).unwrap_or_default()
 }
 
-/// Returns the geometries of the scene in the order of the file. The geometries of a parent node come before those of
-/// its child nodes. If the file has no scene, returns the geometries of the libraries.
+/// Returns the geometries that the nodes of the scene instantiate. The geometries of a node come before those of its
+/// child nodes. If the file has no scene, returns all geometries of the file.
 ///
 /// # Errors
 ///
@@ -85,8 +85,8 @@ pub(super) fn placed<'a>(
 /// Traverses the nodes of a scene with an explicit stack, because nodes can be nested very deeply.
 struct Walk<'a, 'd> {
     document: &'d Document<'a>,
-    /// The number of elements that can still be visited. The number is limited because nested instances in a small file
-    /// can cause a huge number of visits.
+    /// The number of further elements that the walk is allowed to visit. The walk is limited because nested instances
+    /// in a small file can cause a huge number of visits.
     steps: usize,
     /// The nodes from the root to the current node.
     ancestors: BTreeSet<u32>,
@@ -142,8 +142,8 @@ impl<'a, 'd> Walk<'a, 'd> {
         Ok(())
     }
 
-    /// Pushes the child nodes of `node`, including instances of other nodes, onto the stack `open`. After the call, the
-    /// first child is on top of the stack.
+    /// Pushes the child nodes of `node`, including instances of other nodes, onto the stack `open`, with the first
+    /// child on top.
     fn open_children(
         &mut self,
         node: Node<'a>,
@@ -185,8 +185,7 @@ impl<'a, 'd> Walk<'a, 'd> {
                 );
                 continue;
             };
-            // The name of the object is stored several times, so the length of the name is also subtracted from the
-            // memory budget.
+            // The name of an object is stored several times, so its length also counts.
             let names = name(node).len() + name(geometry).len();
             self.document.take(instance, cost::OBJECT + 8 * names)?;
             let materials = self.bound_materials(instance)?;

@@ -1,5 +1,5 @@
-//! Reads how the indices of a list form polygons. The indices form triangles, polygons with declared corner counts,
-//! strips or fans.
+//! Converts the indices in a list of polygons to polygons. A list consists of triangles, polygons with any number of
+//! corners, strips of triangles, or fans of triangles.
 
 use super::document::{
     Document, Node, child, elements, error_at, is, named, natural, push_indices, required,
@@ -41,14 +41,14 @@ pub(super) fn shape(list: Node, document: &Document) -> Result<Option<Shape>, Fa
     Ok(Some(shape))
 }
 
-/// The corners of the polygons of one list, as offsets in the list of indices.
+/// The polygons of one list. Their corners refer to groups of indices.
 #[derive(Default)]
 pub(super) struct Outline<'a> {
     /// The elements that contain the indices.
     pub(super) lists: Vec<Node<'a>>,
     pub(super) indices: Vec<u32>,
-    /// For each corner of the polygons, the index (from 0) of its group of indices. Each group consists of `stride`
-    /// consecutive entries of `indices`.
+    /// For each corner of the polygons, the number of its group of indices. Group k consists of the `stride` entries of
+    /// `indices` that begin at `k * stride`.
     pub(super) order: Vec<usize>,
     pub(super) degrees: Vec<usize>,
 }
@@ -63,8 +63,8 @@ impl Shape {
     ) -> Result<Outline<'a>, Fault> {
         let mut outline = Outline::default();
         let mut holes = 0;
-        // For each element with indices, the index of its first corner. The last entry of `starts` is the total number
-        // of corners.
+        // For each element that contains indices, the number of corners in the elements before it, followed by the
+        // total number of corners.
         let mut starts = vec![0];
         for part in elements(list) {
             let indices = if is(part, "p") {

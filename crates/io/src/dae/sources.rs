@@ -36,8 +36,9 @@ impl Vectors {
 }
 
 /// Reads the vectors of a source. If the accessor has all `names`, the components of the vectors are in the order of
-/// `names`; otherwise, they are in the order of the accessor. Also returns the length of the array, which is read as a
-/// whole. The array can be longer than all vectors together, because several sources can share an array.
+/// `names`; otherwise, they are in the order of the accessor. Also returns the length of the array of the source,
+/// because the whole array is read. The array can contain more numbers than the vectors need, because several sources
+/// can share an array.
 ///
 /// # Errors
 ///

@@ -14,8 +14,8 @@ use super::views::{Reader, Rows};
 use crate::fault::Fault;
 use mesh::parallel;
 
-/// An accessor without a buffer view is allowed to have up to this number of elements even in a tiny file. All elements
-/// of such an accessor are zero, unless sparse values replace them.
+/// An accessor without a buffer view can have at most this number of elements or, if that is more, as many elements as
+/// the buffers have bytes. All elements of such an accessor are zero, unless sparse values replace them.
 const MIN_ZEROS: u64 = 1 << 16;
 impl Reader<'_> {
     /// The number of elements of an accessor.
@@ -45,7 +45,7 @@ impl Reader<'_> {
     ///
     /// # Errors
     ///
-    /// Returns an error if the component type is not allowed.
+    /// Returns an error if the accessor does not exist or its component type is not allowed.
     pub(super) fn expect_components(
         &self,
         index: usize,
@@ -64,8 +64,8 @@ impl Reader<'_> {
         Err(Fault::json(format!("{here}/componentType"), message))
     }
 
-    /// Reads the elements of an accessor of this type. Returns the components of all elements in one list, rounded to
-    /// 32 bits.
+    /// Reads the elements of an accessor, whose type must be `kind`. Returns the components of all elements in one
+    /// list, rounded to 32 bits.
     ///
     /// # Errors
     ///
@@ -125,9 +125,9 @@ impl Reader<'_> {
         Ok(values.into_flattened())
     }
 
-    /// Reads the elements of an accessor. Each element is converted from N numbers. If the type of the accessor has
-    /// fewer components, the missing ones are set to `fill`. Normalized integers are scaled to the range from 0 to 1 if
-    /// they are unsigned, and from -1 to 1 if they are signed.
+    /// Reads the elements of an accessor. `convert` makes a value from the N numbers of an element. If the elements
+    /// have fewer than N components, the missing components are set to `fill`. Normalized integers are scaled to the
+    /// range from 0 to 1 if they are unsigned, and from -1 to 1 if they are signed.
     ///
     /// # Errors
     ///
@@ -150,8 +150,8 @@ impl Reader<'_> {
         }
         let used = kind.multiplicity().min(N);
         let size = component.size();
-        // The first loop only records whether there is a non-finite value. If there is a non-finite value, a second
-        // loop locates it.
+        // While the elements are read, only the existence of a non-finite value is recorded. If there is one, the
+        // elements are read again to find its index.
         let has_non_finite = AtomicBool::new(false);
         let general = |bytes: &[u8]| {
             let mut vector = [fill; N];
@@ -212,8 +212,7 @@ impl Reader<'_> {
             ComponentType::U8 | ComponentType::U16 => {
                 self.elements(index, 1, component, 0, |bytes| whole(bytes, component))
             }
-            // Because the component type is known at compile time here, the compiler replaces the loop by a copy of
-            // memory.
+            // The constant component type allows the compiler to replace the loop with a copy of memory.
             ComponentType::U32 => self.elements(index, 1, component, 0, |bytes| {
                 whole(bytes, ComponentType::U32)
             }),
@@ -224,8 +223,8 @@ impl Reader<'_> {
         }
     }
 
-    /// Reads all elements from the view. If there is no view, all elements are `zero`. Then sparse values replace some
-    /// of the elements.
+    /// Reads all elements of an accessor from its buffer view. If the accessor has no view, all elements are `zero`.
+    /// Then the sparse values of the accessor replace some of the elements.
     fn elements<T: Copy + Zeroable + Send>(
         &self,
         index: usize,
@@ -298,7 +297,8 @@ impl Reader<'_> {
         Ok((rows, n))
     }
 
-    /// Returns the indices of the elements that sparse values replace, and the rows of these values.
+    /// Returns the indices of the elements that sparse values replace, and the rows with the sparse values. Returns
+    /// `None` if the accessor has no sparse values.
     fn sparse(&self, index: usize, size: usize) -> Result<Option<(Vec<u32>, Rows<'_>)>, Fault> {
         let accessor = &self.document.accessors[index];
         let Some(sparse) = &accessor.sparse else {
@@ -313,9 +313,8 @@ impl Reader<'_> {
             ));
         };
         let n = sparse.count.0;
-        // Sparse values need no additional memory, but the reader applies them again each time the accessor is read.
-        // Therefore, the size of the sparse values is subtracted from the memory budget each time, to limit the time
-        // for reading.
+        // Sparse values need no additional memory. Their size is subtracted from the memory budget each time the
+        // accessor is read, to limit the total time for reading.
         self.budget.spend(n.saturating_mul(size as u64), &here)?;
         let (indices, values) = (&sparse.indices, &sparse.values);
         let (at, view) = (format!("{here}/indices"), indices.buffer_view.value());

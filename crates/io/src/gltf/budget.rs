@@ -1,5 +1,5 @@
-//! The memory budget of a file. Several parts of a file can refer to the same content, and each reference can take
-//! memory. The budget limits this memory.
+//! The memory budget of a file. In a small file, many references to the same content can need much memory. The budget
+//! limits the total memory.
 
 use std::cell::Cell;
 
@@ -10,17 +10,17 @@ const BUDGET_FACTOR: u64 = 64;
 /// The smallest memory budget of a file, in bytes.
 const MIN_BUDGET: u64 = 1 << 24;
 
-/// A byte of a buffer increases the memory budget of the file. If the buffer has compressed views, the increase is
-/// multiplied by this factor. Compressed data needs a larger budget, because it gives a larger mesh than uncompressed
-/// data of the same size. On average, a triangle with its vertices takes two bytes in a compressed view, and at least
-/// twenty bytes in an uncompressed view.
+/// If a document has compressed views, each byte of its buffers increases the memory budget by this number times
+/// [`BUDGET_FACTOR`]. The increase is larger than for uncompressed data, because compressed data gives a larger mesh
+/// than uncompressed data of the same size. On average, a triangle with its vertices takes two bytes in a compressed
+/// view, and at least twenty bytes in an uncompressed view.
 const COMPRESSED: u64 = 4;
 
 /// The memory that can still be used, in bytes.
 #[derive(Default)]
 pub(super) struct Budget {
     left: Cell<u64>,
-    /// The number of bytes that is left for the decoded data of compressed views.
+    /// The total size in bytes that further decoded views are allowed to have.
     inflation: Cell<u64>,
 }
 
@@ -44,8 +44,8 @@ impl Budget {
         }
     }
 
-    /// Increases the memory budget for buffers of `size` bytes that contain compressed views. This increase is in
-    /// addition to the usual increase for the size of the buffers.
+    /// Increases the memory budget because a document with buffers of `size` bytes contains compressed data. This
+    /// increase is added to the increase by [`grant`](Self::grant).
     pub(super) fn grant_compressed(&self, size: u64) {
         let more = size.saturating_mul(BUDGET_FACTOR * (COMPRESSED - 1));
         self.left.set(self.left.get().saturating_add(more));
@@ -56,8 +56,7 @@ impl Budget {
         bytes <= self.left.get()
     }
 
-    /// Subtracts bytes from the memory budget. The budget limits memory even if many parts of a file refer to the same
-    /// bytes. `pointer` is the JSON pointer of the part that needs the memory.
+    /// Subtracts bytes from the memory budget. `pointer` is the JSON pointer of the part that needs the memory.
     ///
     /// # Errors
     ///
@@ -74,10 +73,10 @@ impl Budget {
         Ok(())
     }
 
-    /// Subtracts the decoded size of a compressed view from the budget, and returns this size as a `usize`. The decoded
-    /// sizes of all views together have a limit of their own, because a stream of zeros can be a thousand times smaller
-    /// than its decoded data. Real files do not consist of zeros, so they do not reach this limit. `pointer` is the
-    /// JSON pointer of the part that needs the memory.
+    /// Subtracts the decoded size of a compressed view from the budget, and returns this size as a `usize`. The total
+    /// size of all decoded views also has a second, lower limit, because a stream of zeros can be a thousand times
+    /// smaller than its decoded data. Files with real data do not reach this limit. `pointer` is the JSON pointer of
+    /// the part that needs the memory.
     ///
     /// # Errors
     ///

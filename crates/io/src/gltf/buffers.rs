@@ -31,7 +31,7 @@ const MAX_JSON: u64 = 1 << 30;
 ///
 /// Returns an error if the file cannot be read.
 pub(crate) fn document_of(store: &dyn Store, path: &Path) -> Result<Vec<u8>, ReadError> {
-    // Reads only the header and the length of the first chunk.
+    // The first bytes of a GLB file contain the length of its JSON chunk.
     let head = store.read_up_to(path, HEAD as u64)?;
     let length = match head.as_slice() {
         [b'g', b'l', b'T', b'F', .., a, b, c, d, _, _, _, _] if head.len() == HEAD => {
@@ -98,8 +98,8 @@ pub(super) fn container(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Fault> {
 
 /// Loads the bytes of all buffers. `binary` is the binary chunk of a GLB file. The chunk is not copied. When a file
 /// next to the document is read for the first time, the memory budget grows with the number of bytes read. If another
-/// buffer refers to a file that was read before, the length of this buffer is subtracted from the budget. Buffers that
-/// are marked in `fallbacks` are not read and stay empty.
+/// buffer refers to a file that was read before, the length of this buffer is subtracted from the budget. A buffer
+/// whose flag in `fallbacks` is true is not read and stays empty.
 ///
 /// # Errors
 ///
@@ -123,7 +123,8 @@ pub(super) fn load<'a>(
         let mut bytes = match &buffer.uri {
             None => {
                 let chunk = if i == 0 { binary.take() } else { None };
-                // A buffer without data is treated as empty. If it declares a length other than 0, it is refused below.
+                // A buffer without a URI and without a binary chunk has no bytes. If its declared length is not 0, it
+                // is refused below.
                 Cow::Borrowed(chunk.unwrap_or_default())
             }
             Some(uri) => {

@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 use super::meshopt::{Filter, MESHOPT, encode_attributes, encode_triangles};
 use super::pieces::Piece;
 
-/// Describes how the elements of an array are compressed.
+/// How the elements of an array are compressed.
 pub(super) struct Array {
     mode: &'static str,
     stride: usize,
@@ -48,8 +48,8 @@ impl Array {
     }
 }
 
-/// The buffer has one piece for each view. Compresses each piece whose view has an entry in `arrays`, and returns all
-/// pieces at their new positions.
+/// Compresses each piece of the buffer whose view has an entry in `arrays`. `views` and `pieces` have the same length
+/// and order. Returns all pieces at their new positions.
 pub(super) fn compress<'a>(
     views: &mut [Value],
     buffers: &mut Vec<Value>,

@@ -37,12 +37,12 @@ impl Repairs {
     }
 }
 
-/// Reads the weights of all joints that the primitive uses, into one column of `n` values for each joint. `here` is the
-/// location of the primitive, for errors.
+/// Reads the joint weights of a primitive with `n` vertices. Returns a column of weights for each joint that has a
+/// weight other than 0. `here` is the location of the primitive, for errors.
 ///
 /// # Errors
 ///
-/// Returns an error if an accessor is invalid, or refers to a joint that the skin does not have.
+/// Returns an error if an accessor is invalid, or if a vertex refers to a joint that the skin does not have.
 pub(super) fn joints(
     reader: &Reader,
     primitive: &Primitive,
@@ -161,8 +161,9 @@ fn index(joint: f64) -> usize {
     joint as usize
 }
 
-/// Reads the deltas of the morph targets, into one column of `n` values for each target of the mesh. `here` is the
-/// location of the primitive, for errors.
+/// Reads the deltas of the morph targets of a primitive with `n` vertices. Returns a column for each morph target of
+/// the mesh. The deltas are zero if the primitive does not have the target. `here` is the location of the primitive,
+/// for errors.
 ///
 /// # Errors
 ///
@@ -214,9 +215,9 @@ pub(super) fn morphs(
 /// The normals or tangents of a mesh, and the morph targets that change them.
 pub(super) struct Directions {
     semantic: Semantic,
-    /// Returns the accessor with the changes that a morph target makes to the normals or tangents.
+    /// Returns the accessor of a morph target with the changes of normals or tangents.
     changes: fn(&MorphTarget) -> Option<&Index<Accessor>>,
-    /// Returns the name of the attribute that stores the normals or tangents changed by a morph target.
+    /// Returns the name of the mesh attribute for the changed normals or tangents of the morph target with this index.
     name: fn(usize) -> String,
     rule: Rule,
     /// The indices of the morph targets that change the normals or tangents, in ascending order.
@@ -266,10 +267,10 @@ impl Directions {
         self.targets.iter().map(|&t| (self.name)(t))
     }
 
-    /// Reads the directions (normals or tangents) that result if a morph target has the weight 1, into one column of
-    /// `n` values for each target. `own` contains the unchanged directions of the primitive. Each direction has three
-    /// or more numbers, of which morph targets change the first three. If the primitive has no directions, the columns
-    /// are zero. `here` is the location of the primitive, for errors.
+    /// Reads the normals or tangents of a primitive with `n` vertices after each morph target was applied with the
+    /// weight 1. Returns a column for each target in `targets`. `own` contains the normals or tangents without morph
+    /// targets. If `own` is `None`, the columns are zero. A value has three or more numbers, and morph targets change
+    /// the first three. `here` is the location of the primitive, for errors.
     ///
     /// # Errors
     ///

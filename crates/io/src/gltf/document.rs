@@ -59,7 +59,8 @@ pub(super) struct Document {
     pub(super) animations: Vec<AnimationJson>,
     pub(super) cameras: Vec<Json>,
     pub(super) lights: Vec<Json>,
-    /// The parts of the file that are stored unchanged in [`Graph::document`](scene::Graph::document), by name.
+    /// The JSON texts that [`Graph::document`](scene::Graph::document) stores unchanged. The keys are the names of
+    /// parts of the document.
     pub(super) kept: BTreeMap<String, String>,
     /// The root nodes of the scene.
     pub(super) roots: Vec<usize>,
@@ -78,8 +79,7 @@ impl Document {
         check_version(json)?;
         check_extensions(json, notes)?;
         let views: Vec<View> = pieces(json, "bufferViews", budget)?;
-        // The reader stores additional data for each buffer view. The size of this data is also subtracted from the
-        // memory budget of the file.
+        // The budget also covers the data that the reader stores for each buffer view in addition to the parsed view.
         let more = views.len() * size_of::<(Option<Compressed>, OnceCell<Vec<u8>>)>();
         budget.spend(more as u64, "/bufferViews")?;
         let compressed = meshopt::compressed(list(json, "bufferViews")?)?;
@@ -183,7 +183,8 @@ fn count_extensions<'a>(json: &'a Value, uses: &mut BTreeMap<&'a str, usize>) {
     }
 }
 
-/// Checks the indices in skins, nodes and animations. Each index must refer to an existing node, skin or sampler.
+/// Checks that the indices in skins and animations, and the indices of skins in nodes, refer to existing nodes, skins
+/// and samplers.
 ///
 /// # Errors
 ///
@@ -339,7 +340,7 @@ fn pieces<T: DeserializeOwned>(json: &Value, key: &str, budget: &Budget) -> Resu
     };
     let list = list(json, key)?;
     budget.spend((list.len() * size_of::<T>()) as u64, &format!("/{key}"))?;
-    // Exactly this capacity is allocated, because exactly this size was subtracted from the memory budget.
+    // Only the size of this capacity was subtracted from the memory budget, so the list must not grow beyond it.
     let mut pieces = Vec::with_capacity(list.len());
     for numbered in list.iter().enumerate() {
         pieces.push(piece(numbered)?);

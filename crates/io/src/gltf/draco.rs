@@ -7,8 +7,8 @@
 //! ```
 //!
 //! The crate `draco-core` decodes the streams. The results become additional buffers with a buffer view for each
-//! accessor, so the other modules of the reader find uncompressed data. If a file also has uncompressed data, that data
-//! is read instead of the stream.
+//! accessor, so the other modules of the reader find uncompressed data. If an accessor also has uncompressed data, that
+//! data is read instead of the decoded data.
 
 use std::borrow::Cow;
 
@@ -64,7 +64,8 @@ pub(super) fn decode(
     Ok(())
 }
 
-/// Decodes the data of those accessors of a primitive that have no uncompressed data.
+/// Decodes the stream of a primitive. Returns the bytes of each accessor that has data in the stream and no
+/// uncompressed data.
 fn arrays(reader: &Reader, compressed: &Compressed) -> Result<Vec<(usize, Vec<u8>)>, Fault> {
     let at = compressed.pointer();
     let document = reader.document;

@@ -35,7 +35,7 @@ impl Compressed {
     }
 }
 
-/// Lists the primitives with data that only exists in compressed form.
+/// Lists the compressed primitives. A primitive is left out if all of its accessors also have uncompressed data.
 ///
 /// # Errors
 ///

@@ -13,7 +13,7 @@ pub(super) fn parsed(text: &str) -> Result<Value, Unwritable> {
     })
 }
 
-/// Parses an optional part. The result is null if the part is missing.
+/// Parses an optional part of the scene. Returns JSON null if the part is `None`.
 pub(super) fn optional_json(text: Option<&str>) -> Result<Value, Unwritable> {
     text.map_or(Ok(Value::Null), parsed)
 }

@@ -10,7 +10,7 @@ use super::split::Split;
 use crate::loss::Losses;
 use mesh::parallel;
 
-/// Triangles in the order of the faces.
+/// The triangles of one material, in the order of the faces that they are cut from.
 pub(super) struct Faces {
     pub(super) n_triangles: usize,
     /// The corners of the triangles, as indices of glTF vertices. `None` if the mesh has only triangles and all faces
@@ -18,7 +18,8 @@ pub(super) struct Faces {
     pub(super) corners: Option<Vec<u32>>,
 }
 
-/// Groups triangles by material. The triangles without a material have the key -1.
+/// Groups the triangles of an object by the index of their material. The key -1 stands for triangles without a
+/// material.
 pub(super) fn faces_by_material(
     object: &Object,
     mesh: &Mesh,

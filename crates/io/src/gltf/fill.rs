@@ -110,7 +110,7 @@ pub(super) struct Bounds {
 ///
 /// # Errors
 ///
-/// Returns the first vertex whose position is not finite when it is rounded to 32 bits.
+/// Returns the first vertex whose rounded position is not finite.
 pub(super) fn bounds(mesh: &Mesh, split: &Split) -> Result<Bounds, VertexId> {
     let position = |i| mesh.position(split.vertex(mesh, i)).as_vec3();
     let blocks = parallel::blocks(split.n, |vertices| {

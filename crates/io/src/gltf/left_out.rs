@@ -1,5 +1,5 @@
-//! Counts the content of a document that the reader leaves out although it supports this kind of content. Such content
-//! is a part of the document that the glTF scene does not use, or a member that a scene of this program cannot store.
+//! Counts supported content of a document that the reader leaves out. For example, the glTF scene does not use a part
+//! of the document, or a scene of this program cannot store a member.
 
 use std::collections::BTreeMap;
 
@@ -12,8 +12,8 @@ use super::morph_json::is_changeable;
 use super::surface::MaterialJson;
 use crate::note::Notes;
 
-/// Adds notes for the content of a document that is left out. Only content that can be counted without reading the
-/// buffers is counted.
+/// Adds notes for the content of a document that is left out. Content that can be counted only by reading the buffers
+/// is not included.
 pub(super) fn note_left_out(json: &Value, document: &Document, notes: &mut Notes) {
     let used = Used::of(document);
     for (code, flags, what) in [
@@ -69,7 +69,8 @@ struct Used {
     textures: Vec<bool>,
     samplers: Vec<bool>,
     images: Vec<bool>,
-    /// The number of references from materials to textures whose image does not exist or has an unknown kind.
+    /// The number of references from materials to textures that have no image, or an image with neither a URI nor a
+    /// buffer view.
     without_image: usize,
 }
 
@@ -174,8 +175,7 @@ fn elements<'a>(json: &'a Value, key: &str) -> impl Iterator<Item = &'a Value> +
     list.into_iter().flatten()
 }
 
-/// Counts the `extras` that are left out although the reader reads the objects that contain them, such as primitives
-/// and accessors.
+/// Counts the members `extras` that are left out, such as those of primitives and accessors.
 fn extras(json: &Value) -> usize {
     let members = json.as_object().into_iter().flatten();
     let of_member = |(key, value): (&String, &Value)| match key.as_str() {

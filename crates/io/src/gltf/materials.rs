@@ -38,7 +38,8 @@ impl<'a> Materials<'a> {
     ///
     /// # Errors
     ///
-    /// Returns an error if the material refers to a missing texture or to missing bytes.
+    /// Returns an error if the material refers to a texture, image, sampler or bytes that do not exist, or if a value
+    /// is invalid.
     pub(super) fn get(&mut self, i: usize) -> Result<Material, Fault> {
         if let Some(known) = self.known.get(&i) {
             return Ok(known.clone());
@@ -62,8 +63,8 @@ impl<'a> Materials<'a> {
         to.normal_texture = texture(&from.normal_texture, "normalTexture")?;
         to.occlusion_texture = texture(&from.occlusion_texture, "occlusionTexture")?;
         to.emissive_texture = texture(&from.emissive_texture, "emissiveTexture")?;
-        // The scale of the normal texture and the strength of the occlusion texture are read only if the texture
-        // exists.
+        // Without a texture that was read, the scale of the normal texture and the strength of the occlusion texture
+        // keep their defaults.
         if let (Some(info), Some(_)) = (&from.normal_texture, &to.normal_texture) {
             to.normal_scale = rounded(info.scale.unwrap_or(1.0));
         }
@@ -222,8 +223,8 @@ fn to_sampler(from: &SamplerJson, here: &str) -> Result<Sampler, Fault> {
     })
 }
 
-/// Returns the transform of a texture. If the extension overrides the set of texture coordinates, also returns the new
-/// set.
+/// Returns the transform of a texture according to the extension, and the set of texture coordinates that the extension
+/// selects, if it selects one.
 fn transform(
     extensions: &Extensions,
     here: &str,
@@ -245,8 +246,8 @@ fn unit(x: f64) -> f64 {
     rounded(x).clamp(0.0, 1.0)
 }
 
-/// Rounds a number to 32 bits, after clamping it to the range of 32-bit floats. Returns the shortest decimal number
-/// that has this 32-bit value.
+/// Clamps a number to the range of 32-bit floats, rounds it to 32 bits, and returns the shortest decimal number that
+/// has this 32-bit value.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "rounding to 32 bits is intended"

@@ -16,7 +16,7 @@
 //! | a mesh of a node | an object with the name of the node, mesh or file (the first that exists); names are made unique |
 //! | a mesh of several nodes | one object with the name of the mesh, first node or file (the first that exists) |
 //! | a node | a node of the graph, with its placement, name, extras, camera and light; if the nodes equal those that the writer creates for objects without nodes (one root node for each object, with the name of the object), the graph has no nodes |
-//! | the scene that `scene` refers to, or the first scene | its nodes are read; without scenes, all nodes of the file |
+//! | the scene that `scene` refers to, or the first scene | the reader reads the nodes of this scene; if the file has no scenes, it reads all nodes |
 //! | triangles, strips and fans, with or without indices | triangles |
 //! | points, lines | left out, with a note |
 //! | `POSITION` | positions; vertices at exactly the same position are merged if their weights and deltas agree |
@@ -72,7 +72,8 @@
 //! - polygons are triangulated,
 //! - faces are ordered by material,
 //! - vertices at exactly the same position are merged, unless their weights or deltas differ,
-//! - each vertex has at most four joints, or at most as many as in the file that was read,
+//! - each vertex has at most four joints, unless the mesh was read from a file with more joints for each vertex, or
+//!   [`WriteOptions::weight_sets`](crate::WriteOptions::weight_sets) allows more,
 //! - normals are normalized, and colors are clamped to 0 to 1,
 //! - the following content is lost: isolated vertices, empty meshes, unused materials, embedded images other than PNG
 //!   and JPEG, vertex tangents, tangents without normals, integer attributes, tags, sets of texture coordinates after a
@@ -88,8 +89,8 @@
 //! all content together is limited to 64 times the size of the file, or more if the content is compressed. The limit is
 //! never less than 16 MiB.
 //!
-//! Each part of the JSON is deserialized separately into the types of `gltf_json`. Therefore, an error is reported with
-//! the JSON pointer of the part in which it occurs. Errors in parts that are not read are ignored.
+//! Each part of the JSON, such as a node, is deserialized separately. Therefore, errors have the JSON pointer of the
+//! part in which they occur. Errors in parts that are not read are ignored.
 
 mod accessor;
 mod budget;

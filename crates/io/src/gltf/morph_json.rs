@@ -21,7 +21,8 @@ pub(super) fn is_changeable(primitive: &Value, name: &str) -> bool {
     primitive["attributes"].get(name).is_some() && semantic(name).is_some()
 }
 
-/// Returns the texture coordinates or the color with this name in glTF; `None` for all other names.
+/// Returns the semantic of the attribute `name` in glTF if the attribute contains texture coordinates or colors.
+/// Otherwise, returns `None`.
 fn semantic(name: &str) -> Option<Semantic> {
     let semantic = match name.strip_prefix("TEXCOORD_") {
         Some(set) => Semantic::TexCoords(set.parse().ok()?),
@@ -32,7 +33,8 @@ fn semantic(name: &str) -> Option<Semantic> {
     (semantic.to_string() == name).then_some(semantic)
 }
 
-/// Returns the changes of each primitive of each mesh, sorted by morph target, attribute and accessor.
+/// Returns, for each primitive of each mesh, the changes of texture coordinates and colors by its morph targets. The
+/// changes are sorted by morph target, attribute and accessor.
 ///
 /// # Errors
 ///

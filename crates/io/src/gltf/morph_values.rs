@@ -21,7 +21,7 @@ pub(super) struct ValueChanges<'a> {
 }
 
 impl<'a> ValueChanges<'a> {
-    /// Collects the changes of the primitives of a mesh.
+    /// Collects the changes of all primitives of a mesh.
     pub(super) fn new(of_primitives: &'a [Vec<ValueChange>]) -> Self {
         let changes = of_primitives.iter().flatten();
         Self {
@@ -35,14 +35,14 @@ impl<'a> ValueChanges<'a> {
         self.of_primitives.get(primitive).map_or(&[], Vec::as_slice)
     }
 
-    /// Returns the names of the attributes with the changes.
+    /// Returns the names of the mesh attributes that will store the changes.
     pub(super) fn names(&self) -> impl Iterator<Item = String> {
         self.columns.iter().map(|&(semantic, t)| name(semantic, t))
     }
 
-    /// Reads the changes of a primitive, into one column of `n` values for each pair of an attribute and a morph target
-    /// in the mesh. If the target does not change the attribute in this primitive, the column is zero. `here` is the
-    /// location of the primitive, for errors.
+    /// Reads the changes of a primitive with `n` vertices. Returns a column for each pair of an attribute and a morph
+    /// target in `columns`. If the target does not change the attribute in this primitive, the column is zero. `here`
+    /// is the location of the primitive, for errors.
     ///
     /// # Errors
     ///

@@ -106,7 +106,8 @@ fn note_left_out(document: &Document, notes: &mut Notes) {
     notes.left_out("skins", document.skins.len(), None, what);
 }
 
-/// Returns the nodes of the scene in the order of the file, with parents before their children.
+/// Returns the nodes of the scene in depth-first order: each node is followed by its first child and the descendants of
+/// this child, then by its second child, and so on.
 fn scene_nodes(document: &Document) -> Result<Vec<SceneNode>, Fault> {
     let mut visited = vec![false; document.nodes.len()];
     let mut nodes: Vec<SceneNode> = Vec::new();
@@ -188,8 +189,8 @@ fn baked(
     Ok(placed)
 }
 
-/// Returns an object for each mesh that nodes reference, in the order of the meshes. If only one node references a
-/// mesh, the object gets the name of the node.
+/// Returns an object for each mesh that nodes reference, in the order of the meshes. The object gets the name of its
+/// node or, if several nodes reference the mesh, of the mesh.
 fn shared(
     document: &Document,
     nodes: &[SceneNode],
@@ -300,7 +301,7 @@ fn text(json: &Json) -> String {
     Value::Object(json.clone()).to_string()
 }
 
-/// Whether a node is the same as the node that the writer adds for an object without nodes.
+/// Whether a node equals the node that the writer creates for an object that no node references.
 fn is_plain(node: &SceneNode, json: &NodeJson, object: &PlacedMesh) -> bool {
     node.parent.is_none()
         && json.mesh == Some(object.mesh)

@@ -181,9 +181,9 @@ fn peek_mesh(
     })
 }
 
-/// How an attribute of a primitive is handled.
+/// What the reader does with an attribute of a primitive.
 enum Found {
-    /// [`PeekMesh`] describes the attribute.
+    /// The reader keeps the attribute, and the fields of [`PeekMesh`] describe it.
     Described,
     /// The mesh gets an attribute with this name.
     Named(String),

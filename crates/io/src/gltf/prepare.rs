@@ -29,7 +29,7 @@ pub(super) struct PreparedObject<'a> {
 }
 
 impl<'a> PreparedObject<'a> {
-    /// Determines the content to write, and adds losses for the content that is not written.
+    /// Converts an object to the form that glTF requires, and adds losses for the content that is not written.
     ///
     /// # Errors
     ///
@@ -92,7 +92,7 @@ impl<'a> PreparedObject<'a> {
         })
     }
 
-    /// The number of sets of texture coordinates.
+    /// The number of sets of texture coordinates that are written.
     pub(super) fn n_uvs(&self) -> u32 {
         let is_uv = |stream: &&Stream| {
             stream.target.is_none() && matches!(stream.semantic, Semantic::TexCoords(_))

@@ -22,12 +22,12 @@ use crate::fault::Fault;
 use crate::note::Notes;
 use mesh::parallel;
 
-/// If a primitive lacks an attribute that another primitive of the mesh has, default values are stored for this
-/// attribute. For each such attribute, this number of bytes is subtracted from the memory budget, in addition to the
-/// bytes of the default values. This charge limits the time for files with many primitives and attributes.
+/// If a primitive lacks an attribute that an earlier primitive of the mesh has, its vertices get zeros for this
+/// attribute. For each missing attribute, this number of bytes is subtracted from the memory budget, in addition to the
+/// size of the zeros. This limits the time for files with many primitives and attributes.
 const MISSING_ATTRIBUTE_CHARGE: u64 = 16;
 
-/// All primitives of a mesh. A vertex on a seam is stored once for each side of the seam, as in glTF.
+/// The triangles of all primitives of a mesh. A vertex on a seam is stored once for each side of the seam, as in glTF.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Triangles {
     pub(super) positions: Vec<DVec3>,
@@ -52,8 +52,9 @@ pub(super) fn triangles(
     notes: &mut Notes,
 ) -> Result<Triangles, Fault> {
     let mut all = Triangles::default();
-    // Primitives that use the same accessors for all attributes and morph targets share their vertices. This is common
-    // if the primitives are the parts of a model with different materials.
+    // Primitives with the same accessors for all attributes and morph targets share their vertices, so these vertices
+    // are read only once. In many files, all primitives of a mesh share their vertices and differ only in their
+    // materials.
     let mut known = BTreeMap::new();
     let mut left_out = LeftOut::default();
     let mut has_materials = false;
@@ -289,9 +290,8 @@ impl Triangles {
         Ok((first, count))
     }
 
-    /// Returns how many attributes of earlier primitives the current primitive lacks. The current primitive has `n`
-    /// vertices with the attributes `own`. The missing values will be set to zero. Their size is subtracted from the
-    /// memory budget.
+    /// Returns the number of attributes of earlier primitives that a primitive with `n` vertices and the attributes
+    /// `own` lacks. The caller sets the missing values to zero. Their size is subtracted from the memory budget.
     ///
     /// # Errors
     ///
@@ -315,7 +315,7 @@ impl Triangles {
     }
 }
 
-/// Reads the column of an attribute; `None` if the attribute is not read.
+/// Reads an attribute of a primitive. Returns `None` if the reader does not support the attribute.
 fn read_column(
     reader: &Reader,
     semantic: &Semantic,
@@ -396,7 +396,7 @@ fn corners(
                 0 => [w[0], w[1], w[2]],
                 _ => [w[0], w[2], w[1]],
             };
-            // Degenerate triangles are left out: in a strip, they only connect separate parts.
+            // Triangles that use a vertex twice are left out, because they only connect separate parts of a strip.
             let has_area = |[a, b, c]: &[u32; 3]| a != b && b != c && c != a;
             let triangles = order.windows(3).enumerate().map(triangle);
             triangles.filter(has_area).flatten().collect()

@@ -52,7 +52,7 @@ pub(super) struct Quantizer<'a> {
 /// The grid of the positions of an object.
 struct Grid {
     origin: [f32; 3],
-    /// The scale factor of the grid node. Readers convert the normalized integer 65535 to 1, so the factor is the
+    /// The scale factor of the grid node. Because readers convert the normalized integer 65535 to 1, the factor is the
     /// length of 65535 steps of the grid.
     scale: f32,
     /// The largest error of a position, in the space of the object.
@@ -91,9 +91,9 @@ impl<'a> Quantizer<'a> {
         let PreparedObject { mesh, split, .. } = prepared;
         let name = &prepared.object.name;
         if !prepared.deformation.is_none() {
-            // Meshes with joints or morph targets are not quantized. A skinned mesh ignores the transform of its node,
-            // so a node that scales the quantized positions back would have no effect. In a mesh with morph targets,
-            // the deltas would need the same grid as the positions.
+            // Positions of meshes with joints or morph targets are not quantized. Readers ignore the transform of the
+            // node of a skinned mesh, so a grid node would have no effect. In a mesh with morph targets, the deltas
+            // would have to be quantized to the same grid.
             let reason = "the object has joints or morph targets".to_owned();
             let what = (name.clone(), "positions".to_owned(), reason);
             self.report.unquantized.push(what);
@@ -181,7 +181,7 @@ impl<'a> Quantizer<'a> {
         }
     }
 
-    /// Rounds unit vectors on an octahedron. A fourth component is kept.
+    /// Rounds unit vectors on an octahedron. The fourth component of a tangent, its sign, does not change.
     fn directions(&mut self, prepared: &PreparedObject, stream: &Stream, bits: Bits) -> Integers {
         let PreparedObject { mesh, split, .. } = prepared;
         let filter = Filter::Octahedral;
@@ -242,7 +242,8 @@ impl<'a> Quantizer<'a> {
     }
 
     /// Moves the meshes of quantized objects to grid nodes, which map the grid of the positions to the space of the
-    /// object. `nodes` begins with the nodes of the graph. Each further node references one object.
+    /// object. `nodes` begins with the nodes of the graph. Each node after these references an object that no node of
+    /// the graph references.
     pub(super) fn place(&mut self, graph: &Graph, nodes: &mut Vec<Value>) {
         let identity = DAffine3::IDENTITY;
         let maps = graph.to_scene();
@@ -338,7 +339,7 @@ impl Grid {
         steps.to_array().map(|x| x.round().clamp(0.0, most) as u16)
     }
 
-    /// Returns the position that a reader computes from integer grid coordinates.
+    /// Returns the position in the space of the object that a reader computes from grid coordinates.
     fn position(&self, steps: [u16; 3]) -> DVec3 {
         let fraction = DVec3::from(steps.map(f64::from)) / f64::from(u16::MAX);
         DVec3::from(self.origin.map(f64::from)) + fraction * f64::from(self.scale)
@@ -411,9 +412,8 @@ fn octahedral(v: DVec3, bits: Bits) -> [i16; 3] {
 }
 
 /// Returns an upper bound for the factor by which a map stretches lengths. The exact factor is the square root of the
-/// largest eigenvalue of M^T M, where M is the matrix of the map. In each column of M^T M, the absolute values of the
-/// entries are added. No eigenvalue exceeds the largest of these sums. The bound is exact if M scales along each axis
-/// and then rotates.
+/// largest eigenvalue of M^T M, where M is the matrix of the map. The largest sum of the absolute values in a column of
+/// M^T M is an upper bound of the eigenvalues. The bound is exact if M scales along each axis and then rotates.
 fn stretch(map: &DAffine3) -> f64 {
     let m = map.matrix3;
     let square = m.transpose() * m;

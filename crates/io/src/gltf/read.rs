@@ -39,7 +39,7 @@ pub(crate) fn read(
     assets: &mut Assets,
     notes: &mut Notes,
 ) -> Result<Parsed, Fault> {
-    // The bytes are kept until the end, because accessors read from them directly.
+    // The bytes are kept until all objects are built, because accessors read from them directly.
     let bytes = bytes.into_boxed_slice();
     let (json, binary) = buffers::container(&bytes)?;
     let json = parse(json)?;
@@ -54,8 +54,8 @@ pub(crate) fn read(
         budget.grant_compressed(size);
     }
     if !document.draco.is_empty() {
-        // In a Draco stream, a triangle takes only about one byte, so Draco streams increase the memory budget more
-        // than other compressed data.
+        // A triangle takes only about one byte in a Draco stream. Therefore, Draco streams increase the memory budget
+        // more than compressed views do.
         budget.grant_compressed(2 * size);
     }
     draco::decode(&mut document, &mut loaded, &budget)?;
@@ -78,8 +78,8 @@ fn objects(
     let deformers = Deformers::of_meshes(document);
     let mut rig = RigReader::new(reader);
     let placed = std::mem::take(&mut nodes.meshes);
-    // The number of remaining uses of each mesh. The last object that uses a mesh takes the arrays of the mesh instead
-    // of copying them.
+    // For each mesh, the number of objects that still need it. The last of these objects takes the arrays of the mesh
+    // instead of copying them.
     let mut uses = BTreeMap::new();
     for placed in &placed {
         *uses.entry(placed.mesh).or_insert(0) += 1;
@@ -127,7 +127,8 @@ fn objects(
     Ok(Parsed { objects, graph })
 }
 
-/// Returns the pose that reading applies to a mesh, or `None` if the nodes in the scene place and deform the mesh.
+/// Returns the joints and morph weights that the reader applies to the points of a mesh. Returns `None` if the scene
+/// keeps the nodes, which then place and deform the mesh.
 ///
 /// # Errors
 ///
@@ -208,8 +209,8 @@ fn cost_of_material(material: &Material) -> usize {
     size_of::<Material>() + material.name.len() + texts.map(str::len).sum::<usize>()
 }
 
-/// Builds polygons from the triangles of a mesh. Vertices along seams are merged. If `pose` has joints, they determine
-/// where the polygons are in the scene. Otherwise, `to_scene` is applied to the polygons.
+/// Builds polygons from the triangles of a mesh, and merges vertices along seams. If `pose` has joints, the joints move
+/// the vertices to scene space. Otherwise, `to_scene` moves them.
 fn polygons(
     triangles: Triangles,
     places: &BTreeMap<usize, i32>,
@@ -261,8 +262,8 @@ fn polygons(
 }
 
 /// Merges vertices that are at exactly the same position and have the same vertex attributes, and leaves out vertices
-/// without a triangle. Returns the merged positions in the order of their first occurrence. Also returns, for each
-/// vertex, the index of its merged position, and the number of vertices that are left out.
+/// without a triangle. Returns three results: the remaining positions in the order of their first occurrence, the index
+/// of the remaining position of each vertex, and the number of vertices that are left out.
 fn weld(
     mut positions: Vec<DVec3>,
     attributes: &mut Attributes,

@@ -16,7 +16,7 @@ use super::split::Split;
 /// The number of vertices that count as recent. The codec stores about the same number of recent vertices and edges.
 const RECENT: usize = 16;
 
-/// Orders the triangles of each material, then the vertices.
+/// Orders the triangles of each material, and then renumbers the vertices in the order of their first use.
 pub(super) fn reorder(mesh: &Mesh, split: &mut Split, faces: &mut BTreeMap<i32, Faces>) {
     let mut number_of = vec![u32::MAX; split.n];
     let mut order = Vec::with_capacity(split.n);
@@ -73,8 +73,8 @@ fn triangles_in_fans(corners: &[u32], n_vertices: usize) -> Vec<u32> {
             if left[c] == 0 {
                 continue;
             }
-            // Chooses the vertex that was used the longest time ago and that will still be recent when its fan is
-            // complete. Each triangle of a fan adds about two vertices.
+            // Of the vertices that will still be recent when their fan is complete, the vertex whose last use was the
+            // longest time ago is preferred. Each triangle of a fan adds at most two vertices.
             let age = time - last_use[c];
             let priority = if age + 2 * left[c] as usize <= RECENT {
                 age
@@ -115,8 +115,8 @@ impl Around {
             sum += *start;
             *start = sum;
         }
-        // Each list is filled from its end. Therefore, the entry of a list in `starts` first holds the end of the list,
-        // and decreases until it holds the beginning.
+        // Each list is filled from its end to its beginning. While the list is filled, its entry in `starts` decreases
+        // from the end of the list to its beginning.
         let mut triangles = vec![0; corners.len()];
         for (i, &corner) in corners.iter().enumerate().rev() {
             let start = &mut starts[corner as usize];

@@ -11,7 +11,7 @@ use super::views::Reader;
 use crate::fault::Fault;
 use crate::note::Notes;
 
-/// Reads arrays of numbers. Each accessor is read only once.
+/// Reads the skins and animations, and the arrays of numbers that they refer to. Each accessor is read only once.
 pub(super) struct RigReader<'a, 'r> {
     pub(super) reader: &'a Reader<'r>,
     /// For each accessor that was read, the index of its array. The key consists of the index of the accessor and the
@@ -39,7 +39,8 @@ impl<'a, 'r> RigReader<'a, 'r> {
         }
     }
 
-    /// Reads the skins and animations into the graph. Indices of nodes become indices in the graph.
+    /// Adds the skins and animations of the file to the graph. Their references to nodes of the file become references
+    /// to nodes of the graph.
     ///
     /// # Errors
     ///
@@ -146,7 +147,7 @@ impl<'a, 'r> RigReader<'a, 'r> {
             extras: json.extras.as_ref().map(ToString::to_string),
             ..Animation::default()
         };
-        // For each sampler of the file that is read, its index in `animation`.
+        // The index in `animation` of each sampler that was read. The key is the index of the sampler in the file.
         let mut samplers: BTreeMap<usize, usize> = BTreeMap::new();
         for channel in &json.channels {
             let property = match channel.target.path.as_str() {

@@ -10,17 +10,16 @@ use crate::file_vertices::FileVertices;
 use crate::loss::Losses;
 use mesh::parallel::{self, BLOCK};
 
-/// The maximum number of comparisons for a corner. A corner is compared with the corners around its vertex that were
-/// processed before, in reverse order. This limit keeps the time for a vertex with a million corners linear. If the corners
-/// of a vertex have more distinct combinations of values than this maximum, equal corners can become different
-/// vertices.
+/// The maximum number of comparisons for a corner. A corner is compared only with the latest distinct combinations of
+/// values around its vertex. This limit keeps the time for a vertex with a million corners linear. If the corners of a
+/// vertex have more distinct combinations of values than this maximum, equal corners can become different vertices.
 const MAX_COMPARED: usize = 64;
 
 /// The glTF vertices. Without reordering, they are in the order of the vertices of the mesh.
 pub(super) struct Split {
     /// The number of vertices.
     pub(super) n: usize,
-    /// The result of splitting. `None` if the glTF vertices are the vertices of the mesh.
+    /// The relation between corners and glTF vertices. `None` if the glTF vertices are the vertices of the mesh.
     seams: Option<Seams>,
 }
 
@@ -89,7 +88,8 @@ pub(super) fn note_changed(stream: &Stream, mesh: &Mesh, split: &Split, losses: 
 }
 
 /// Splits the vertices of a mesh. The arrays of the mesh must have no gaps from removed elements. Isolated vertices are
-/// left out. If the reader made copies of a vertex, the copies are merged with it again, unless their values differ.
+/// left out. Copies that the reader made by splitting a vertex are merged with the vertex again, unless their values
+/// differ.
 pub(super) fn split(mesh: &Mesh, streams: &[Stream]) -> Split {
     let file = FileVertices::of(mesh);
     // If the mesh has no copies of vertices, all corners of a vertex have the same values of vertex attributes, so only
@@ -102,7 +102,8 @@ pub(super) fn split(mesh: &Mesh, streams: &[Stream]) -> Split {
     }
     let vertex_of: Vec<AtomicU32> = mesh::zeroed(mesh.n_half_edges());
     let m = seams.len();
-    // In each block, the indices of vertices first start at 0. The offset of the block is added to the indices later.
+    // Until all blocks are processed, `vertex_of` contains indices that start at 0 in each block. Later, the number of
+    // glTF vertices in earlier blocks is added.
     let blocks = parallel::blocks(n, |vertices| {
         let mut corners = Vec::with_capacity(BLOCK);
         let (mut values, mut own) = (Vec::new(), Vec::new());

@@ -23,8 +23,8 @@ pub(crate) fn storage(
     let has_normals = || has(Domain::Corner, "normal") || has(Domain::Vertex, "normal");
     match (domain, name, values) {
         (Domain::Face, "material", Values::Int(_)) => Kept,
-        // A file stores only a few joints for each vertex, so some weights can be lost. Morph targets are kept, but their
-        // indices can change.
+        // Some joint weights can be lost, because a file stores only a few joints for each vertex. A morph target can
+        // be lost if the indices of the morph targets have gaps.
         (Domain::Vertex, _, Values::Float(_)) if joint_of(name).is_some() => Partial,
         (Domain::Vertex, _, Values::Vec3(_)) if morph_of(name).is_some() => Partial,
         (Domain::Vertex | Domain::Corner, _, Values::Vec3(_))

@@ -19,7 +19,7 @@ pub(super) struct Stream<'a> {
     pub(super) semantic: Semantic,
     pub(super) kind: Type,
     meaning: Meaning<'a>,
-    /// The morph target that has this attribute. `None` for an attribute of the mesh itself.
+    /// The morph target that this attribute belongs to. `None` if the attribute belongs to the mesh itself.
     pub(super) target: Option<usize>,
     pub(super) domain: Domain,
     pub(super) column: &'a Column,
@@ -95,8 +95,8 @@ pub(super) fn streams<'a>(
         let is_material = domain == Domain::Face && column.name == mesh::MATERIAL.name;
         is_deformer(domain, column)
             || is_mark(domain, column)
-            // If a morph target is not written, only one loss is reported for the target. This loss includes the other
-            // attributes of the target, such as its normals.
+            // If a morph target is not written, the loss of the target also covers its other attributes, such as its
+            // normals. No further losses are reported for these attributes.
             || normals.is_some() && morph_normal_of(&column.name).is_some()
             || tangents.is_some() && morph_tangent_of(&column.name).is_some()
             || morph_value_of(&column.name).is_some_and(|(changed, _)| {
@@ -146,8 +146,8 @@ fn deltas<'a>(
     deltas
 }
 
-/// Returns the streams of the changes that morph targets make to texture coordinates and colors. `streams` are those of
-/// the mesh. In glTF, a morph target can change only the attributes that the mesh has.
+/// Returns the streams of the changes that morph targets make to texture coordinates and colors. `streams` contains the
+/// streams of the mesh itself, because in glTF, a morph target can change only attributes that the mesh has.
 fn value_deltas<'a>(
     mesh: &'a Mesh,
     streams: &[Stream<'a>],
@@ -227,8 +227,8 @@ impl Stream<'_> {
         self.target.is_none() && attribute_name(&self.semantic).as_deref() == Some(name)
     }
 
-    /// Returns the value that is written for a corner, and whether it equals the value of the mesh. Of the four
-    /// components, only those that the kind of the stream requires are used.
+    /// Returns the value that is written for a corner, and a flag that is false if the value had to be changed because
+    /// glTF does not allow it. The caller uses only as many of the four components as the kind of the stream has.
     pub(super) fn at(&self, mesh: &Mesh, v: VertexId, h: HalfEdgeId) -> ([f32; 4], bool) {
         let value = value(self.domain, self.column, v, h);
         let [x, y, ..] = value;
@@ -284,9 +284,8 @@ fn tangent([x, y, z, w]: [f64; 4]) -> ([f32; 4], bool) {
     narrow([tangent.x, tangent.y, tangent.z, sign], is_kept)
 }
 
-/// Returns the difference between two directions: the direction of a morph target, and the direction that is written
-/// for the mesh. Also returns whether the direction of the target is kept. If the direction of the target is zero or
-/// not finite, the difference is zero.
+/// Returns the direction (normal or tangent) of a morph target minus the direction `from` that is written for the mesh.
+/// If the direction of the target is zero or not finite, the difference is zero and the returned flag is false.
 fn delta(from: [f32; 4], [x, y, z, _]: [f64; 4]) -> ([f32; 4], bool) {
     let to = DVec3::new(x, y, z);
     if to == DVec3::ZERO || !to.is_finite() {
@@ -311,7 +310,8 @@ fn value(domain: Domain, column: &Column, v: VertexId, h: HalfEdgeId) -> [f64; 4
     }
 }
 
-/// Returns the normal that is written for a corner, and whether it has the same direction as the normal of the mesh.
+/// Returns the normal that is written for a corner, and a flag. If the normal of the mesh has no direction, the normal
+/// of the face is written, and the flag is false.
 fn normal(mesh: &Mesh, h: HalfEdgeId, [x, y, z, _]: [f64; 4]) -> ([f32; 4], bool) {
     let unit = unit(DVec3::new(x, y, z));
     let normal = unit.unwrap_or_else(|| face_normal(mesh, mesh.face(h)));

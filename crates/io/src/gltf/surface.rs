@@ -1,4 +1,4 @@
-//! The types for the JSON of materials, textures, samplers and images in glTF.
+//! Types that represent the JSON of glTF materials, textures, samplers and images.
 //!
 //! The reader and the writer share these types. A member that is `None` is missing in the document. The types in
 //! `gltf_json` cannot be used, because they cannot store the transform of normal and occlusion textures.
@@ -65,7 +65,7 @@ pub(super) struct PbrJson {
     pub(super) metallic_roughness_texture: Option<InfoJson>,
 }
 
-/// The reference of a material to a texture.
+/// A reference from a material to a texture.
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct InfoJson {

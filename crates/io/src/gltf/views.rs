@@ -15,7 +15,7 @@ pub(super) struct Reader<'a> {
     pub(super) document: &'a Document,
     pub(super) buffers: &'a [Cow<'a, [u8]>],
     pub(super) budget: &'a Budget,
-    /// The decoded bytes of the compressed views that have been used so far.
+    /// For each view, its decoded bytes. Only compressed views are decoded, when they are used for the first time.
     pub(super) decoded: Vec<OnceCell<Vec<u8>>>,
 }
 

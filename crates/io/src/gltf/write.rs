@@ -1,7 +1,7 @@
 //! Writes a scene to a glTF document and its bytes.
 //!
-//! All sizes are determined first, so that the document is complete before any bytes of the buffer are written. Then
-//! the bytes are written in parallel, directly to their positions.
+//! The sizes and positions of all parts of the buffer are determined first. After the document is complete, the parts
+//! are written directly to their positions in the buffer, and each part is written in parallel.
 
 use std::path::Path;
 
@@ -16,8 +16,8 @@ use crate::loss::{Loss, Losses};
 use crate::writing::dense;
 use crate::{Format, PackingReport, WriteOptions, Written, gzip};
 
-/// Converts `scene` to the bytes of files, and lists the content that the files do not store. The result has the files
-/// in the order in which they must be saved.
+/// Converts `scene` to the bytes of files, and lists the content that the files do not store. The returned files are in
+/// the order in which they must be saved.
 ///
 /// # Errors
 ///

@@ -24,9 +24,9 @@ pub(super) struct Deformation<'a> {
 }
 
 impl<'a> Deformation<'a> {
-    /// Determines the content to write, and adds losses for the content that is not written. If `sets` is `Some`, it is
-    /// the maximum number of sets of joints. Otherwise, the maximum is the number of sets that the object had in its
-    /// original file.
+    /// Converts the deformation of an object to the form that glTF requires, and adds losses for the content that is
+    /// not written. `sets` is the maximum number of sets of joints. If it is `None`, the maximum is the number of sets
+    /// in the file from which the object was read, or 1.
     pub(super) fn new(
         object: &Object,
         mesh: &'a Mesh,
@@ -145,7 +145,7 @@ impl<'a> Deformation<'a> {
         self.morphs.get(target).is_some_and(Option::is_some)
     }
 
-    /// Whether the object has neither joints nor morph targets.
+    /// Whether the object is written with neither joints nor morph targets.
     pub(super) fn is_none(&self) -> bool {
         self.sets == 0 && self.morphs.is_empty()
     }
@@ -216,8 +216,8 @@ impl Bound {
 }
 
 /// Returns the morph targets of an object. The graph stores the weights of the morph targets in the label of the
-/// object. The number of targets in the result is the number of these weights or, if that is larger, the number of
-/// targets in the mesh.
+/// object. The result has as many targets as there are weights or, if that is more, as the mesh has targets with
+/// deltas. If the mesh has no deltas, the result is empty.
 fn morphs<'a>(
     object: &Object,
     mesh: &'a Mesh,
@@ -234,8 +234,8 @@ fn morphs<'a>(
         losses.add(None, "morph targets", in_file, reason);
         return Vec::new();
     };
-    // The number of morph targets is limited. Without this limit, a single attribute with a large number in its name
-    // would give many targets.
+    // The number of morph targets is at most the number of columns or weights. Otherwise, a single column with a large
+    // number in its name would give many targets.
     let n = last.max(in_file).min(columns.len().max(in_file));
     let mut morphs = vec![None; n];
     let mut unnumbered = 0;

@@ -1,4 +1,4 @@
-//! Writes the document of a glTF file: nodes, meshes, accessors and views.
+//! Builds the document of a glTF file: nodes, meshes, accessors and views.
 
 use std::collections::BTreeMap;
 
@@ -31,10 +31,10 @@ pub(super) struct Writer<'a> {
     pub(super) accessors: Vec<Value>,
     views: Vec<Value>,
     meshes: Vec<Value>,
-    /// For each object that is written, the index of its mesh.
+    /// The index of the mesh of each object that is written. The key is the name of the object.
     pub(super) mesh_of: BTreeMap<&'a str, usize>,
     pub(super) nodes: NodeList,
-    /// For each object that is written, its joints, weights and morph targets.
+    /// The deformation of each object that is written. The key is the name of the object.
     pub(super) deformed: BTreeMap<&'a str, Deformed>,
     /// For each array that was written, the index of its accessor. The key consists of the index of the array, the
     /// number of components of each element, and the total number of components.
@@ -42,12 +42,12 @@ pub(super) struct Writer<'a> {
     pub(super) pieces: Vec<Piece<'a>>,
     materials: MaterialWriter,
     pub(super) quantizer: Quantizer<'a>,
-    /// The views of the arrays that can be compressed, each with its encoding.
+    /// How each array that can be compressed is encoded. The key is the index of the view of the array.
     arrays: BTreeMap<usize, Array>,
     compression: Option<Compression>,
 }
 
-/// The joints, weights and morph targets of an object, as written in the file.
+/// Whether the mesh of an object is written with joints, and the number of morph targets with which it is written.
 pub(super) struct Deformed {
     pub(super) has_joints: bool,
     pub(super) n_targets: usize,
@@ -147,8 +147,8 @@ impl<'a> Writer<'a> {
             };
             for (key, value) in members {
                 match (&mut part[&key], value) {
-                    // The extras of `asset` can already contain the provenance. Further extras are then added, and the
-                    // provenance is kept.
+                    // If the extras of `asset` already contain the provenance, the extras from the graph are added to
+                    // it.
                     (Value::Object(extras), Value::Object(more)) => extras.extend(more),
                     (place, value) => *place = value,
                 }
@@ -220,7 +220,7 @@ impl<'a> Writer<'a> {
                 "targets": targets,
             }));
         }
-        // The bytes of each image follow the data of the first object that uses the image.
+        // The buffer contains the bytes of an image after the data of the first object that uses the image.
         for (place, bytes) in std::mem::take(&mut self.materials.image_bytes) {
             let length = bytes.len();
             let view = self.view(length, None, move |out| out.copy_from_slice(&bytes));

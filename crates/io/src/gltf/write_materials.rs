@@ -33,9 +33,9 @@ pub(super) struct MaterialWriter {
 }
 
 impl MaterialWriter {
-    /// Adds a material to the document if necessary, and returns its index. The material is used by a mesh with `n_uvs`
-    /// sets of texture coordinates, so textures that need other sets are not written. Equal materials get the same
-    /// index.
+    /// Returns the index of a material in the document, and adds the material if no equal material exists yet. `n_uvs`
+    /// is the number of sets of texture coordinates of the mesh that uses the material. Textures that need other sets
+    /// are not written.
     ///
     /// # Errors
     ///
@@ -73,7 +73,7 @@ impl MaterialWriter {
         Ok(self.materials.len() - 1)
     }
 
-    /// The extensions that the materials use.
+    /// The names of the extensions that the materials use.
     pub(super) fn extensions(&self) -> Vec<&'static str> {
         let all = [TRANSFORM, STRENGTH, UNLIT]
             .into_iter()

@@ -51,7 +51,7 @@ impl<'a> Writer<'a> {
     fn animation(&mut self, graph: &'a Graph, animation: &Animation) -> Result<usize, Unwritable> {
         let mut channels = Vec::new();
         let mut samplers = Vec::new();
-        // For each sampler of the animation, the index that the sampler has in the file.
+        // For each sampler of the animation, its index in the file. `None` if the sampler is not written yet.
         let mut places = vec![None; animation.samplers.len()];
         for channel in &animation.channels {
             let Some(kind) = self.kind(graph, animation, channel) else {

@@ -11,8 +11,8 @@
 //!
 //! Floating-point numbers are stored as `float64`, integers as `int32`, tags as `bool`, and vertex ids as `int64`. The
 //! file is an uncompressed zip archive of `.npy` files (version 1.0 of the format). In the names of attributes,
-//! slashes, backslashes and control characters become `_`. If two arrays would have the same name, a number is appended
-//! to the second name.
+//! slashes, backslashes and control characters become `_`. If the name of an array is already used, a number is
+//! appended to it.
 
 mod zip;
 
@@ -127,7 +127,7 @@ fn wholes(numbers: impl IntoIterator<Item = usize>) -> Vec<u8> {
 fn npy(kind: &str, shape: &[usize], data: Vec<u8>) -> Vec<u8> {
     const PREFIX: usize = 10;
     let sizes: Vec<String> = shape.iter().map(ToString::to_string).collect();
-    // The header is a Python literal, in which a tuple of one number ends in a comma.
+    // The header is a Python literal. In Python, a tuple with one number has a comma after the number.
     let end = if shape.len() == 1 { "," } else { "" };
     let shape = sizes.join(", ") + end;
     let mut header = format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': ({shape}), }}");

@@ -19,7 +19,7 @@ use crate::save::Block;
 use crate::writing::NOT_FINITE;
 use mesh::parallel;
 
-/// The text is written in blocks. This is the number of vertices, values or faces in a block.
+/// The number of vertices, values or faces in a block of the text.
 const BLOCK: usize = 8192;
 
 /// A mesh, and the data that are needed to write the mesh.
@@ -34,7 +34,7 @@ pub(super) struct MeshBody<'a> {
     vertices: FileVertices,
 }
 
-/// The normals to write: those of the vertices or those of the corners.
+/// The normals that are written: the corner normals of the mesh or, if it has none, its vertex normals.
 #[derive(Clone, Copy)]
 enum Normals<'a> {
     Vertices(&'a [DVec3]),
@@ -98,7 +98,7 @@ impl<'a> MeshBody<'a> {
         }
     }
 
-    /// Returns the [`TextState`] after the text of this mesh.
+    /// Returns the [`TextState`] at the end of the text of this mesh.
     pub(super) fn after(&self) -> TextState {
         let mut after = self.before;
         for (k, n) in self.counts().into_iter().enumerate() {
@@ -252,7 +252,8 @@ fn count<T>(values: Option<&(T, CornerNumbers)>) -> usize {
     values.map_or(0, |(_, numbers)| numbers.firsts().len())
 }
 
-/// Assigns numbers to the distinct values on the corners of each vertex.
+/// Assigns numbers to the distinct values on the corners of each vertex. Adds a loss for the values that are not
+/// finite.
 fn numbers<const N: usize>(
     mesh: &Mesh,
     value: impl Fn(HalfEdgeId) -> [f64; N] + Sync,

@@ -1,5 +1,5 @@
-//! Parses the corners of faces, lines and points. Indices start at 1. Negative indices count backward from the last
-//! element that is defined before the corner.
+//! Parses the corners of faces, lines and points. Indices start at 1. A negative index counts backward from the last
+//! element that is defined before the corner: -1 is this element, and -2 is the element before it.
 
 use super::file::NONE;
 use crate::fault::Fault;
@@ -22,23 +22,24 @@ pub(super) enum Index {
     Relative(i64),
 }
 
-/// The range of valid indices.
+/// How much is known about the range of valid indices.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Limits {
-    /// Only a part of the file is parsed. Indices have no limit, because the element counts of the other parts are not
-    /// known yet.
+    /// Only a part of the file is parsed. The element counts of the other parts are not known, so indices are not
+    /// checked.
     Part,
-    /// The whole file is parsed, but the elements that later lines define are not known yet. A positive index can refer
-    /// to an element in a later line, so only negative indices are checked.
+    /// The whole file is parsed for the first time. Positive indices are not checked, because they can refer to
+    /// elements that later lines define. Negative indices are checked.
     Start,
-    /// The whole file is parsed, and it is known how many elements the file defines.
+    /// The whole file is parsed again, and all indices are checked. The value of the variant is the number of elements
+    /// that the file defines.
     Whole(Counts),
 }
 
 const NOUNS: [&str; 3] = ["vertex", "texture coordinate", "normal"];
 
-/// Parses `v`, `v/vt`, `v//vn` or `v/vt/vn`. `now` contains the number of positions, texture coordinates and normals
-/// that are defined before this corner. Negative indices count backward from these numbers.
+/// Parses `v`, `v/vt`, `v//vn` or `v/vt/vn`. `now` contains the numbers of positions, texture coordinates and normals
+/// that are defined before this corner.
 ///
 /// # Errors
 ///

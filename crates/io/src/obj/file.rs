@@ -1,4 +1,4 @@
-//! Stores the content of an OBJ file as flat arrays, in the order of the file. Nothing is merged or split.
+//! Stores the content of an OBJ file as flat arrays, in the order of the file.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use crate::text::TextPosition;
 /// The index of a missing texture coordinate or normal.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// Some programs use this material name for faces without a material, because the format has no other way to unset a
+/// The material name that some programs use for faces without a material. The format has no statement that unsets the
 /// material.
 pub(super) const NO_MATERIAL: &[u8] = b"(null)";
 
@@ -17,7 +17,7 @@ pub(super) const NO_MATERIAL: &[u8] = b"(null)";
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct ObjFile {
     pub(super) positions: Vec<DVec3>,
-    /// One color for each position, or empty. A vertex without a color is white.
+    /// The color of each position. A position without a color is white; the list is empty if no position has a color.
     pub(super) colors: Vec<DVec4>,
     /// The values of `#MRGB` comments of `ZBrush`. Each value is a 32-bit number whose bytes are the mask, red, green
     /// and blue, from the highest to the lowest byte.
@@ -33,8 +33,8 @@ pub(super) struct ObjFile {
     /// `line_corners[line_offsets[i]..line_offsets[i + 1]]`.
     pub(super) line_offsets: Vec<u32>,
     pub(super) line_corners: Vec<u32>,
-    /// The runs of consecutive faces with the same groups, object, material and smoothing group. A run ends before the
-    /// first face of the next run. If the list is not empty, the first run begins with face 0.
+    /// The runs of consecutive faces with the same groups, object, material and smoothing group. If there are faces,
+    /// the first run begins with face 0. Each run ends before the first face of the next run.
     pub(super) runs: Vec<Run>,
     /// The sets of groups that the runs of faces refer to. Each set contains indices into `group_names`. Set 0 is
     /// empty.
@@ -69,9 +69,10 @@ pub(super) enum LeftOut {
     Statement(String),
     /// Words that are not a statement of the format.
     Unknown(String),
-    /// All unknown words after the first [`MAX_LISTED_WORDS`](super::statement::MAX_LISTED_WORDS) distinct words.
+    /// Unknown words that are not listed by name, because [`MAX_LISTED_WORDS`](super::statement::MAX_LISTED_WORDS)
+    /// other unknown words are listed.
     OtherUnknown,
-    /// Points (`p`). Each vertex of such a statement is counted as one point.
+    /// Points. Each vertex of a `p` statement counts as one point.
     Points,
     /// Faces with one or two corners.
     SmallFaces,

@@ -12,7 +12,8 @@ use super::statement::MAX_LISTED_WORDS;
 use crate::text::TextPosition;
 use mesh::parallel;
 
-/// Whether every index refers to an existing element and all counts fit in 32 bits.
+/// Whether every index in the parts refers to an existing element of the file, and all counts of the file fit in 32
+/// bits.
 pub(super) fn fits(parts: &[Part]) -> bool {
     let mut before = Counts::default();
     let mut highest = Counts::default();
@@ -73,7 +74,7 @@ pub(super) fn join(mut parts: Vec<Part>) -> ObjFile {
 
 // ---- Arrays ------------------------------------------------------------------------------------
 
-/// Returns the start of each piece in the joined array, followed by the end of the last piece.
+/// Returns the position at which each piece starts in the joined array, followed by the length of the joined array.
 fn starts(lengths: impl Iterator<Item = usize>) -> Vec<usize> {
     let mut starts = vec![0];
     let mut end = 0;
@@ -84,7 +85,7 @@ fn starts(lengths: impl Iterator<Item = usize>) -> Vec<usize> {
     starts
 }
 
-/// Joins pieces into an array. `fill` writes a piece into the array. Each piece is freed after it is written.
+/// Joins pieces into an array. `fill` copies a piece to its place in the array. Each piece is freed after it is copied.
 fn filled<T, P>(
     pieces: Vec<P>,
     starts: &[usize],
@@ -141,11 +142,11 @@ fn column<'a>(
     })
 }
 
-/// Joins the lists of ends of faces or lines into one list of offsets. The offsets are the start of each face or line,
-/// followed by the end of the last one.
+/// Converts the ends of the faces or polylines of all parts to offsets in the joined list of corners. The offsets are
+/// the start of each face or polyline, followed by the end of the last one.
 fn ends<'a>(pieces: impl Iterator<Item = &'a mut Vec<u32>>, corners: &[usize]) -> Vec<u32> {
     let mut pieces: Vec<Vec<u32>> = pieces.map(std::mem::take).collect();
-    // The list starts with a 0, at which the first face or line begins.
+    // The first face or polyline starts at 0.
     pieces.insert(0, vec![0]);
     let starts = starts(pieces.iter().map(Vec::len));
     filled(pieces, &starts, |i, room, piece| {

@@ -9,7 +9,7 @@ use crate::decimal::push_number;
 use crate::loss::Losses;
 use crate::writing::push_comment;
 
-/// Returns the text of a material library. The names of the materials must have no line ends.
+/// Returns the text of a material library. The names of the materials must not contain line ends.
 pub(super) fn write_library(materials: &[Material], comment: Option<&str>) -> Vec<u8> {
     let mut out = Vec::new();
     push_comment(&mut out, "#", comment);
@@ -120,8 +120,8 @@ impl Library {
         self.indices.push(places);
     }
 
-    /// Returns the index of a material. Objects share equal materials. If a different material in the library already
-    /// has the same name, the new material is renamed.
+    /// Returns the index of a material in `materials`, and adds the material if no equal material exists yet. If a
+    /// different material already has its name, the new material is renamed.
     fn index_of(&mut self, material: &Material, losses: &mut Losses) -> usize {
         let mut base = fit_line(&material.name).into_owned();
         if base.is_empty() || base.as_bytes() == NO_MATERIAL {

@@ -13,9 +13,9 @@ use crate::fault::Fault;
 use crate::note::Notes;
 use crate::text::{check_encoding, name, quoted};
 
-/// The maximum total size in bytes of the material libraries of a file. All further bytes are not read.
+/// The maximum total size in bytes of the material libraries of a file. Bytes beyond this size are not read.
 const MAX_LIBRARY_BYTES: u64 = 1 << 28;
-/// The maximum number of library names that are looked up, including repeated names. All further names are left out,
+/// The maximum number of library names that the reader looks up, including repeated names. Further names are left out,
 /// because searching for very many files would be slow.
 const MAX_NAMES: usize = 512;
 /// The largest length of a path in bytes.
@@ -89,8 +89,8 @@ pub(super) fn read_libraries(
     Ok(materials)
 }
 
-/// Returns the file names on an `mtllib` line. A name is either in quotes, or a sequence of words that together name an
-/// existing file, or a single word. Returns at most `most` names, and the number of remaining words.
+/// Returns the file names on an `mtllib` line. A name is in quotes, consists of several words if an existing file has
+/// this name, or is a single word. Returns at most `most` names, and the number of words after them.
 fn library_names(words: &str, most: usize, assets: &mut Assets) -> (Vec<String>, usize) {
     let mut is_file = |name: &str| {
         let short = Some(name).filter(|name| name.len() <= MAX_PATH_BYTES);
@@ -118,8 +118,8 @@ fn library_names(words: &str, most: usize, assets: &mut Assets) -> (Vec<String>,
     (names, rest.split_whitespace().count())
 }
 
-/// A file name can end at any of the last blanks of a line. This is the maximum number of blanks that are tried,
-/// beginning with the last one.
+/// The maximum number of blanks of a line that are tried as the end of a file name. The last blank of the line is tried
+/// first.
 const MAX_BLANKS: usize = 16;
 
 /// Reads the materials of one library. Lines that cannot be read are left out, with a note.
@@ -179,7 +179,7 @@ fn check_line(line: &str) -> Result<(), String> {
         .map_err(|error| error.to_string())
 }
 
-/// Counts the material values that are left out.
+/// The number of material values that are left out.
 #[derive(Default)]
 struct Ignored(usize);
 
@@ -190,8 +190,7 @@ impl Ignored {
         picture
     }
 
-    /// Returns the texture of a declaration. If the declaration has a multiplier (the option `-bm`), the multiplier is
-    /// left out.
+    /// Parses the declaration of a texture. If it has a multiplier (the option `-bm`), the multiplier is left out.
     fn plain(&mut self, text: Option<String>) -> Option<Texture> {
         let picture = self.picture(text)?;
         self.0 += usize::from(picture.multiplier.is_some());
@@ -213,7 +212,7 @@ fn converted(from: tobj::Material, ignored: &mut Ignored) -> Material {
     let emissive_texture = ignored.plain(unknown.remove("map_Ke"));
     let [rough, metal] = ["map_Pr", "map_Pm"].map(|key| ignored.plain(unknown.remove(key)));
     // In the scene, as in glTF, one texture stores both roughness and metalness. In MTL, roughness and metalness have
-    // separate textures, which are read only if they are equal.
+    // separate textures. They are read only if both are the same file.
     let metallic_roughness_texture = if rough == metal {
         rough
     } else {

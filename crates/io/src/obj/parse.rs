@@ -37,14 +37,15 @@ fn parse_in_parts(bytes: &[u8], size: usize) -> Result<ObjFile, Fault> {
     }
 }
 
-/// Parses a file as a whole. This is done if parsing in parts fails, usually to find the exact error.
+/// Parses a file in order, after parsing in parts failed. The reason is usually an error, and only parsing in order
+/// finds the exact position of the first error.
 fn parse_whole(bytes: &[u8]) -> Result<Part, Fault> {
     let part = read_whole(bytes, Limits::Start)?;
     if fits(std::slice::from_ref(&part)) {
         return Ok(part);
     }
-    // A vertex can be defined after the faces that use it, so the first pass does not know the final counts. If an
-    // index is too high, a second pass with the final counts finds the line of the index.
+    // An index of the file is too high. The first pass could not check it, because a vertex can be defined after the
+    // faces that use it. The second pass knows the final counts and finds the line of the index.
     let counts: Counts = part.counts();
     drop(part);
     read_whole(bytes, Limits::Whole(counts))

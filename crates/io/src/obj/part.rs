@@ -8,8 +8,8 @@ use super::corner::{Corner, Counts, Index};
 use super::file::{LeftOut, NONE};
 use crate::text::{TextPosition, name};
 
-/// The content of a part of an OBJ file. Line numbers count from 1, and indices of faces, sets and names count from 0.
-/// All of them count from the beginning of the part.
+/// The content of a part of an OBJ file. Line numbers start at 1 at the beginning of the part, and indices of faces,
+/// sets and names start at 0.
 #[derive(Debug, Default)]
 pub(super) struct Part {
     pub(super) positions: Vec<DVec3>,
@@ -20,12 +20,12 @@ pub(super) struct Part {
     pub(super) mrgb_colors: Vec<u32>,
     pub(super) uvs: Vec<DVec2>,
     pub(super) normals: Vec<DVec3>,
-    /// For each face, the number of face corners of the part up to the end of this face.
+    /// For each face, the index after its last corner in the lists of `corners`.
     pub(super) face_ends: Vec<u32>,
     /// The indices of the positions, texture coordinates and normals of the corners. An index is [`NONE`] if it is
     /// missing; a list is empty if all its indices are missing.
     pub(super) corners: [Indices; 3],
-    /// For each polyline, the number of polyline corners of the part up to the end of this polyline.
+    /// For each polyline, the index after its last corner in `line_corners`.
     pub(super) line_ends: Vec<u32>,
     /// The vertices of the corners of polylines.
     pub(super) line_corners: Indices,
@@ -44,10 +44,11 @@ pub(super) struct Part {
     pub(super) libraries: Vec<(TextPosition, String)>,
     /// For each kind of content that was left out, its number of occurrences and its first line.
     pub(super) left_out: BTreeMap<LeftOut, (usize, usize)>,
-    /// For positions, texture coordinates and normals, the highest absolute index in this part plus 1.
+    /// The numbers of positions, texture coordinates and normals that the file must define, so that the absolute
+    /// indices of this part are valid.
     pub(super) highest: Counts,
-    /// For positions, texture coordinates and normals, how many elements must be defined before this part, so that its
-    /// relative indices are valid.
+    /// The numbers of positions, texture coordinates and normals that earlier parts must define, so that the relative
+    /// indices of this part are valid.
     pub(super) reach: Counts,
     /// The number of lines that end in this part.
     pub(super) n_lines: usize,
@@ -102,8 +103,8 @@ impl Part {
     }
 
     /// Keeps the first `n` face corners and removes the others. The columns are positions, texture coordinates and
-    /// normals. `had` has a flag for each column: whether the column had values before the removed corners were added.
-    /// If not, the column becomes empty.
+    /// normals. A column whose flag in `had` is false was empty before the removed corners were added, and becomes
+    /// empty again.
     pub(super) fn truncate_corners(&mut self, n: usize, had: [bool; 3]) {
         for (column, had) in self.corners.iter_mut().zip(had) {
             column.truncate(if had { n } else { 0 });

@@ -18,8 +18,8 @@ use crate::polygons::OBJECT_TAG;
 use crate::text::{Cursor, TextPosition, name};
 use mesh::parallel;
 
-/// Returns the element counts and the materials of an OBJ file. Also returns notes on statements, images and material
-/// libraries that are left out. Numbers and indices are not checked, so some invalid files cause no error.
+/// Returns the element counts and the materials of an OBJ file. Adds notes on statements, images and material libraries
+/// that are left out. Numbers and indices are not checked, so some invalid files cause no error.
 ///
 /// # Errors
 ///
@@ -51,8 +51,7 @@ pub(crate) fn peek(
     let tag = |name: &String| format!("{OBJECT_TAG}{name}");
     let objects = all.objects.list.iter().map(tag);
     let groups = all.groups.list.iter().map(|name| match name.as_str() {
-        // The names `material` and `smoothing` belong to other attributes, so the reader renames a group with such a
-        // name.
+        // The reader can rename these groups, because `material` and `smoothing` are names of other attributes.
         "material" | "smoothing" => format!("{name} group"),
         _ => name.clone(),
     });
@@ -192,7 +191,7 @@ impl Counts {
         counts
     }
 
-    /// Adds the counts of the next part.
+    /// Adds the counts of the part that follows the parts counted so far.
     fn add(&mut self, next: Self) {
         let (mesh, other) = (&mut self.mesh, &next.mesh);
         mesh.colors |= other.colors;

@@ -29,8 +29,8 @@ impl Picture {
             rest = behind;
             for i in 0..most_values(option) {
                 let (word, behind) = cut_word(rest);
-                // The options `-o`, `-s` and `-t` have one to three numbers. A word that is not a number ends the
-                // option.
+                // The options `-o`, `-s` and `-t` have one to three numbers. The first word that is not a number
+                // belongs to the file name or to the next option.
                 if i > 0 && word.parse::<f64>().is_err() && most_values(option) == 3 {
                     break;
                 }

@@ -139,7 +139,7 @@ fn missing(indices: &[u32]) -> usize {
     parallel::count(indices.len(), |i| indices[i] == NONE)
 }
 
-/// Returns the number of elements that no index refers to. `n` is the number of all elements.
+/// Returns how many of `n` elements no index refers to.
 fn unused(n: usize, indices: &[u32]) -> usize {
     let used = parallel::index_flags(n, indices);
     used.iter().filter(|used| !used.load(Relaxed)).count()
@@ -147,13 +147,14 @@ fn unused(n: usize, indices: &[u32]) -> usize {
 
 // ---- Values of faces ---------------------------------------------------------------------------
 
-/// Returns the faces of the run (consecutive faces with the same groups, object and material) with index `i`.
+/// Returns the faces of run `i`. A run consists of consecutive faces with the same groups, object, material and
+/// smoothing group.
 fn faces_of_run(file: &ObjFile, i: usize, n_faces: usize) -> Range<usize> {
     let next = file.runs.get(i + 1);
     file.runs[i].first_face..next.map_or(n_faces, |next| next.first_face)
 }
 
-/// Returns a value for each face. The value belongs to the run of consecutive faces that contains the face.
+/// Returns a value for each face. `of_run` gives the value for all faces of a run.
 fn on_faces<T: Copy + Default>(
     polygons: &Polygons,
     file: &ObjFile,

@@ -15,7 +15,8 @@ const MRGB_COMMENT: &[u8] = b"#MRGB ";
 /// The maximum number of distinct unknown words that are listed by name.
 pub(super) const MAX_LISTED_WORDS: usize = 8;
 
-/// Parses the statements of a part of a file. The ranges of indices are checked later, when the parts are joined.
+/// Parses the statements of a part of a file. Whether indices refer to existing elements is checked later, when all
+/// parts are parsed.
 ///
 /// # Errors
 ///
@@ -106,10 +107,9 @@ impl Parser<'_> {
         Ok(())
     }
 
-    /// Binary data can have any number of distinct unknown words, but only the first few of the file are listed by
-    /// name. When only a part of the file is parsed, it is not known which words these are, because earlier parts can
-    /// also have unknown words. Therefore, parsing a part with too many unknown words fails, and the whole file is
-    /// parsed in order.
+    /// Decides whether an unknown word is listed by name. Binary data can have very many distinct unknown words, so
+    /// only the first few of the file are listed. While a part is parsed, the unknown words of earlier parts are not
+    /// known. Therefore, parsing a part with too many unknown words fails, and the whole file is parsed in order.
     fn unknown(&self, place: TextPosition, word: String) -> Result<LeftOut, Fault> {
         let key = LeftOut::Unknown(word);
         let known = &self.part.left_out;
@@ -132,7 +132,7 @@ impl Parser<'_> {
 
     // ---- Vertices, texture coordinates, normals ------------------------------------------------
 
-    /// Adds a vertex. Only the first `n` of the values are used.
+    /// Adds a vertex with the first `n` of the values.
     pub(super) fn vertex(
         &mut self,
         place: TextPosition,

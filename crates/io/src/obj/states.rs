@@ -27,9 +27,10 @@ pub(super) struct TextState {
     pub(super) smoothing: i32,
 }
 
-/// The columns with the groups, objects, materials and smoothing groups of faces.
+/// The attribute columns of a mesh from which the groups, object, material and smoothing group of each face are
+/// written.
 pub(super) struct FaceStates<'a> {
-    /// The tags that represent objects: each face has exactly one of them.
+    /// The tags that are written as `o` statements. The list is empty, or each face has exactly one of the tags.
     objects: Vec<(&'a str, &'a [bool])>,
     groups: Vec<(&'a str, &'a [bool])>,
     materials: Option<&'a [i32]>,
@@ -61,8 +62,8 @@ impl<'a> FaceStates<'a> {
             let is_of = |(name, marks): &&(&str, &[bool])| is_object(name) && marks[f];
             groups.iter().filter(is_of).count() == 1
         };
-        // The statement `o` is written only if every face belongs to exactly one object. If a face belongs to no object
-        // or to several objects, the object tags are written as groups.
+        // The tags of objects are written as `o` statements only if each face has exactly one of these tags, and the
+        // scene has only one object. Otherwise, they are written as groups.
         let objects = if !several && parallel::all(mesh.n_faces(), one_object_each) {
             groups.extract_if(.., |(name, _)| is_object(name)).collect()
         } else {
@@ -122,7 +123,8 @@ impl<'a> FaceStates<'a> {
     }
 }
 
-/// Returns a name without line ends and surrounding blanks, so that the name can be written at the end of a line.
+/// Changes a name so that it can be written at the end of a line. Surrounding blanks and trailing backslashes are
+/// removed, and control characters become `_`.
 pub(super) fn fit_line(name: &str) -> Cow<'_, str> {
     let trimmed = name.trim_matches(|c: char| c.is_whitespace());
     if trimmed.contains(char::is_control) || trimmed.ends_with('\\') {
@@ -132,7 +134,8 @@ pub(super) fn fit_line(name: &str) -> Cow<'_, str> {
     Cow::Borrowed(trimmed)
 }
 
-/// Turns a name into a single word. Blanks and control characters become `_`.
+/// Turns a name into a single word. Blanks and control characters become `_`. Leading `#` and trailing backslashes are
+/// removed.
 pub(super) fn one_word(name: &str) -> Cow<'_, str> {
     let blank = |c: char| c.is_whitespace() || c.is_control();
     if name.is_empty() || name.contains(blank) || name.starts_with('#') || name.ends_with('\\') {

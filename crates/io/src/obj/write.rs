@@ -105,7 +105,7 @@ impl<'a> Shape<'a> {
 
 /// Adds the blocks of text for polylines.
 fn polylines<'a>(lines: &'a [Vec<DVec3>], before: &mut TextState, blocks: &mut Vec<Block<'a>>) {
-    /// The text is written in blocks. This is the number of polylines in a block.
+    /// The number of polylines in a block of the text.
     const BLOCK: usize = 1024;
     for lines in lines.chunks(BLOCK) {
         blocks.push(Box::new(move |out| {

@@ -15,9 +15,9 @@
 //!
 //! The letters before `OFF` can be combined, as in `STCNOFF`. The line of a vertex then has the position, normal, color
 //! and texture coordinates, in this order. The keyword in the first line can be missing. If all color components of the
-//! vertices are integers, and at least one is greater than 1, all of them are divided by 255. Otherwise, the components
-//! are used unchanged. The colors of the faces are converted in the same way. Binary files are refused. Files whose
-//! vertices do not have three coordinates (`4OFF`, `nOFF`) are also refused.
+//! vertices are integers, and at least one of them is greater than 1, all components are divided by 255. Otherwise,
+//! they are used unchanged. The same rule applies separately to the colors of the faces. Binary files are refused.
+//! Files whose vertices do not have three coordinates (`4OFF`, `nOFF`) are also refused.
 //!
 //! The writer uses the same table from right to left. Texture coordinates are written only if they are equal at all
 //! corners of each vertex.

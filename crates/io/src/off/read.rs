@@ -59,7 +59,7 @@ impl Header {
             let message = "expected `OFF`, found the end of the file";
             return Err(cursor.place().error(message));
         };
-        // Files of old programs begin with a number, without a keyword.
+        // Files of some old programs have no keyword and begin with the number of vertices.
         if !word[0].is_ascii_digit() || word.ends_with(b"OFF") {
             header.keyword(place, word)?;
             *cursor = ahead;
@@ -192,7 +192,8 @@ fn numbers<const N: usize>(words: Words) -> Result<[f64; N], Fault> {
     Ok(numbers)
 }
 
-/// The colors of the vertices or of the faces. The colors are scaled after all of them are read.
+/// The colors of the vertices or of the faces. Whether the components are bytes is known only after all colors are
+/// read.
 #[derive(Default)]
 struct Colors {
     /// The color and, if given, the alpha of each element; `None` for a face without a color.
@@ -332,8 +333,8 @@ fn note_left_out(small: usize, first: Option<usize>, cursor: &mut Cursor, notes:
 
 // ---- Counts ------------------------------------------------------------------------------------
 
-/// Returns the element counts of an OFF file, and the attributes that its faces can have. Adds notes on faces and lines
-/// that are left out. Numbers and vertex indices are not checked.
+/// Returns the element counts of an OFF file, and the face attributes that reading the file can give. Adds notes on
+/// faces and lines that are left out. Numbers and vertex indices are not checked.
 ///
 /// # Errors
 ///

@@ -30,7 +30,7 @@ pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<SingleFile,
     Ok((out, joined.losses))
 }
 
-/// The content to write. Non-finite numbers are replaced by 0.
+/// The content that is written. In attributes, values that are not finite are replaced by 0.
 struct Content<'a> {
     mesh: &'a Mesh,
     /// The normals, colors and texture coordinates of the vertices, if they exist.

@@ -1,9 +1,9 @@
-//! Reads and writes comments that describe attributes of a mesh. A comment is necessary if the names and types of the
-//! properties in the file are not sufficient to determine the attribute.
+//! Reads and writes comments that describe attributes of a mesh. The writer adds a comment for each attribute that a
+//! reader cannot restore from the names and types of its properties.
 //!
 //! For example, `comment meshwright vertex vec3 normal tangent_x "tangent"` declares an attribute `tangent`, whose name
 //! is written as a JSON string. Its values are unit vectors, and its components are three properties of `vertex`,
-//! beginning with `tangent_x`. Other programs see three unrelated properties.
+//! beginning with `tangent_x`. Programs that do not know these comments read three unrelated properties.
 
 use mesh::{Domain, Rule};
 

@@ -1,7 +1,7 @@
 //! Provides the values of a PLY file as tables. The file can be binary or text.
 //!
-//! The rows of a text file are first converted to binary rows, with 64 bits for every floating-point value. Therefore,
-//! the other modules only handle binary rows.
+//! The rows of a text file are first converted to binary rows, so the other modules handle only binary rows.
+//! Floating-point values of a text file are converted to 64 bits.
 
 use std::borrow::Cow;
 
@@ -18,7 +18,8 @@ use mesh::counted;
 pub(super) struct Body<'a> {
     file: &'a [u8],
     header: &'a Header,
-    /// The elements, with the types that the values of their properties have in [`bytes`](Self::bytes).
+    /// The elements of the header. In a text file, the types of their properties are changed to the types of the values
+    /// in [`bytes`](Self::bytes).
     elements: Vec<Element>,
     bytes: Cow<'a, [u8]>,
     /// The position in `bytes` at which the values begin.
@@ -65,8 +66,8 @@ impl<'a> Body<'a> {
     ///
     /// # Errors
     ///
-    /// Returns an error if the file is too short or a list has a negative count. Extra bytes at the end are reported by
-    /// a note.
+    /// Returns an error if the file is too short or a list has a negative count. If bytes are left at the end of the
+    /// file, adds a note instead.
     pub(super) fn tables(&self, notes: &mut Notes) -> Result<Vec<Table<'_>>, Fault> {
         let mut at = self.start;
         let big = self.header.encoding == Encoding::BigEndian;
@@ -217,7 +218,7 @@ fn next<'a>(
     })
 }
 
-/// Appends a value to `out`, and returns it if it is an integer.
+/// Appends a value to `out`. Returns the value if its type is an integer type, otherwise 0.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

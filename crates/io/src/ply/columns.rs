@@ -1,5 +1,5 @@
-//! Decodes whole columns of values on all threads. The type of the values is checked once for each chunk of a column,
-//! not once for each value.
+//! Decodes whole columns of values on all threads. For speed, the type of the values is checked once for each chunk of
+//! a column instead of once for each value.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -61,7 +61,7 @@ impl Kind {
     }
 }
 
-/// Where the components of the values of a column are stored.
+/// The properties of a PLY element that store the values of a mesh attribute.
 #[derive(Clone, Copy)]
 pub(super) enum Source<'a> {
     /// The numbers are in consecutive scalar properties. The field is the index of the first property.
@@ -71,8 +71,9 @@ pub(super) enum Source<'a> {
     List(usize, &'a [u32]),
 }
 
-/// Decodes the values of `kind` in a table. If a list does not have the right number of values for the corners of its
-/// face, the corners of this face get zero. Returns the values and the number of such faces.
+/// Decodes the values of an attribute. Corner values are stored as a list for each face. If the length of a list does
+/// not match the number of corners of its face, these corners get zero. Returns the values and the number of faces with
+/// a wrong list.
 pub(super) fn values(table: &Table, source: Source, kind: Kind) -> (Values, usize) {
     #[expect(
         clippy::cast_possible_truncation,
@@ -109,7 +110,7 @@ pub(super) fn numbers<const N: usize, V: Value>(
     properties: [usize; N],
     make: impl Fn([f64; N]) -> V + Sync,
 ) -> Vec<V> {
-    /// The number of rows that are decoded at a time. The values of this many rows fit in the first-level cache of the
+    /// The number of rows that are decoded at a time, chosen so that their values fit in the first-level cache of the
     /// processor.
     const PIECE: usize = 256;
     let mut out = zeroed(table.rows);
@@ -173,15 +174,15 @@ fn for_blocks<V: Send>(
     });
 }
 
-/// The offsets of the list of each row, and the items of all lists.
+/// The offsets at which the lists of the rows start in the items, and the items of all lists.
 type Lists = (Vec<u32>, Vec<u32>);
 
 /// Reads the lists of a table as vertex indices. Returns the offsets and the indices.
 ///
 /// # Errors
 ///
-/// Returns the row and the item of the first value that is not a vertex index. Returns `None` if there are more values
-/// than a 32-bit number can count.
+/// The error is the row and the item of the first value that is not a vertex index. The error is `None` if the lists
+/// have too many items for 32-bit offsets.
 pub(super) fn indices(
     table: &Table,
     property: usize,

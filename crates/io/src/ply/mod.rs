@@ -18,9 +18,9 @@
 //! | `comment TextureFile ..` | left out, with a note |
 //! | other comments, `obj_info` | not kept |
 //!
-//! A scalar property becomes an attribute of the same name. When the mesh is edited, the values of a floating-point
-//! property of `vertex` are interpolated, and all other values are copied. Non-finite positions are an error. Other
-//! non-finite values become 0, with a note.
+//! When an edit creates elements, the values of custom floating-point properties of `vertex` are interpolated, and the
+//! values of all other custom properties are copied. Non-finite positions are an error. Other non-finite values become
+//! 0, with a note.
 //!
 //! The writer uses the same table from right to left, and writes little-endian binary files. All finite values are
 //! restored exactly when the file is read. Positions and custom floating-point attributes are written with 64 bits.

@@ -12,11 +12,12 @@ use crate::note::Notes;
 use crate::peek::{MAX_COMPARED, PeekMesh, differ};
 
 /// Returns the numbers of vertices, faces and corners of a PLY file, and adds notes on the elements that are left out.
-/// Positions and the vertices of faces are not checked.
+/// Positions and the vertex indices of faces are not checked.
 ///
 /// # Errors
 ///
-/// Returns an error if the header violates the format, or if the file is shorter than the header declares.
+/// Returns an error if the header violates the format, if the file is shorter than the header declares, or if a
+/// triangle strip refers to a vertex that does not exist.
 pub(crate) fn peek(bytes: &[u8], notes: &mut Notes) -> Result<(PeekMesh, Names), Fault> {
     let header = parse(bytes)?;
     let roles = Roles::of(&header)?;
@@ -88,8 +89,8 @@ pub(crate) fn peek(bytes: &[u8], notes: &mut Notes) -> Result<(PeekMesh, Names),
 /// Attributes, by domain and name.
 type Names = Vec<(Domain, String)>;
 
-/// Returns the attributes that the properties of an element give, except those that [`PeekMesh`] describes. `used` is
-/// the index of the property that lists the vertices of faces.
+/// Returns the mesh attributes that reading the properties of an element gives, except those that [`PeekMesh`]
+/// describes. `used` is the index of the property that lists the vertices of faces.
 fn names_of(domain: Domain, element: &Element, used: usize, header: &Header) -> Names {
     let mut names = Vec::new();
     let mut is_used = vec![false; element.properties.len()];

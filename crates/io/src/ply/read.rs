@@ -128,8 +128,8 @@ impl Reader<'_, '_> {
         })
     }
 
-    /// Converts strips, in which -1 ends a strip, to triangles. Every second triangle of a strip is reversed. Triangles
-    /// that visit a vertex twice are left out, because they only connect parts of a strip.
+    /// Converts triangle strips to triangles. Triangles that use a vertex twice are left out, because they only connect
+    /// parts of a strip.
     fn strips(&mut self, element: usize, list: usize) -> Result<(), Fault> {
         let table = &self.tables[element];
         let found = triangles_of_strips(table, list, self.polygons.positions.len());
@@ -341,8 +341,8 @@ impl Reader<'_, '_> {
     }
 }
 
-/// Returns the rule for an attribute that no comment describes. The rule defines which value the attribute gets at an
-/// element that an edit creates.
+/// Returns the edit rule of an attribute that no comment describes. The edit rule defines how an edit computes the
+/// value of the attribute at a new element.
 pub(super) fn plain_rule(domain: Domain, kind: Type) -> Rule {
     if domain == Domain::Vertex && kind.is_float() {
         Rule::Interpolate

@@ -1,4 +1,5 @@
-//! Finds the meaning of the elements and properties of a header.
+//! Determines which elements and properties of a PLY file contain vertices, faces, normals, colors and texture
+//! coordinates.
 
 use super::header::{Element, Header};
 use crate::fault::Fault;
@@ -135,8 +136,8 @@ const COLORS: [[&str; 4]; 3] = [
     ["r", "g", "b", "a"],
 ];
 
-/// Returns the names of all properties with a known meaning, such as `s` and `t`. Other attributes must not have these
-/// names.
+/// Returns the names of all properties with a known meaning, such as `s` and `t`. The writer does not use these names
+/// for the properties of other attributes.
 pub(super) fn names() -> impl Iterator<Item = &'static str> {
     let families = UVS.as_flattened().iter().chain(COLORS.as_flattened());
     let others = POSITION

@@ -1,4 +1,4 @@
-//! Reads triangle strips, which the files of the Stanford scans contain.
+//! Reads triangle strips, which some PLY files contain instead of faces, such as the files of the Stanford scans.
 
 use super::columns::item_at;
 use super::table::Table;
@@ -7,7 +7,8 @@ use super::table::Table;
 /// because they visit a vertex twice.
 type Strips = (Vec<u32>, usize, usize);
 
-/// Converts lists, in which -1 ends a strip, to triangles. Every second triangle of a strip is reversed.
+/// Converts the triangle strips in a list property to triangles. In a list, -1 ends a strip. Every second triangle of a
+/// strip is reversed, so that all triangles have the same orientation.
 ///
 /// # Errors
 ///

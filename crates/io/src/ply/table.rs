@@ -11,15 +11,15 @@ pub(super) struct Table<'a> {
     pub(super) properties: &'a [Property],
     pub(super) rows: usize,
     pub(super) big: bool,
-    /// The bytes of the file, beginning with the first row.
+    /// The bytes of all rows.
     pub(super) bytes: &'a [u8],
     /// The position of `bytes` in the file.
     pub(super) start: usize,
     layout: Layout,
 }
 
-/// The positions of rows. A row is divided into segments. A new segment begins after each list, because the length of a
-/// list can differ between rows. The position of each segment is stored for each row.
+/// Where the values of a row are. If the lengths of lists differ between rows, each row is divided into segments, and a
+/// new segment begins after each list. The position of each segment is then stored for each row.
 #[derive(Debug)]
 enum Layout {
     /// All rows have the same length, because each list has the same number of items in every row.
@@ -126,8 +126,8 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// If each list of the element has the same length in all rows, returns the number of items of this list.
-    /// Otherwise, returns `None`.
+    /// Returns the number of items of a list if every list of the element has the same length in all rows. Otherwise,
+    /// returns `None`.
     pub(super) fn even_count(&self, property: usize) -> Option<usize> {
         match &self.layout {
             Layout::Even { counts, .. } => Some(counts[property]),
@@ -157,7 +157,7 @@ fn even(properties: &[Property], rows: usize, bytes: &[u8], big: bool) -> Option
     let length = stride.checked_mul(rows)?;
     bytes.get(..length)?;
     for (at, kind, count) in lists {
-        // In most lists, the count has one byte. This case has its own loop, which is faster than the generic one.
+        // The counts of most lists have one byte. For such counts, this loop is faster than the loop below.
         let is_same = if kind == Type::UInt8 {
             parallel::all(rows, |row| usize::from(bytes[row * stride + at]) == count)
         } else {

@@ -58,7 +58,7 @@ impl Type {
         }
     }
 
-    /// The divisor that turns a number of this type into a color component from 0 to 1.
+    /// The number by which a color component of this type is divided to get a component from 0 to 1.
     pub(super) fn color_unit(self) -> f64 {
         match self {
             Self::Float32 | Self::Float64 => 1.0,

@@ -117,8 +117,8 @@ enum Field<'a> {
         /// The number of components of a value that are written. If all colors are opaque, the alpha is left out.
         size: usize,
         form: Type,
-        /// If the values are those of the corners of a face, they are stored as a list. `count` is then the type in
-        /// which the length of the list is stored.
+        /// Values of corners are stored as a list for each face. For such a list, this is the type of its length.
+        /// `None` for values of vertices and faces.
         count: Option<Type>,
     },
 }
@@ -160,8 +160,8 @@ impl<'a> Element<'a> {
             .push(format!("{list}{} {name}", form.name()));
     }
 
-    /// Adds the first `size` components of each value, either as one scalar property for each name or as one list
-    /// property.
+    /// Adds the first `size` components of each value to the element. If `is_list` is true, they become one list
+    /// property. Otherwise, they become one scalar property for each name.
     fn values(
         &mut self,
         names: &[impl AsRef<str>],
@@ -196,7 +196,7 @@ impl<'a> Element<'a> {
         }
     }
 
-    /// Adds values as properties with these standard names.
+    /// Adds the values of an attribute as properties with these names, which other programs know.
     fn known(&mut self, names: &[&str], values: Cow<'a, Values>) {
         let opaque = match &*values {
             Values::Vec4(colors) => parallel::all(colors.len(), |i| colors[i].w == 1.0),
@@ -211,8 +211,8 @@ impl<'a> Element<'a> {
         self.values(names, false, values, size, form);
     }
 
-    /// Adds values as properties with the name of their attribute. If the name and the types are not sufficient to
-    /// restore the attribute, a comment is added.
+    /// Adds the values of an attribute as properties that are named after the attribute. If a reader cannot restore the
+    /// attribute from the names and types of these properties, a comment is added.
     fn free(&mut self, domain: Domain, column: &Column, values: Cow<'a, Values>) {
         let kind = Kind::of(&values);
         let form = match kind {

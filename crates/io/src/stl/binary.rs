@@ -12,9 +12,10 @@ use mesh::parallel::{self, BLOCK};
 pub(super) const HEADER: usize = 80;
 /// The position at which the triangles begin, after the header and the 4 bytes with the number of triangles.
 pub(super) const START: usize = HEADER + 4;
-/// The size of a triangle: a normal and three corners with three 32-bit numbers each, and 2 attribute bytes.
+/// The size of a triangle in bytes. A triangle consists of a normal and three corners, each with three 32-bit numbers,
+/// and of 2 attribute bytes.
 pub(super) const FACET: usize = 50;
-/// Returns the number of triangles that the file declares, or `None` if the file is too short.
+/// Returns the number of triangles that the file declares. Returns `None` if the file ends before this number.
 pub(super) fn count(bytes: &[u8]) -> Option<u32> {
     let count = bytes.get(HEADER..)?.first_chunk()?;
     Some(u32::from_le_bytes(*count))

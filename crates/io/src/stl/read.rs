@@ -104,7 +104,8 @@ fn polygons(facets: Facets, notes: &mut Notes) -> Polygons {
     polygons
 }
 
-/// Adds tags for the faces of each solid, if there are several solids.
+/// If there are several solids, adds a tag for each name of a solid, which marks the faces of the solids with this
+/// name.
 fn set_tags(polygons: &mut Polygons, solids: &[(String, Range<usize>)], notes: &mut Notes) {
     if solids.len() < 2 {
         return;
@@ -153,7 +154,8 @@ pub(crate) fn peek(
     notes: &mut Notes,
 ) -> Result<(PeekMesh, Option<AttributeNames>), Fault> {
     let mut mesh = PeekMesh::default();
-    // If a text file has several solids, the faces of each solid get a tag. The names of these tags are not known here.
+    // If a text file has several solids, the faces of each solid get a tag. The names of these tags are not determined
+    // here, so the attributes are unknown.
     let mut names = Some(Vec::new());
     let n = match kind(bytes)? {
         Kind::Text => {

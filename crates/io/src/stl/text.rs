@@ -20,7 +20,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Facets, Fault> {
         let first = found.corners.len() / 3;
         solid(&mut cursor, &mut found)?;
         found.solids.push((name, first..found.corners.len() / 3));
-        // The name after `endsolid` repeats the name of the solid, so this name is skipped.
+        // The name after `endsolid` is skipped, because it only repeats the name of the solid.
         cursor.skip_line();
         cursor.skip_white();
         if cursor.is_at_end() {

@@ -21,9 +21,8 @@ pub(crate) fn leading_number(text: &[u8]) -> Option<(f64, usize)> {
 #[inline]
 pub(crate) fn up_to_eight_digits(text: &[u8], at: usize) -> (u64, usize) {
     let word = eight_bytes(text, at) ^ 0x3030_3030_3030_3030;
-    // In `non_digits`, a set high bit marks a byte that is not a digit. The bits are correct from the lowest byte up to
-    // the first byte that is not a digit. In the bytes above it, they can be wrong. Therefore, only the lowest set bit
-    // is used.
+    // In `non_digits`, a set high bit marks a byte that is not a digit. The marks are correct up to the first byte that
+    // is not a digit. The marks of higher bytes can be wrong, so only the lowest mark is used.
     let non_digits = (word.wrapping_add(0x7676_7676_7676_7676) | word) & 0x8080_8080_8080_8080;
     let count = non_digits.trailing_zeros() / 8;
     if count == 0 {
@@ -64,7 +63,7 @@ pub(crate) fn push_number(out: &mut Vec<u8>, x: f64) {
 }
 
 /// Appends a text of at most 24 bytes. The text is copied in pieces of constant length, because the compiler inlines
-/// such copies.
+/// copies of constant length.
 #[inline]
 fn push_short(out: &mut Vec<u8>, text: &[u8]) {
     let (room, start) = if let Some(start) = text.first_chunk::<16>() {
@@ -99,9 +98,9 @@ fn push_bytes(out: &mut Vec<u8>, word: u64, n: usize) {
 pub(crate) fn push_whole(out: &mut Vec<u8>, value: usize) {
     match u64::try_from(value) {
         Ok(value) if value < 100_000_000 => {
-            // Computes all eight digits at once. The value is split into two halves, each half into pairs of digits,
-            // and each pair into digits. In the result, the first digit is in the lowest byte. Multiplications replace
-            // the divisions by 100 and 10.
+            // All eight digits are computed at once, each in its own byte of `digits`. The value is split into two
+            // halves, each half into two pairs of digits, and each pair into two digits. The first digit ends up in the
+            // lowest byte. Multiplications replace the divisions by 100 and 10.
             let halves = (value / 10_000) | (value % 10_000) << 32;
             let hundreds = ((halves * 10_486) >> 20) & 0x0000_007f_0000_007f;
             let pairs = hundreds | (halves - 100 * hundreds) << 16;

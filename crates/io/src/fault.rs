@@ -1,4 +1,4 @@
-//! Errors in a file, with their positions.
+//! Errors in the content of a file, with their positions in the file.
 
 use std::fmt;
 use std::path::Path;
@@ -20,7 +20,7 @@ pub(crate) enum Location {
     Text(TextPosition),
     /// A position in a JSON document, as a JSON pointer.
     Json(String),
-    /// A position in a binary file, as the offset in bytes from the beginning.
+    /// A position in a binary file, as the number of bytes before it.
     Byte(usize),
 }
 

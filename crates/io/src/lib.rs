@@ -1,8 +1,8 @@
 //! Reads and writes OBJ, glTF, PLY, STL, OFF, Bezier and Meshwright scene files. Reads COLLADA files, and writes CSV
 //! and NPZ files.
 //!
-//! [`read()`] reads the objects of a file, and [`write()`] writes a scene to files. [`peek()`] returns the kinds of the
-//! objects in a file and their element counts, without building meshes. The extension of the file name determines the
+//! [`read()`] reads the objects of a file, and [`write()`] writes a scene to files. [`peek()`] returns the objects in a
+//! file with their kinds and element counts, without building meshes. The extension of the file name determines the
 //! [`Format`]:
 //!
 //! | extension | content | module |
@@ -23,13 +23,13 @@
 //! Every loss is reported, except the loss of comments and headers of files. Content that a reader leaves out or
 //! changes is reported as a [`Note`] with a count. Content that a format cannot store is reported as a [`Loss`]. Errors
 //! in the syntax of a file have a position: the line and the column in a text file, the byte offset in a binary file,
-//! or the JSON pointer in a glTF file. A path in a file must not lead out of the folder of the file. A file is written
-//! completely or not at all.
+//! or the JSON pointer in a glTF file. If a file refers to other files, their paths must not lead out of the folder of
+//! this file. A file is written completely or not at all.
 //!
 //! The source code of each mesh format is in its own folder. The `mod.rs` of the folder lists how each part of a file
-//! is converted. Most of these folders have the modules `read` (from bytes to polygons) and `write`. For example, the
-//! faces of an OBJ file are read in `obj/statement.rs`, and those of a glTF file in `gltf/primitives.rs`. The formats
-//! share these modules:
+//! is converted. Most of these folders have a module `read`, which converts bytes to polygons, and a module `write`.
+//! For example, the faces of an OBJ file are read in `obj/statement.rs`, and those of a glTF file in
+//! `gltf/primitives.rs`. The formats share these modules:
 //!
 //! | module | purpose |
 //! | --- | --- |
@@ -127,7 +127,8 @@ pub struct ReadOptions {
     /// The name for objects that have no name in the file. If the file is an `.mws` file with a single object, the
     /// object gets this name even if it has a name. If `None`, objects without a name get the name of the file without
     /// its extension, and all objects of an `.mws` file keep their names. In glTF and COLLADA files, an object has the
-    /// name of its node or, if the node has no name, of its mesh.
+    /// name of its node or, if the node has no name, of its mesh. If several nodes of a glTF file share an object, the
+    /// name of the mesh comes first.
     pub name: Option<String>,
     /// How to handle polygons that do not form a clean mesh, for example duplicate faces.
     pub policies: Policies,
@@ -136,9 +137,9 @@ pub struct ReadOptions {
     /// Whether reading fails if anything in the file would be left out.
     pub strict: bool,
     /// Whether reading marks the copies of vertices. When a mesh is not a manifold, reading splits vertices into
-    /// copies. If the mesh is then written to an `.obj`, `.ply`, `.off`, `.gltf` or `.glb` file, the marked copies are
-    /// merged again. The written file then has the same vertices as the file that was read. This option is for
-    /// converting a file to another format without editing its mesh.
+    /// copies. If the mesh is then written to an `.obj`, `.ply`, `.off`, `.gltf` or `.glb` file, the writer merges the
+    /// marked copies again, so the written file has the same vertices as the file that was read. Use this option to
+    /// convert a file to another format without editing its mesh.
     pub keep_vertices: bool,
     /// The memory budget in bytes. The budget is the maximum size of all images together, and also the maximum size of
     /// the decompressed content of a `.gz` file. Defaults to 4 GiB.
@@ -154,7 +155,7 @@ pub struct Loaded {
     pub graph: Graph,
     /// The content that reading left out or changed.
     pub notes: Vec<Note>,
-    /// The files that the result depends on, without duplicates, sorted by path.
+    /// The files on which the result of reading depends, without duplicates, sorted by path.
     pub files: Vec<FileDependency>,
 }
 
@@ -187,7 +188,7 @@ pub struct WriteOptions {
     pub strict: bool,
 }
 
-/// What was written: the files, and the losses.
+/// The files that were written, and the content that they do not store.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WriteReport {
     /// The files that were written. The last file in the list is the requested file.
@@ -219,9 +220,9 @@ pub fn read(store: &dyn Store, path: &Path, options: &ReadOptions) -> Result<Loa
     Ok(loaded)
 }
 
-/// Reads the objects of a file from its bytes. `path` determines the format and appears in errors. Files that this file
-/// refers to are searched relative to the folder of `path`. [`Loaded::files`] lists only the files that this file
-/// refers to, whereas [`read()`] also lists `path`.
+/// Reads the objects of a file from its bytes. `path` determines the format and appears in errors. If this file refers
+/// to other files, their paths are relative to the folder of `path`. [`Loaded::files`] lists only the files that this
+/// file refers to, whereas [`read()`] also lists `path`.
 ///
 /// # Errors
 ///
@@ -299,7 +300,7 @@ pub fn read_polygons(
     Ok(polygons.collect())
 }
 
-/// The content of a file, as returned by the reader of a format.
+/// The content of a file, as the reader of its format returns it.
 struct Parsed {
     objects: Vec<ParsedObject>,
     graph: Graph,
@@ -312,7 +313,7 @@ impl From<Vec<ParsedObject>> for Parsed {
     }
 }
 
-/// An object, as returned by the reader of a format.
+/// An object of a file, as the reader of its format returns it.
 struct ParsedObject {
     name: String,
     shape: Shape,
@@ -366,11 +367,11 @@ fn fail_if_left_out(path: &Path, notes: &[Note]) -> Result<(), ReadError> {
     })
 }
 
-/// Returns the objects that reading a file would give, with their element counts. If the format has a header with these
-/// counts, they are taken from the header.
+/// Returns the objects that reading a file would give, with their element counts. If the file has a header with these
+/// counts, the counts are taken from the header.
 ///
-/// Also returns notes about the content that reading would leave out, as far as this content can be found without
-/// building the objects.
+/// Also returns notes about the content that reading would leave out. Content that can be found only by building the
+/// objects has no note.
 ///
 /// Bezier and `.mws` files are checked completely. In glTF files, only the JSON is checked. OBJ files are not checked:
 /// their statements are only counted.
@@ -483,7 +484,7 @@ pub fn write(
     Ok(report)
 }
 
-/// Writes a scene. If the format cannot store nodes, `placed` has already removed the nodes from the scene.
+/// Writes a scene. If the format cannot store nodes, the caller has already replaced the nodes by separate objects.
 fn write_placed(
     store: &dyn Store,
     path: &Path,
@@ -502,8 +503,7 @@ fn write_placed(
     } = images::settle(store, path, format, scene, options)?;
     // If the polygons of a file do not form a manifold, the reader splits vertices into copies. In the scene, these
     // copies are marked. The writers of OBJ, PLY, OFF and glTF use these marks to merge the copies again. For all other
-    // formats, the marks are removed. The files of those other formats contain all copies, and some readers of these
-    // formats merge vertices with equal positions.
+    // formats, the marks are removed, and the written file contains all copies.
     let scene = &*if keeps_vertices(path) {
         scene
     } else {
@@ -516,7 +516,7 @@ fn write_placed(
         Format::Ply => return ply::write(store, path, scene, all, options),
         Format::Stl => stl::write(scene, options).map(one),
         Format::Off => off::write(scene, options).map(one),
-        // COLLADA files were refused above.
+        // The function `write` refuses to write COLLADA files.
         Format::Dae => Ok(one(Default::default())),
         Format::Mws => Ok(one(mws::write(scene, options))),
         Format::Bez => bez::write_bez(scene).map(one),
@@ -544,7 +544,7 @@ fn write_placed(
 }
 
 /// Whether files with the format of `path` can store a mesh that is not a manifold. [`ReadOptions::keep_vertices`] has
-/// an effect only if the file to write has such a format.
+/// an effect only if the mesh is written to a file of such a format.
 pub fn keeps_vertices(path: &Path) -> bool {
     let format = Format::from_path(path);
     matches!(

@@ -1,5 +1,5 @@
-//! Decodes attributes. Each byte of an element is stored in a few bits, as the difference from the same byte of the
-//! previous element.
+//! Decodes streams of attributes. A stream stores, for each byte of an element, the difference from the same byte of
+//! the previous element. A difference needs only a few bits if it is small.
 //!
 //! ```text
 //! 0xa0 or 0xa1 | block | block | ... | zeros | initial element | modes of the channels
@@ -9,8 +9,9 @@
 //!                                     2 bits for each 16 elements | 16 differences | 16 differences | ...
 //! ```
 //!
-//! A channel consists of four bytes of an element. The controls select how many bits the differences of each byte can
-//! have. The mode of a channel is one of the variants of `Channel`. Only version 1 (`0xa1`) has controls and modes.
+//! A channel consists of four consecutive bytes of each element. For each byte of an element, the controls of a block
+//! select the possible numbers of bits of its differences. The mode of a channel is one of the variants of `Channel`.
+//! Only version 1 (`0xa1`) has controls and modes.
 
 use super::input::Input;
 use crate::fault::Fault;
@@ -22,7 +23,7 @@ const BLOCK_BYTES: usize = 8192;
 /// The largest number of elements in a block.
 pub(super) const BLOCK: usize = 256;
 
-/// Differences are stored in groups. For each of the four kinds of groups, the number of bits of a difference.
+/// The number of bits of each difference in a group, for each of the four kinds of groups.
 type Bits = [u8; 4];
 
 const VERSION_0: Bits = [0, 2, 4, 8];
@@ -45,9 +46,9 @@ pub(super) fn elements_in_block(stride: usize) -> usize {
     (BLOCK_BYTES / stride / GROUP * GROUP).min(BLOCK)
 }
 
-/// A lower bound for the size of a stream of `count` elements of `stride` bytes. The stride is at most 256. A block is
-/// shortest if it contains only zeros. In version 0, a block of zeros needs 2 bits for each group of 16 differences. In
-/// version 1, a block of zeros needs 2 bits for each byte of an element, regardless of the number of elements in the
+/// A lower bound for the size in bytes of a stream of `count` elements of `stride` bytes. The stride is at most 256. A
+/// block is shortest if all its differences are 0. In version 0, such a block needs 2 bits for each group of 16
+/// differences. In version 1, it needs 2 bits for each byte of an element, regardless of the number of elements in the
 /// block.
 pub(super) fn shortest(count: u64, stride: u64) -> u64 {
     let stride = usize::try_from(stride).unwrap_or(BLOCK).clamp(1, BLOCK);
@@ -55,8 +56,8 @@ pub(super) fn shortest(count: u64, stride: u64) -> u64 {
     let controls = (stride / 4) as u64;
     let mut tail = (stride + stride / 4).max(24);
     if count == 0 {
-        // In version 0 of the format, the tail can be shorter than in version 1, but the blocks are longer. Therefore,
-        // version 0 gives the shortest stream only if there are no blocks.
+        // A stream without blocks is shortest in version 0 if the tail of version 0 is shorter. With blocks, version 1
+        // is always shorter, because its blocks of zeros are shorter.
         tail = tail.min(stride.max(32));
     }
     let around = 1 + tail as u64;
@@ -123,7 +124,7 @@ pub(super) fn decode(stream: &[u8], stride: usize, out: &mut [u8]) -> Result<(),
     input.end()
 }
 
-/// Decodes the differences of one byte of `n` elements.
+/// Decodes the differences of the byte at one position in each of `n` elements.
 fn groups(
     input: &mut Input,
     bits: Bits,
@@ -175,9 +176,9 @@ fn channel(mode: u8) -> Result<Channel, String> {
 }
 
 impl Channel {
-    /// Adds up the differences of channel `c`, and writes the four bytes of this channel in each element of a block.
-    /// Before the call, `before` is the element before the block. After the call, `before` is the last element of the
-    /// block.
+    /// Computes the four bytes of channel `c` in each element of a block from the differences, and writes them to the
+    /// block. Before the call, `before` is the element before the block. After the call, `before` is the last element
+    /// of the block.
     fn sum(
         self,
         before: &mut [u8; 4],

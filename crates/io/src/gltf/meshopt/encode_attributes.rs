@@ -3,8 +3,8 @@
 use super::attributes::{BLOCK, GROUP, elements_in_block};
 use mesh::parallel;
 
-/// The minimum size in bytes of the tail, which ends the stream. If an element is longer than this, the tail is as long
-/// as the element.
+/// The minimum size in bytes of the tail at the end of a stream. If an element is longer, the tail is as long as the
+/// element.
 const TAIL: usize = 32;
 
 /// Encodes elements of `stride` bytes. The stride is a multiple of 4 from 4 to 256. The length of `elements` is a
@@ -16,7 +16,7 @@ pub(in super::super) fn encode(elements: &[u8], stride: usize) -> Vec<u8> {
     let encoded = parallel::map(blocks, |block| {
         let start = block * in_block * stride;
         let end = elements.len().min(start + in_block * stride);
-        // The first element of the stream counts as its own predecessor.
+        // The first element of the stream is stored as the difference from itself, so all its differences are 0.
         let before = start.checked_sub(stride);
         let before = before.map_or(first, |at| &elements[at..start]);
         encode_block(&elements[start..end], before)
@@ -57,7 +57,7 @@ fn encode_groups(differences: &[u8], out: &mut Vec<u8>) {
     for (g, group) in groups.iter().enumerate() {
         let large = |most: u8| group.iter().filter(|&&d| d >= most).count();
         // The sizes of the group in bytes if each difference is stored with 0, 2, 4 or 8 bits. The smallest size is
-        // chosen. If several sizes are equal, the one with the fewest bits for each difference is chosen.
+        // chosen. If several sizes are equal, the first of them is chosen.
         let sizes = [
             if large(1) == 0 { 0 } else { usize::MAX },
             4 + large(3),

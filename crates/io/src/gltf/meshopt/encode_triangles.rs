@@ -2,8 +2,9 @@
 
 use super::triangles::Recent;
 
-/// The table at the end of each stream. The code of a triangle can refer to a pair of 4-bit values in this table. The
-/// format allows any pairs. This table contains frequent pairs (`kCodeAuxEncodingTable` of meshoptimizer).
+/// The table at the end of each stream. Each byte is a pair of 4-bit values, to which the code of a triangle can refer.
+/// The format allows any table. This table contains pairs that are frequent in real meshes (`kCodeAuxEncodingTable` of
+/// meshoptimizer).
 const PAIRS: [u8; 16] = [
     0x00, 0x76, 0x87, 0x56, 0x67, 0x78, 0xa9, 0x86, 0x65, 0x89, 0x68, 0x98, 0x01, 0x69, 0, 0,
 ];
@@ -11,9 +12,9 @@ const PAIRS: [u8; 16] = [
 /// The number of pairs in the table that the code of a triangle can refer to.
 const N_PAIRS: usize = 14;
 
-/// Encodes triangles whose indices have N bytes. The order of the triangles is kept. A triangle that shares an edge
-/// with an earlier triangle is stored starting at that edge. Therefore, the corners of a triangle can be rotated, for
-/// example from (a, b, c) to (b, c, a).
+/// Encodes triangles whose indices have N bytes, without changing their order. If a triangle shares an edge with an
+/// earlier triangle, the two ends of this edge become its first corners. Therefore, decoding can give the triangle (b,
+/// c, a) instead of (a, b, c).
 pub(in super::super) fn encode<const N: usize>(
     bytes: &[u8],
     index: impl Fn([u8; N]) -> u32,
@@ -41,7 +42,7 @@ pub(in super::super) fn encode<const N: usize>(
     out
 }
 
-/// The state that the decoder has after the triangles encoded so far.
+/// The bytes written so far, and the state of a decoder that has decoded all triangles encoded so far.
 struct State {
     /// The bytes that follow the codes in the stream.
     numbers: Vec<u8>,
@@ -130,7 +131,7 @@ impl State {
         code
     }
 
-    /// Returns the 4-bit value for a vertex.
+    /// Returns the 4-bit value that refers to a vertex.
     fn half(&mut self, vertex: u32) -> u8 {
         match self.recent(vertex) {
             Some(back) if back < 14 => back + 1,

@@ -96,8 +96,8 @@ fn to_bytes(values: [u16; 4]) -> [u8; 8] {
     [a, b, c, d, e, f, g, h]
 }
 
-/// Returns the unit vector that the point (x, y) on the unfolded octahedron represents. The components of this vector
-/// are multiplied by `largest` and rounded.
+/// Returns the unit vector that the point (x, y) on the unfolded octahedron represents. The returned components are
+/// multiplied by `largest` and rounded.
 ///
 /// The argument `one` is the integer that represents 1. Source: Cigolle et al., "A Survey of Efficient Representations
 /// for Independent Unit Vectors", 2014, section 3.3.
@@ -114,8 +114,8 @@ fn octahedral([x, y, one]: [f32; 3], largest: f32) -> [f32; 3] {
 /// Restores the largest component of a unit quaternion, which the encoding leaves out. Returns the quaternion,
 /// multiplied by 32767 and rounded.
 ///
-/// The argument `last` is the integer that represents 1. The lowest two bits of `last` are replaced by the index of the
-/// largest component.
+/// The argument `last` contains two numbers. Its lowest two bits are the index of the largest component. With these two
+/// bits set to 1, it is the integer that represents 1.
 fn quaternion([x, y, z, last]: [i16; 4]) -> [f32; 4] {
     let one = f32::from(last | 3);
     let [x, y, z] = [x, y, z].map(|x| f32::from(x) / one * std::f32::consts::FRAC_1_SQRT_2);
@@ -133,8 +133,8 @@ fn exponential(bits: i32) -> f32 {
     libm::ldexp(f64::from(mantissa), exponent) as f32
 }
 
-/// Decodes luminance and differences to rounded red, green, blue and alpha from 0 to `largest`. The highest set bit
-/// of `a` determines the number of bits of the values.
+/// Converts luminance and two color differences to red, green, blue and alpha, each rounded to an integer from 0 to
+/// `largest`. The highest set bit of `a` determines the number of bits of the arguments.
 fn color(y: i32, co: i32, cg: i32, a: i32, largest: f32) -> [f32; 4] {
     let bits = i32::BITS - a.leading_zeros();
     let all = (1 << bits) - 1;

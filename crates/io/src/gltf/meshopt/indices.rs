@@ -1,6 +1,5 @@
-//! Decodes a sequence of arbitrary indices. The decoder keeps two base indices, which are 0 at first. Each index is
-//! stored as the difference from one of the base indices. After each index, the base index that was used is replaced by
-//! this index.
+//! Decodes streams of arbitrary indices. The decoder has two base indices, which are 0 at first. Each index is stored
+//! as the difference from one of the two base indices, and then replaces this base index.
 //!
 //! ```text
 //! 0xd1 | a number for each index | 4 bytes
@@ -11,7 +10,7 @@
 use super::input::{Input, header, zigzag};
 use crate::fault::Fault;
 
-/// The length in bytes of the tail, the end of the stream, which has no content.
+/// The length in bytes of the end of the stream, which the decoder ignores.
 const TAIL: u8 = 4;
 
 /// A lower bound for the size of a stream of `count` indices, in bytes.

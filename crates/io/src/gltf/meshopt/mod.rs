@@ -36,7 +36,7 @@ pub(super) const MESHOPT: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_c
 /// The largest size of an element in bytes.
 const LONGEST: u64 = 256;
 
-/// The content of the extension of a buffer view.
+/// The content of the extension that declares how a buffer view is compressed.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Compressed {
@@ -94,9 +94,8 @@ pub(super) fn pointer(view: usize, extension: &str) -> String {
     format!("/bufferViews/{view}/extensions/{extension}")
 }
 
-/// Returns a flag for each buffer. The flag is true if the reader never reads the buffer. There are two possible
-/// reasons: the buffer is declared as a fallback, or it is used only for the uncompressed alternatives of compressed
-/// views.
+/// Returns a flag for each buffer. The flag is true if the reader never reads the buffer. This is the case if the
+/// buffer is declared as a fallback, or if it contains only uncompressed alternatives of compressed views.
 pub(super) fn fallbacks(
     buffers: &[Value],
     views: &[View],
@@ -198,7 +197,7 @@ impl Compressed {
         pointer: &str,
     ) -> Result<Vec<u8>, Fault> {
         let mut decoded = mesh::zeroed::<u8>(length);
-        // The stride is from 2 to 256, so the conversion cannot fail.
+        // The conversion cannot fail, because `decoded_length` has checked that the stride is from 2 to 256.
         let stride = usize::try_from(self.byte_stride).unwrap_or(4);
         let result = match (self.mode, stride) {
             (Mode::Attributes, _) => attributes::decode(stream, stride, &mut decoded),

@@ -44,7 +44,7 @@ fn view(length: u64) -> View {
     View::deserialize(json!({ "buffer": 0, "byteLength": length })).unwrap()
 }
 
-/// Decodes a stream like the reader: streams that are too short are refused before decoding.
+/// Decodes a stream in the same way as the reader, which refuses streams that are too short before it decodes them.
 fn decode(compressed: &Compressed, stream: &[u8]) -> Result<Vec<u8>, String> {
     let length = compressed.count.saturating_mul(compressed.byte_stride);
     let compressed = Compressed {
@@ -57,7 +57,7 @@ fn decode(compressed: &Compressed, stream: &[u8]) -> Result<Vec<u8>, String> {
     decoded.map_err(|error| error.message)
 }
 
-/// Whether arrays are equal. If a filter rounds, values are allowed to differ by one unit in the last place.
+/// Whether two arrays are equal. If the filter rounds, the values can differ by one unit in the last place.
 fn is_near(filter: Filter, stride: u64, a: &[u8], b: &[u8]) -> bool {
     let short = |bytes: &[u8]| i32::from(i16::from_le_bytes([bytes[0], bytes[1]]));
     let mut pairs = a.chunks(2).zip(b.chunks(2));
@@ -180,7 +180,7 @@ fn triangles_cannot_refer_to_edges_before_the_first() {
 
 #[test]
 fn the_example_of_the_specification_is_decoded() {
-    // The stream has differences of one byte. Each difference has four bits, except for two that are stored as full
+    // In this stream, each difference of a byte has four bits, except for two differences that are stored as full
     // bytes.
     let mut stream = vec![0xa0, 2];
     stream.extend([0x17, 0x5f, 0xf0, 0xbc, 0x77, 0xa9, 0x21, 0, 0x34, 0xb5]);
@@ -326,7 +326,7 @@ proptest! {
     ) {
         let mut indices: Vec<u32> = triangles.as_flattened().iter().map(|i| i % range).collect();
         if walk {
-            // The indices are near each other, and there are many new vertices.
+            // The indices of each triangle are close to each other, and many vertices are new.
             for (i, index) in (0..).zip(&mut indices) {
                 *index = (i / 4 + *index % 7).saturating_sub(3);
             }

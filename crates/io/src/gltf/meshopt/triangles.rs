@@ -1,5 +1,5 @@
-//! Decodes a stream of triangles. Most triangles share an edge with one of the last triangles, and their third vertex
-//! is either new or was used recently.
+//! Decodes streams of triangles. Most triangles share an edge with a recently decoded triangle, and their third vertex
+//! is new or was used recently.
 //!
 //! ```text
 //! 0xe1 | a code for each triangle | numbers | table of 16 bytes, each a pair of 4-bit values
@@ -55,9 +55,10 @@ pub(super) fn decode(
     state.input.end()
 }
 
-/// The reason why a code cannot be decoded.
+/// The reason why a triangle cannot be decoded.
 enum TriangleError {
-    /// The code refers to an earlier edge or vertex, but too few triangles precede it.
+    /// The code refers to an earlier edge or vertex that does not exist, because too few triangles precede this
+    /// triangle.
     Code,
     Stream(Fault),
 }
@@ -113,7 +114,7 @@ impl State<'_> {
         Ok([a, b, c])
     }
 
-    /// Decodes a triangle that shares one of the last edges.
+    /// Decodes a triangle that shares one of the last 15 edges.
     fn beside(&mut self, edge: u8, third: u8) -> Result<[u32; 3], TriangleError> {
         let [a, b] = self.edges.get(edge).ok_or(TriangleError::Code)?;
         let c = match third {

@@ -1,5 +1,5 @@
-//! Checks properties that must hold when arbitrary bytes are read as a file of any format. The fuzzer and the test that
-//! replays its corpus share these checks.
+//! Checks properties that must hold when arbitrary bytes are read as a file of any format. The fuzzer runs these
+//! checks, and so does the test that reads all files of the corpus.
 
 use std::path::Path;
 
@@ -10,28 +10,29 @@ use scene::Scene;
 #[global_allocator]
 static MEMORY: PeakAlloc = PeakAlloc;
 
-/// Reading can use at most this number of bytes of memory for each byte of the file, plus [`SMALL`] bytes.
+/// The maximum number of bytes of memory that reading can use for each byte of the file. [`SMALL`] and, for glTF and
+/// COLLADA, [`INSTANCES`] are added to this limit.
 const TIMES: usize = 64;
 
-/// The additional number of bytes that reading can use for tables, threads and messages.
+/// The number of bytes that reading can use for tables, threads and messages, even if the file is empty.
 const SMALL: usize = 1 << 20;
 
-/// The maximum number of rounds of writing and reading after the first round. One round is not always sufficient for
-/// the written bytes to stay the same. For example, an object that loses its last vertices is missing in the next
-/// round.
+/// The maximum number of rounds of writing and reading after the first round. Several rounds can be necessary until the
+/// written bytes stay the same. For example, if writing loses all vertices of an object, the object itself is lost only
+/// in the next round.
 const ROUNDS: usize = 4;
 
-/// The additional number of bytes that reading can use for repeated instances, even in a small file.
+/// The number of bytes that reading a glTF or COLLADA file can use for repeated instances, even if the file is small.
 const INSTANCES: usize = 1 << 25;
 
-/// Reads `bytes` as a file with this extension, in bounded memory. Then writes and reads the result in several rounds,
-/// until the written bytes stay the same. From the third round on, the bytes may differ from those of the previous
-/// round only if writing reported losses in the previous round. An `.mtl` file is read as the library of an `.obj`
-/// file, and the content of a `.dae` file is written as OBJ.
+/// Reads `bytes` as a file with this extension, and checks the memory that reading takes. Then writes and reads the
+/// content in several rounds, until the written bytes stay the same. From the third round on, the bytes may differ from
+/// those of the previous round only if writing reported losses in the previous round. An `.mtl` file is read as the
+/// library of an `.obj` file, and the content of a `.dae` file is written as OBJ.
 ///
 /// # Panics
 ///
-/// If one of these properties does not hold.
+/// Panics if one of these properties does not hold.
 pub(crate) fn check(extension: &str, bytes: &[u8]) {
     let folder = tempfile::tempdir_in(memory_folder()).expect("a temporary folder can be created");
     let (name, content) = match extension {
@@ -62,7 +63,7 @@ pub(crate) fn check(extension: &str, bytes: &[u8]) {
         "dae" => path.with_extension("obj"),
         _ => path,
     };
-    // The format may be unable to store the content, such as numbers outside the 32-bit range.
+    // Some formats cannot store all content that can be read, such as numbers outside the range of 32-bit floats.
     let Some(mut last) = round_trip(&path, loaded) else {
         return;
     };

@@ -1,6 +1,6 @@
-//! Each file in `tests/fuzz/corpus/` is a separate test. The file must be read or refused in little time and memory.
-//! The fuzzer checks the same for random bytes. The corpus includes the files for which the fuzzer found errors. These
-//! files have descriptive names.
+//! Reads each file in `tests/fuzz/corpus/` in a separate test. The reader must read or refuse the file in little time
+//! and memory. The fuzzer checks the same for random bytes. The corpus includes the files for which the fuzzer found
+//! errors. These files have descriptive names.
 
 mod files;
 
@@ -30,7 +30,8 @@ fn main() {
         })
     });
     let trials = trials.collect();
-    // Reading the first file also allocates threads and tables that are not freed.
+    // The first read allocates threads and tables that are not freed. This read keeps them out of the measurements of
+    // the tests.
     files::check("off", b"OFF 0 0 0");
     libtest_mimic::run(&arguments, trials).exit();
 }

@@ -1,4 +1,4 @@
-//! Tests of the behavior that all formats share: names, folders, and invalid files.
+//! Tests of behavior that is the same for all formats: file names, folders, and invalid files.
 
 use std::fs;
 

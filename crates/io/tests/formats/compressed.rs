@@ -32,7 +32,7 @@ fn compressed_files_have_the_content_of_plain_files() {
         let first = mesh_io::write(&store, plain, &scene, &options).unwrap();
         let second = mesh_io::write(&store, packed, &scene, &options).unwrap();
         assert_eq!(first.losses, second.losses);
-        // After decompression, the bytes are those of the plain file.
+        // The decompressed bytes are the bytes of the file that was written without compression.
         let bytes = store.read(packed).unwrap();
         let mut content = Vec::new();
         let mut decoder = flate2::read::GzDecoder::new(&bytes[..]);
@@ -76,7 +76,7 @@ fn a_material_library_beside_a_compressed_file_is_found() {
         found.objects[0].materials[0].base_color,
         [1.0, 0.0, 0.0, 1.0]
     );
-    // The material library has the name of the written file without `.gz`.
+    // The name of the material library is the name of the written file with `.mtl` instead of `.obj.gz`.
     let mut scene = Scene::new();
     scene.insert(found.objects[0].clone()).unwrap();
     let path = Path::new("b.obj.gz");

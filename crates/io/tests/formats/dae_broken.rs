@@ -39,7 +39,7 @@ fn the_square_is_valid() {
     assert!(loaded.notes.is_empty(), "{:?}", loaded.notes);
 }
 
-/// The text of the square to replace, the replacement, and the expected error.
+/// A part of the text of the file `SQUARE`, the text that replaces this part, and the expected error.
 const BROKEN: &[(&str, &str, &str)] = &[
     (
         "<COLLADA version=\"1.4.1\">",
@@ -313,7 +313,7 @@ fn a_geometry_that_is_repeated_too_often_is_refused() {
 
 #[test]
 fn many_sources_of_a_long_array_are_refused() {
-    // Each source has no vectors, but all its numbers must be read.
+    // Each source has an accessor without vectors, but the reader still reads all numbers of the array.
     let source = |i: usize| {
         format!(
             "<source id=\"s{i}\"><technique_common><accessor source=\"#a\" count=\"0\" stride=\"3\">\

@@ -1,4 +1,4 @@
-//! Tests of COLLADA files with nodes, libraries and other elements around the geometry.
+//! Tests of the nodes, libraries and other elements of COLLADA files that do not describe geometry.
 
 use geometry::shapes;
 use glam::{DVec2, DVec3};

@@ -79,7 +79,7 @@ pub(crate) fn only(text: &str) -> Object {
     let Loaded {
         mut objects, notes, ..
     } = loaded(text);
-    // The images of some materials do not exist.
+    // The image files of some materials do not exist, which gives notes.
     let is_other = |note: &&mesh_io::Note| !note.what.starts_with("image ");
     assert_eq!(notes.iter().find(is_other), None);
     assert_eq!(objects.len(), 1);
@@ -98,7 +98,7 @@ pub(crate) fn notes(text: &str) -> Vec<String> {
         .collect()
 }
 
-/// The faces of a list of triangles or polygons.
+/// Returns the faces of a file whose geometry consists of one list of this kind with this content.
 pub(crate) fn faces(kind: &str, content: &str) -> Vec<Vec<usize>> {
     polygons(&mesh(&file(
         &format!("<{kind}>{VERTEX}{content}</{kind}>"),

@@ -60,7 +60,7 @@ fn custom_attributes_survive_a_round_trip() {
         let report = write(&path, [Object::mesh("a", mesh.clone())]);
         assert_eq!(report.losses, []);
         assert_same(only(&path).as_mesh().unwrap(), &mesh);
-        // Another reader also accepts the file.
+        // The `gltf` crate, which is another reader, also accepts the file.
         assert!(gltf::Gltf::open(&path).is_ok());
     }
 }
@@ -217,7 +217,7 @@ fn compressed_files_are_refused_with_advice() {
 
 #[test]
 fn colors_of_every_type_are_read() {
-    // The numbers are multiples of 1/5.
+    // The components of the colors, in units of 1/5.
     let colors = [[0_u8, 1, 5, 2], [5, 3, 0, 4]];
     for components in [3_usize, 4] {
         for (component, size) in [(5121, 1), (5123, 2), (5126, 4)] {

@@ -415,7 +415,7 @@ fn uncompressed_data_is_read_instead_of_draco() {
     let expected =
         "/meshes/0/primitives/0/extensions/KHR_draco_mesh_compression: expected triangles";
     assert!(error.contains(expected), "{error}");
-    // With uncompressed data, the extension is optional.
+    // If the accessor also has uncompressed data, the extension is not needed and not checked.
     json["accessors"][0]["bufferView"] = json!(0);
     let loaded = read_json(&json).unwrap();
     assert_eq!(loaded.notes, []);

@@ -108,7 +108,7 @@ fn draco_files_that_break_the_rules_are_errors_with_the_primitive() {
             json!(7);
     });
     assert!(error.contains("buffer view 7 does not exist"), "{error}");
-    // The values of an attribute that the stream does not have are zeros, as without the extension.
+    // If the stream does not contain an attribute, its values are zeros, because its accessor has no buffer view.
     let (mut json, binary) = parts(FILES[0].0);
     let extension =
         &mut json["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"];

@@ -1,5 +1,4 @@
-//! Tests of content of glTF files that the scene does not use, and of names and extras of materials. Nothing is dropped
-//! without a note.
+//! Tests that glTF content which is not kept is reported by a note. Also tests that names and extras are kept.
 
 use mesh_io::{NoteKind, WriteOptions};
 use scene::Scene;
@@ -9,7 +8,7 @@ use store::Disk;
 use crate::Folder;
 use crate::gltf_read::{read_json, square};
 
-/// Returns a document with a textured square. Nothing in it is unused.
+/// Returns a document with a textured square. The scene uses all parts of this document.
 fn asset() -> Value {
     let mut json = square(&[0, 1, 2, 0, 2, 3], 4);
     json["nodes"][0]["name"] = json!("board");
@@ -65,8 +64,7 @@ fn parts_that_the_scene_does_not_use_are_left_out_with_a_note() {
     assert_eq!(left_out(&json), [("meshes-unused", 1)]);
 }
 
-/// References from an unused part do not count as uses. Therefore, the parts that only an unused node refers to are
-/// also reported as unused.
+/// If only an unused node refers to a part, the part is also reported as unused.
 #[test]
 fn parts_of_an_unused_node_are_left_out_too() {
     let mut json = asset();
@@ -133,8 +131,8 @@ fn names_of_textures_and_extras_of_materials_are_kept() {
 /// The result of reading and writing a part of a file.
 #[derive(Clone)]
 enum Outcome {
-    /// The values at these JSON pointers are unchanged. For an attribute of a morph target, the number of elements of
-    /// its accessor is unchanged.
+    /// The values at these JSON pointers are unchanged. If a pointer refers to an attribute of a morph target, the
+    /// number of elements of its accessor is compared instead.
     Kept(&'static [&'static str]),
     /// A note with this code reports that the part is left out.
     Lost(&'static str),

@@ -26,13 +26,13 @@ fn repeated_references_to_the_same_data_are_limited() {
     json["meshes"][0]["primitives"] = vec![primitive; 5_000].into();
     let error = read_json(&json).unwrap_err();
     assert!(error.to_string().contains("so often"), "{error}");
-    // The same limit applies to many nodes that reference the same mesh.
+    // The same limit applies if many nodes reference the same mesh, and each node becomes an object.
     let mut json = square(&[0, 1, 2].repeat(20_000), 4);
     json["nodes"] = vec![json!({ "mesh": 0 }); 5_000].into();
     json["scenes"][0]["nodes"] = (0..5_000).collect();
     let error = read_baked(&json).unwrap_err();
     assert!(error.to_string().contains("so often"), "{error}");
-    // Nodes that only refer to the mesh need little memory.
+    // If the nodes are kept, they share one object and need little memory.
     let loaded = read_json(&json).unwrap();
     assert_eq!(
         (loaded.objects.len(), loaded.graph.nodes().len()),
@@ -105,7 +105,7 @@ fn nodes_that_repeat_a_long_material_are_refused() {
 
 #[test]
 fn many_primitives_with_different_attributes_are_refused() {
-    // Each attribute needs a column for the vertices of all primitives.
+    // Every primitive has an attribute of its own, which needs values for the vertices of all primitives.
     let mut json = square(&[0, 1, 2], 4);
     let primitive = |i: usize| {
         let mut primitive = json["meshes"][0]["primitives"][0].clone();

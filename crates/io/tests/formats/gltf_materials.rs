@@ -198,7 +198,7 @@ fn images_and_materials_are_written_once() {
     for (object, back) in objects.iter().zip(&loaded.objects) {
         assert_eq!(object.materials, back.materials);
     }
-    // After reading, all textures share the same bytes.
+    // After reading, all textures with this image share the same bytes in memory.
     let image = |i: usize| {
         &loaded.objects[i].materials[0]
             .normal_texture

@@ -43,8 +43,8 @@ fn corners(mesh: &Mesh, name: &str) -> Vec<Vec<f64>> {
         .collect()
 }
 
-/// Returns the positions and attributes at the corners of each triangle. The corners are rotated so that the lowest
-/// corner is first, and the triangles are sorted.
+/// Returns the positions and attributes at the corners of each triangle. The corners of each triangle are rotated so
+/// that the smallest corner comes first, and the triangles are sorted.
 fn triangles(mesh: &Mesh) -> Vec<Vec<Vec<f64>>> {
     let half_edges = mesh.faces().flat_map(|f| mesh.face_half_edges(f));
     let corners: Vec<Vec<f64>> = half_edges
@@ -72,7 +72,7 @@ fn triangles(mesh: &Mesh) -> Vec<Vec<Vec<f64>>> {
 fn a_compressed_file_gives_the_same_mesh_as_an_uncompressed_one() {
     let plain = torus("torus_plain.glb");
     assert_eq!((plain.n_vertices(), plain.n_faces()), (12 * 8, 2 * 12 * 8));
-    // The triangle codec rotates the corners of triangles.
+    // The codec for triangles can rotate the corners of a triangle, so the corners are compared after sorting.
     for name in ["torus_ext.glb", "torus_fallback.gltf"] {
         let mesh = torus(name);
         assert_eq!(mesh.positions(), plain.positions());
@@ -260,7 +260,7 @@ fn a_small_stream_of_four_billion_vertices_is_refused_at_once() {
 
 #[test]
 fn decoded_views_are_limited_to_64_times_the_file() {
-    // Each block has 256 equal elements in 3 bytes.
+    // Each block stores 256 equal elements in 3 bytes.
     let stream = |blocks: usize| {
         let mut stream = vec![0xa1];
         stream.resize(1 + 3 * blocks, 0xaa);
@@ -283,8 +283,8 @@ fn decoded_views_are_limited_to_64_times_the_file() {
 /// Returns a document with rows of triangles. Each triangle has three separate vertices and needs about two bytes,
 /// which is close to the best possible compression.
 fn dense_triangles(n: usize) -> Value {
-    // Elements have 8 bytes. In these elements, x increases by 1 after each element, y after 256 elements, and z after
-    // 65536 elements.
+    // Each element has 8 bytes: x, y, z and padding. From element to element, x increases by 1. Every 256 elements, y
+    // increases by 1, and every 65536 elements, z increases by 1.
     let mut stream = vec![0xa0];
     let blocks = (3 * n).div_ceil(256);
     for block in 0..blocks {
@@ -330,7 +330,7 @@ fn dense_triangles(n: usize) -> Value {
 
 #[test]
 fn well_compressed_files_are_read() {
-    // The second mesh needs more than 64 times the size of the file, and more than the minimum budget.
+    // The second mesh needs more memory than 64 times the size of the file, and more than the smallest memory budget.
     for n in [85, 60_000] {
         let loaded = read_json(&dense_triangles(n)).unwrap();
         let mesh = loaded.objects[0].as_mesh().unwrap();

@@ -11,8 +11,8 @@ use crate::Folder;
 use crate::gltf_read::{read_baked, read_json};
 use crate::gltf_rig::Accessors;
 
-/// Returns a document with two triangles that share an edge. Each triangle has its own vertices, with these normals. A
-/// morph target adds `changes` to the normals.
+/// Returns a document with two triangles that share an edge but no vertices. The vertices have the given normals, and a
+/// morph target adds `changes` to them.
 fn folded(normals: [[f32; 3]; 6], changes: Option<[[f32; 3]; 6]>) -> Value {
     let mut a = Accessors::default();
     let corners = [
@@ -65,7 +65,7 @@ pub(crate) fn written(scene: &Scene) -> Scene {
 
 #[test]
 fn changes_of_normals_become_normals_and_are_written_with_the_same_bits() {
-    // The numbers need all bits of a 32-bit number.
+    // These numbers use all bits of a 32-bit float, so any rounding changes them.
     let normals = [[0.6, 0.0, 0.8]; 6];
     let changes = [[-0.1, 0.123_456_79, 1e-3]; 6];
     let scene = scene(&folded(normals, Some(changes)));
@@ -135,7 +135,7 @@ fn a_primitive_whose_target_has_no_normals_keeps_its_normals() {
     assert!(values.contains(&DVec3::new(0.5, 0.0, 1.0)));
 }
 
-/// The changed normals are transformed as if they were the normals of a mesh.
+/// The transform of a node changes the normals of a morph target in the same way as the normals of a mesh.
 #[test]
 fn a_node_transforms_changed_normals_like_normals() {
     let normals = [[0.6, 0.0, 0.8]; 6];
@@ -215,7 +215,7 @@ fn a_wrong_number_of_changed_normals_is_an_error_that_says_where() {
     );
 }
 
-/// A pose blends the normals of the mesh with the normals of the targets, by the weights of the targets.
+/// A pose blends the normals of the mesh and the normals of the morph targets according to the weights of the targets.
 #[test]
 fn a_pose_blends_the_normals_of_targets() {
     let normals = [[0.6, 0.0, 0.8]; 6];
@@ -246,7 +246,8 @@ fn a_pose_blends_the_normals_of_targets() {
                         found.distance(expected) < 1e-6,
                         "{f} {i}: {found} {expected}"
                     );
-                    // The normal of the target still differs from the normal of the mesh by the same vector.
+                    // The difference between the normal of the morph target and the normal of the mesh is the same as
+                    // before.
                     let target = mesh
                         .attributes()
                         .iter()

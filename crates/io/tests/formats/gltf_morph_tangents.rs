@@ -45,7 +45,7 @@ const TANGENTS: [[f32; 4]; 3] = [
 
 #[test]
 fn changes_of_tangents_become_tangents_and_are_written_with_the_same_bits() {
-    // The numbers need all bits of a 32-bit number.
+    // These numbers use all bits of a 32-bit float, so any rounding changes them.
     let changes = [[-0.1, 0.123_456_79, 1e-3]; 3];
     let scene = scene(&triangle(TANGENTS, &[changes, [[0.0, 0.5, 0.0]; 3]]));
     let mesh = only_mesh(&scene);
@@ -60,7 +60,7 @@ fn changes_of_tangents_become_tangents_and_are_written_with_the_same_bits() {
     assert_eq!(written(&scene).objects(), scene.objects());
 }
 
-/// The changed tangents are transformed as if they were the tangents of a mesh.
+/// The transform of a node changes the tangents of a morph target in the same way as the tangents of a mesh.
 #[test]
 fn a_node_transforms_changed_tangents_like_tangents() {
     let changed = [
@@ -94,7 +94,8 @@ fn a_node_transforms_changed_tangents_like_tangents() {
     }
 }
 
-/// A pose blends the tangents of the mesh with the tangents of the targets, by the weights of the targets.
+/// A pose blends the tangents of the mesh and the tangents of the morph targets according to the weights of the
+/// targets.
 #[test]
 fn a_pose_blends_the_tangents_of_targets() {
     let changes = [[[-0.5, 0.5, 0.25]; 3], [[0.0, 0.0, 1.0]; 3]];
@@ -110,7 +111,7 @@ fn a_pose_blends_the_tangents_of_targets() {
             let sum = own.truncate() + glam::DVec3::new(-0.25, 0.25, 0.125 + 0.25);
             let expected = sum.normalize().extend(own.w);
             assert!(found.distance(expected) < 1e-6, "{found} {expected}");
-            // The tangent of the target still differs from the tangent of the mesh by the same vector.
+            // The difference between the tangent of the morph target and the tangent of the mesh is the same as before.
             let change = DVec4::new(-0.5, 0.5, 0.25, 0.0);
             assert!((target - found).distance(change) < 1e-6, "{target} {found}");
         }

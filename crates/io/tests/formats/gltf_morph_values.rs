@@ -23,7 +23,8 @@ const OWN: [Row; 6] = [
     ([0.0, 1.0], [0.5, 0.25], [1.0, 1.0, 0.0, 1.0]),
 ];
 
-/// Changes whose numbers need all bits of a 32-bit number. They differ along the seam of the texture coordinates.
+/// Changes by a morph target. Their numbers use all bits of a 32-bit float. On the two sides of the seam, the changes
+/// of the texture coordinates differ.
 const CHANGES: [Row; 6] = [
     ([0.1, -0.123_456_79], [0.3, 0.7], [-0.3, 0.1, 0.7, 0.0]),
     ([0.2, 1e-3], [0.3, 0.7], [0.0, -0.9, 0.0, 0.0]),
@@ -101,7 +102,7 @@ fn changes_of_texture_coordinates_and_colors_are_written_with_the_same_bits() {
     }
     let names: Vec<_> = mesh.attributes().iter().map(|(_, c)| &*c.name).collect();
     assert!(!names.contains(&"morph_uv:0"), "{names:?}");
-    // Texture coordinates stay on the corners, and so do their changes.
+    // Like texture coordinates, their changes stay on the corners even if the corners of each vertex have equal values.
     let uv1 = mesh.attributes().column(Domain::Corner, "morph_uv1:1");
     assert!(uv1.is_some(), "{names:?}");
     let back = written(&scene);
@@ -128,7 +129,7 @@ fn a_pose_adds_weighted_changes_and_clamps_colors() {
     }
 }
 
-/// Primitives of a mesh can have different changes. Missing changes are zero.
+/// If only some primitives of a mesh have changes of an attribute, the changes are zero in the other primitives.
 #[test]
 fn a_primitive_without_changes_gets_zeros() {
     let mut json = folded(&CHANGES);

@@ -47,8 +47,8 @@ fn asset() -> Value {
     json
 }
 
-/// Returns a form of the document that does not depend on the order and the indices of its parts. The result is the
-/// tree of the nodes, with all parts that the nodes refer to.
+/// Converts a document to a form that does not depend on the order and the indices of its parts: the tree of its nodes,
+/// in which the meshes, cameras and lights replace the references to them.
 fn canonical(json: &Value) -> Value {
     fn node_tree(json: &Value, i: &Value) -> Value {
         let mut node = json["nodes"][index(i)].clone();
@@ -181,7 +181,7 @@ fn roots_keep_their_order() {
     for _ in 0..2 {
         let scene = scene_of(read_json(&json).unwrap());
         assert_eq!(canonical(&written(&scene)), canonical(&json));
-        // In the second round, one of the nodes has a translation.
+        // In the second round, one of the nodes has a translation, so the scene has a graph.
         json["nodes"][1]["translation"] = json!([1, 0, 0]);
     }
 }
@@ -317,7 +317,7 @@ fn baked_tangents_turn_with_their_node() {
     let path = folder.path("a.gltf");
     mesh_io::write(&Disk, &path, &scene, &WriteOptions::default()).unwrap();
     let mut json: Value = serde_json::from_slice(&std::fs::read(&path).unwrap()).unwrap();
-    // One node has a quarter turn around z, and the other a reflection.
+    // The node rotates the object by a quarter turn around z, and reflects it.
     let half = 0.5_f64.sqrt();
     json["nodes"][0]["rotation"] = json!([0.0, 0.0, half, half]);
     json["nodes"][0]["scale"] = json!([1.0, 1.0, -1.0]);
@@ -351,7 +351,7 @@ fn placed_instances_agree_with_baked_objects() {
         names.sort();
         names
     };
-    // The object of the unnamed node has the name of its mesh.
+    // One object is named `wheel` after its mesh, because its node has no name.
     assert_eq!(names(&placed), ["a", "body", "left", "plain", "wheel"]);
     assert_eq!(names(&placed), names(&baked));
     for object in placed.objects() {

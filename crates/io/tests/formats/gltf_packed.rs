@@ -65,8 +65,8 @@ fn torus() -> Mesh {
     mesh
 }
 
-/// Returns a scene with three objects. Nodes below a node with a scale place the first two objects, and another root
-/// places the first object again. No node places the third object.
+/// Returns a scene with three objects. Two descendants of a root node with a scale reference the first and the second
+/// object. Another root node also references the first object. No node references the third object.
 fn placed() -> Scene {
     let mut scene = scene([
         Object::mesh("torus", torus()),
@@ -223,8 +223,8 @@ fn quantized_positions_are_within_the_reported_error() {
             "{losses:?}"
         );
         let error = packing.position_error.unwrap();
-        // The error is at most half a step along each axis of the largest object. The object is stretched by a factor
-        // of at most 4.
+        // Along each axis, the error is at most half a step of the grid of the largest object. The nodes stretch this
+        // error by a factor of at most 4.
         let step = 5.4 / f64::from((1 << position) - 1);
         assert!(error < 0.5 * step * 3.0_f64.sqrt() * 4.01, "{error}");
         let objects = read_back(&folder, "a.glb", Placements::Bake).objects;
@@ -237,7 +237,7 @@ fn quantized_positions_are_within_the_reported_error() {
                 largest = largest.max(a.distance(*b));
             }
         }
-        // Positions that are not quantized are rounded to 32 bits.
+        // The added 1e-5 is for the file without quantization, in which positions are rounded to 32 bits.
         assert!(
             largest <= error + 1e-5 && largest > error / 4.0,
             "{largest} {error}"

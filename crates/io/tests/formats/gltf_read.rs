@@ -114,7 +114,7 @@ fn lists_strips_and_fans_become_triangles() {
     );
     assert_eq!(rotated_triangles(&mesh_of(&square(&[0, 1, 2, 3], 6))), two);
     assert_eq!(rotated_triangles(&mesh_of(&square(&[1, 2, 0, 3], 5))), two);
-    // The strip has degenerate triangles, which are left out.
+    // The strip has triangles that use a vertex twice, which are left out.
     let jumping = mesh_of(&square(&[0, 1, 2, 2, 2, 3, 0], 5));
     assert_eq!(jumping.n_faces(), 2);
     assert!(jumping.is_dense() && jumping.n_edges() == 5);
@@ -195,7 +195,7 @@ fn interleaved_normalized_and_sparse_arrays_are_read() {
         };
         assert_eq!(uvs[h.index()], DVec2::new(0.0, v));
     }
-    // The accessor has no data, so all positions are zero, and all vertices are merged.
+    // This accessor has no data. Therefore, all positions are zero, and all vertices are merged into one.
     json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = json!(3);
     let loaded = read_json(&json).unwrap();
     assert_eq!(loaded.objects[0].as_mesh().unwrap().n_faces(), 0);
@@ -291,7 +291,8 @@ fn content_left_out_is_noted() {
     json["materials"][0]["extensions"] = extensions;
     let kept = read_json(&json).unwrap();
     let loaded = read_baked(&json).unwrap();
-    // If nodes are kept, cameras, lights and skins are also kept, so there are three notes fewer.
+    // The first call keeps the nodes with their cameras, lights and skins. The second call leaves them out, which gives
+    // three more notes.
     assert_eq!(kept.notes.len(), loaded.notes.len() - 3);
     let is_left_out =
         |note: &mesh_io::Note| note.what.contains("cameras") || note.what.contains("lights");

@@ -243,7 +243,7 @@ pub(crate) fn numbers(json: &Value, bytes: &[u8], accessor: &Value) -> Vec<f64> 
     }
 }
 
-/// Returns a form of a document that does not depend on the order and the indices of its parts. Nodes are listed by
+/// Converts a document to a form that does not depend on the order and the indices of its parts. Nodes are listed by
 /// name, and each corner of a mesh has its joints sorted by weight.
 fn canonical(json: &Value, bytes: &[u8]) -> Value {
     let name = |node: &Value| match node.as_u64() {
@@ -501,11 +501,12 @@ fn coincident_vertices_with_different_weights_are_not_merged() {
         &json,
     );
     assert_eq!((equal.n_vertices(), equal.n_edges()), (4, 5));
-    // One of the vertices at the first point follows another joint.
+    // The second vertex at the first point now follows another joint, so it is not merged.
     let offset = index(&a.views[joints]["byteOffset"]);
     a.bytes[offset + 16] = 1;
     let split = build(a, &json);
-    // The triangles then meet only at one vertex, which is also split.
+    // The triangles now share only one vertex and no edge. Reading splits this vertex, so the two triangles have six
+    // vertices.
     assert_eq!((split.n_vertices(), split.n_edges()), (6, 6));
 }
 

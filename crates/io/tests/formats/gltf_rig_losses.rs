@@ -51,7 +51,7 @@ fn what_a_written_file_cannot_store_is_a_loss() {
         losses(&|s| mesh(s, &|m| set(m, 0, -0.5))),
         ["20 joint weights", "4 joint weights"]
     );
-    // If a mesh has no deltas, each animation of the weights of its targets is lost.
+    // If a mesh has no deltas of morph targets, the animations of the weights of its morph targets are also lost.
     let unmorphed = |m: &mut mesh::Mesh| {
         (0..2).for_each(|t| drop(m.remove_column(mesh::Domain::Vertex, &morph_name(t))));
     };
@@ -61,7 +61,7 @@ fn what_a_written_file_cannot_store_is_a_loss() {
     );
     let one = |m: &mut mesh::Mesh| drop(m.remove_column(mesh::Domain::Vertex, &morph_name(0)));
     assert_eq!(losses(&|s| mesh(s, &one)), ["1 morph targets"]);
-    // Without the node of the arm, no node with a skin references the arm.
+    // After the node of the arm is removed, no node with a skin references the arm.
     assert_eq!(losses(&|s| s.unplace("arm")), ["20 joint weights"]);
 }
 
@@ -151,7 +151,7 @@ fn formats_without_skins_get_the_pose_and_report_the_rest() {
     }
 }
 
-/// A loss names the object that it is about, even if it is not the first one.
+/// A loss names the object whose content is lost, even if it is not the first object of the scene.
 #[test]
 fn lost_morph_weights_name_the_object_of_their_node() {
     let mut scene = Scene::new();

@@ -1,5 +1,5 @@
 //! Writes scenes of all kinds as glTF into `target/tmp/gltf`, where the Khronos validator checks them (`.ci/run`). The
-//! tests in this file check only that two readers can read the scenes.
+//! tests in this file check only that this crate and the `gltf` crate can read the files.
 
 use std::path::PathBuf;
 
@@ -14,7 +14,8 @@ use crate::gltf_materials::{PNG, painted, rich};
 use crate::gltf_written::sphere;
 use crate::{read, scene, tag};
 
-/// Writes a scene in both variants, and reads the files.
+/// Writes a scene as a `.glb` file, as a `.gltf` file, as a quantized file, and as a quantized and compressed file, and
+/// reads all of these files.
 pub(crate) fn written(name: &str, scene: &Scene) {
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("gltf");
     std::fs::create_dir_all(&folder).unwrap();
@@ -208,7 +209,7 @@ fn materials_and_names_are_valid() {
         image: Image::File(path.into()),
         ..Texture::new(Image::File(path.into()))
     };
-    // The validator warns about normal textures without tangents.
+    // The mesh has no tangents, and the validator warns about normal textures on meshes without tangents.
     let rich = || Material {
         normal_texture: None,
         normal_scale: 1.0,

@@ -29,7 +29,7 @@ fn read(store: &Memory, path: &str) -> Loaded {
     mesh_io::read(store, path.as_ref(), &ReadOptions::default()).unwrap()
 }
 
-/// The only image of a file.
+/// Returns the only image of the materials of a file.
 fn image(loaded: &Loaded) -> Image {
     let textures: Vec<_> = loaded.objects[0]
         .materials
@@ -125,7 +125,7 @@ fn a_different_image_or_file_with_the_same_name_is_not_replaced() {
     assert_eq!(store.read("out/x.png".as_ref()).unwrap(), b"other");
     // The second time, the copy already exists and is not written again.
     assert_eq!(convert(&store, "in/a.obj", "out/b.obj", None), files);
-    // The image does not replace the model file either.
+    // An image with the name of the written model is renamed, so it does not replace the model.
     let store = model("b.obj", &[("in/b.obj", PNG)]);
     let files = convert(&store, "in/a.obj", "out/b.obj", None);
     assert_eq!(files, ["b.2.obj", "b.mtl", "b.obj"]);

@@ -112,7 +112,7 @@ fn only(path: &Path) -> Object {
     let Loaded {
         mut objects, notes, ..
     } = read(path).unwrap();
-    // The images of some materials do not exist.
+    // The image files of some materials do not exist, which gives notes.
     let is_other = |note: &&mesh_io::Note| !note.what.starts_with("image ");
     assert_eq!(notes.iter().find(is_other), None);
     assert_eq!(objects.len(), 1);

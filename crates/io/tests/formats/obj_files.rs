@@ -98,7 +98,7 @@ fn assert_round_trip(object: &Object) {
     assert_same(back.as_mesh().unwrap(), object.as_mesh().unwrap());
     assert_eq!(back.materials, object.materials);
     assert_eq!(back.name, "it");
-    // When the objects that were read are written again, the bytes are the same.
+    // Writing the object that was read gives the same bytes.
     let again = folder.path("again/it.obj");
     std::fs::create_dir(folder.path("again")).unwrap();
     write(&again, [back]);
@@ -258,7 +258,7 @@ fn a_face_of_opposite_orientation_is_reversed_with_a_note() {
             path.display()
         )
     );
-    // Texture coordinates stay with their vertices.
+    // After the face is reversed, each corner still has the texture coordinates of its vertex.
     let uvs = mesh.get(UV).unwrap();
     for h in mesh.half_edges().filter(|&h| mesh.face(h).is_some()) {
         assert_eq!(uvs[h.index()], mesh.position(mesh.origin(h)).truncate());

@@ -1,5 +1,6 @@
-//! Tests with other readers. Simple readers read written PLY and OFF files, and crates read written STL files and OBJ
-//! files of many dialects.
+//! Tests that compare this crate with other readers. In these tests, simple parsers check the bytes of PLY and OFF
+//! files that this crate writes. The crate `mesh_loader` reads STL files that this crate writes, and the crate `tobj`
+//! reads generated OBJ files of many dialects.
 
 use geometry::shapes;
 use glam::DVec3;
@@ -105,7 +106,8 @@ fn another_reader_finds_the_same_facets_in_stl_files() {
     }
 }
 
-/// How a corner is written: whether it has a texture coordinate and a normal, and which of its indices are negative.
+/// How a corner is spelled in an OBJ file: whether it has a texture coordinate and a normal, and which of its indices
+/// are negative.
 #[derive(Clone, Copy, Debug)]
 struct Spelling {
     has_uv: bool,
@@ -144,7 +146,8 @@ impl Spelling {
 }
 
 proptest! {
-    /// If a corner has no texture coordinate or no normal, the crate `tobj` uses the one of another corner.
+    /// Texture coordinates and normals are compared only at corners that have them, because at other corners, the crate
+    /// `tobj` uses those of another corner.
     #[test]
     fn tobj_reads_the_same_corners_of_any_dialect(
         points in prop::collection::vec((-1e3..1e3_f64, -10..10_i32, any::<i16>()), COUNT),

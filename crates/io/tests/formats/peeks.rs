@@ -42,7 +42,7 @@ fn peek_notes(files: &[(&str, &[u8])], expected: &[&str]) {
     }
 }
 
-/// Checks that the counts and attributes of a mesh agree with the result of peeking at its file.
+/// Checks that the counts and attributes of the mesh `read` are among those that peeking at its file predicts.
 #[track_caller]
 fn check_counts(peek: &PeekObject, read: &Object, policies: Policies) {
     let (PeekGeometry::Mesh(counts), Some(mesh)) = (&peek.geometry, read.as_mesh()) else {

@@ -317,7 +317,7 @@ fn whatever(bytes: &[u8]) {
     let _ = mesh_io::peek(&store::Disk, &path, &ReadOptions::default());
 }
 
-/// A file with lists and seams.
+/// Returns a valid binary file. Its faces have lists of texture coordinates, because the mesh has seams.
 fn valid() -> Vec<u8> {
     let folder = Folder::new();
     let path = folder.path("a.ply");
@@ -362,8 +362,8 @@ proptest! {
 
 #[test]
 fn repeated_comments_for_a_list_do_not_take_long() {
-    // The last face does not match the comments. A simple reader would compare each comment with all faces, which takes
-    // a long time.
+    // Each of the 20,000 equal comments describes the list `values`. The list of the last face has a wrong length, so
+    // the comments are not valid. Comparing every comment with all faces would take a long time.
     let n = 50_000;
     let comment = "comment meshwright corner float copy values \"a\"\n".repeat(20_000);
     let head = format!(

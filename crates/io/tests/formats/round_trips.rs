@@ -17,8 +17,8 @@ use crate::{Folder, read, scene};
 use flat::{Difference, Key, differences, has_only_default_values, key};
 use models::{Feature, features};
 
-/// The formats of the table, in the order of its columns. The column of `.gltf` is tested with `.glb`, which stores the
-/// same content.
+/// The formats of the table, in the order of its columns. Files of the format `.glb` are used to test the column of
+/// `.gltf`, because both formats store the same content.
 const FORMATS: [&str; 7] = ["obj", "glb", "ply", "stl", "off", "bez", "bzc"];
 
 /// The table in the documentation of the crate.
@@ -81,7 +81,7 @@ fn round_trip(objects: &[Object], extension: &str) -> Result<RoundTrip, WriteErr
     })
 }
 
-/// Returns, for each reported loss, the key of the difference that the loss explains.
+/// Returns the keys of all differences that the reported losses explain.
 fn reported(objects: &[Object], losses: &[Loss]) -> BTreeSet<Key> {
     let materials = objects.iter().flat_map(|object| &object.materials);
     let materials: BTreeSet<&str> = materials.map(|material| material.name.as_str()).collect();
@@ -102,7 +102,7 @@ fn reported(objects: &[Object], losses: &[Loss]) -> BTreeSet<Key> {
     all
 }
 
-/// Whether the format stores separate triangles, which the reader merges.
+/// Whether files of this format store separate triangles whose coincident corners the reader merges.
 fn is_soup(extension: &str) -> bool {
     matches!(extension, "stl" | "glb" | "gltf")
 }
@@ -133,7 +133,8 @@ fn table() -> BTreeMap<String, Vec<Outcome>> {
     lines.skip(1).map(of_line).collect()
 }
 
-/// Returns the differences that a format can cause without a report.
+/// Returns the differences that a round trip through a format can cause without a reported loss, according to the
+/// table.
 fn unreported(extension: &str) -> &'static BTreeMap<Key, Difference> {
     static UNREPORTED: OnceLock<BTreeMap<&str, BTreeMap<Key, Difference>>> = OnceLock::new();
     let unreported = UNREPORTED.get_or_init(|| {
@@ -192,7 +193,7 @@ fn measured(feature: &Feature, extension: &str) -> Outcome {
 ///
 /// # Errors
 ///
-/// The first property that does not hold.
+/// Returns a description of the first property that does not hold.
 fn check_laws(objects: &[Object], extension: &str) -> Result<(), String> {
     let Ok(first) = round_trip(objects, extension) else {
         return Ok(());
@@ -206,7 +207,8 @@ fn check_laws(objects: &[Object], extension: &str) -> Result<(), String> {
             .losses
             .iter()
             .any(|loss| loss.reason.contains(&new_name));
-        // A loss can be reported for corner values that later become vertex values.
+        // If corner values become vertex values when the file is read, the loss names the corners, but the difference
+        // is at the vertices.
         let as_corners = key(Domain::Corner, &what.1);
         let is_reported = reported.contains(what)
             || what.0 == Some(Domain::Vertex) && reported.contains(&as_corners)
@@ -237,7 +239,7 @@ fn check_laws(objects: &[Object], extension: &str) -> Result<(), String> {
     }
     // Notes are allowed only if vertices were merged, or if the STL reader changed content.
     let notes = &first.loaded.notes;
-    // The images of some materials do not exist.
+    // The image files of some materials do not exist, which gives notes.
     let is_fine = |note: &Note| {
         note.kind == NoteKind::Changed && extension == "stl" || note.what.starts_with("image ")
     };
@@ -279,7 +281,7 @@ fn check_laws(objects: &[Object], extension: &str) -> Result<(), String> {
     })
 }
 
-/// Whether a column has only default values, such as no material on any face.
+/// Whether a mesh has a column with this key that contains only default values, such as no material on any face.
 fn has_only_defaults(objects: &[Object], (domain, name): &Key) -> bool {
     let meshes = objects.iter().filter_map(Object::as_mesh);
     let mut columns = meshes.flat_map(|mesh| mesh.attributes().iter());
@@ -288,7 +290,7 @@ fn has_only_defaults(objects: &[Object], (domain, name): &Key) -> bool {
     })
 }
 
-/// Whether there are attributes of a domain without elements.
+/// Whether a mesh has an attribute without values, because the domain of the attribute has no elements.
 fn has_empty_columns(objects: &[Object]) -> bool {
     let meshes = objects.iter().filter_map(Object::as_mesh);
     meshes

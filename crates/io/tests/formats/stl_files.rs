@@ -29,7 +29,7 @@ fn assert_error(bytes: impl AsRef<[u8]>, expected: &str) {
     );
 }
 
-/// Returns a binary file of triangles with their normals.
+/// Returns a binary STL file with these facets. Each facet consists of a normal and three corners.
 fn binary(facets: &[[[f32; 3]; 4]]) -> Vec<u8> {
     let mut out = b"solid from a program that says so anyway".to_vec();
     out.resize(80, b' ');

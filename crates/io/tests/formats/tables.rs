@@ -38,7 +38,7 @@ fn sheet() -> Mesh {
     mesh
 }
 
-/// Returns the text of the table and the names of the lost attributes.
+/// Writes a mesh as a `.csv` file. Returns the text of the file and the names of the lost attributes.
 fn csv(rows: Option<Rows>) -> (String, Vec<String>) {
     let folder = Folder::new();
     let path = folder.path("a.csv");
@@ -159,7 +159,7 @@ fn tables_of_several_objects_have_a_column_with_their_names() {
             let rows = lines[1..].iter().filter_map(|line| line.strip_prefix(name));
             rows.map(str::to_owned).collect::<Vec<_>>()
         };
-        // Both objects are equal, so their rows differ only in the name.
+        // Both objects have equal meshes, so their rows differ only in the name of the object.
         assert_eq!(of("a,"), of("\"b, c\","));
         assert_eq!(of("a,").len(), n);
         assert!(lines[2 * n].starts_with(last), "{}", lines[2 * n]);
@@ -192,7 +192,8 @@ impl Array {
     }
 }
 
-/// Reads a `.npz` file by its central directory, and checks that the headers of the files agree with the directory.
+/// Reads the arrays of a `.npz` file, and checks that the central directory of the archive agrees with the headers of
+/// its files.
 fn arrays(folder: &Folder, name: &str) -> BTreeMap<String, Array> {
     let bytes = std::fs::read(folder.path(name)).unwrap();
     let short = |at: usize| usize::from(u16::from_le_bytes(bytes[at..at + 2].try_into().unwrap()));

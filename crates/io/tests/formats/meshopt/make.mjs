@@ -24,7 +24,7 @@ function random(n) {
     return Math.floor((state / 2 ** 32) * n);
 }
 
-// An array of elements, and its streams, which must all decode to the same array.
+// The arrays in streams.json. Each array has one or more streams, which must all decode to the same array.
 const arrays = [];
 const base64 = (bytes) => Buffer.from(bytes).toString("base64");
 function add(name, mode, filter, count, byteStride, streams) {

@@ -7,8 +7,8 @@ use glam::DVec3;
 use mesh::{Column, Domain, HalfEdgeId, Mesh, Rule, Values, VertexId};
 use scene::{Geometry, Image, Material, Object};
 
-/// The part of an object that differs. With a domain, these are the values with this name, such as the positions or an
-/// attribute. Without a domain, it is another part with this name. The names are the same as in losses.
+/// The part of an object that differs. If the key has a domain, the part is the positions or the attribute with this
+/// name. Otherwise, it is another part of the object, such as its materials. The names are the same as in losses.
 pub(super) type Key = (Option<Domain>, String);
 
 /// The kind of difference between two scenes.
@@ -32,7 +32,7 @@ type Row = Vec<u64>;
 /// The type and the edit rule of values.
 type Kind = (&'static str, Rule);
 
-/// A mesh in the form of lists. Corner values are in the order of the faces and their corners.
+/// A mesh as plain lists. Corner values are in the order of the faces and their corners.
 #[derive(Clone, Debug, PartialEq)]
 struct Flat {
     positions: Vec<Row>,
@@ -157,8 +157,8 @@ fn meshes(a: &Mesh, b: &Mesh, soup: bool, all: &mut Differences) {
     }
 }
 
-/// Returns the kind of difference between numbers. Numbers that are rounded to 32 bits are compared only approximately,
-/// because glTF stores 1 - v instead of the texture coordinate v.
+/// Returns the kind of difference between numbers. Whether numbers are equal after rounding to 32 bits is checked only
+/// approximately, because glTF stores 1 - v instead of the texture coordinate v.
 fn rows_differ(a: &[Row], b: &[Row]) -> Option<Difference> {
     if a == b {
         return None;

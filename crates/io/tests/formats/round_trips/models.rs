@@ -13,8 +13,8 @@ use scene::{AlphaMode, Geometry, Image, Material, Object, Texture};
 
 use super::flat::{Key, key};
 
-/// A row of the table: its name, a scene with a feature, and the expected difference if a format does not store the
-/// feature.
+/// A row of the table: its name, objects with a feature, and the difference after a round trip if a format does not
+/// store the feature.
 pub(super) struct Feature {
     pub(super) name: &'static str,
     pub(super) key: Key,

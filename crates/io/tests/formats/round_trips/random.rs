@@ -10,7 +10,7 @@ use super::check_laws;
 use super::flat::fits;
 use super::models::{column, one};
 
-/// Reserved names, and names that are hard to write.
+/// Names of attributes that are reserved in some format, or that some writers must change or quote.
 const NAMES: [&str; 22] = [
     "heat",
     "uv",
@@ -59,7 +59,7 @@ fn number() -> impl Strategy<Value = f64> {
     prop_oneof![any, prop::sample::select(known.to_vec())]
 }
 
-/// The content of a column, for any number of elements.
+/// A random attribute, whose values are repeated for any number of elements.
 #[derive(Clone, Debug)]
 struct Sketch {
     domain: Domain,

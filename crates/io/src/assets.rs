@@ -1,4 +1,5 @@
-//! Gives access to the files that a model file refers to. These files must be inside the folder of the model file.
+//! Gives access to the files that a model file refers to, such as images. They must be inside the folder of the model
+//! file.
 
 use std::collections::BTreeSet;
 use std::io;
@@ -11,7 +12,7 @@ use store::{Store, StoreError, folder_of};
 ///
 /// # Errors
 ///
-/// Returns the reason why the path is refused, as a text such as `is empty`. In messages, this text follows the path.
+/// Returns the reason why the path is refused, as the end of a message that begins with the path, such as `is empty`.
 pub(crate) fn inside(name: &str) -> Result<PathBuf, &'static str> {
     if name.is_empty() {
         return Err("is empty");
@@ -46,8 +47,8 @@ pub(crate) fn inside(name: &str) -> Result<PathBuf, &'static str> {
 ///
 /// # Errors
 ///
-/// Returns the reason why the URI is refused, as a text such as `has a backslash`. In messages, this text follows the
-/// URI.
+/// Returns the reason why the URI is refused, as the end of a message that begins with the URI, such as `has a
+/// backslash`.
 pub(crate) fn inside_uri(uri: &str) -> Result<PathBuf, &'static str> {
     if uri.contains('\\') {
         return Err("has a backslash");
@@ -92,7 +93,8 @@ fn hex(digit: u8) -> Option<u8> {
         .and_then(|value| u8::try_from(value).ok())
 }
 
-/// Encodes a file name as a URI reference (RFC 3986): all characters except the unreserved ones are escaped.
+/// Encodes a file name as a URI reference (RFC 3986). All characters that are not unreserved characters are
+/// percent-encoded.
 pub(crate) fn percent_encoded(name: &str) -> String {
     let encode = |byte: u8| match byte {
         b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'-' | b'.' | b'_' | b'~' => {
@@ -103,7 +105,7 @@ pub(crate) fn percent_encoded(name: &str) -> String {
     name.bytes().map(encode).collect()
 }
 
-/// A file on which the result of reading a model depends.
+/// A file that can change the result of reading a model.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct FileDependency {
     /// The path of the file.

@@ -9,7 +9,7 @@
 //! ```
 //!
 //! A `.bzc` file contains the number of control points, followed by the coordinates `x y` of each point. Numbers are
-//! separated by one or more blanks or line ends. There are no comments.
+//! separated by one or more blanks or line ends. Neither `.bez` nor `.bzc` files have comments.
 
 use bezier::{Curve, Patch};
 use glam::{DVec2, DVec3};

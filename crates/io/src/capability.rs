@@ -23,7 +23,7 @@ pub enum Storage {
 pub struct Stored<'a> {
     /// The format.
     pub format: Format,
-    /// For `.csv` files, the kind of elements that the file lists, one element in each row.
+    /// For `.csv` files, the kind of elements that the rows of the file list.
     pub rows: Rows,
     /// Whether the mesh has an attribute with this domain and name.
     pub has: &'a dyn Fn(Domain, &str) -> bool,
@@ -75,8 +75,8 @@ impl Stored<'_> {
                 (Domain::Vertex, "normal", Values::Vec3(_)) => {
                     kept_if(!has(Domain::Corner, CORNER_NORMAL.name))
                 }
-                // The alpha of a color is lost. A tag (a named set of faces) is lost if no face has it, and the names
-                // of tags can change.
+                // The alpha of a vertex color is lost. A face tag is lost if no face has it, and the name of a face tag
+                // can change.
                 (Domain::Vertex, "color", Values::Vec4(_)) | (Domain::Face, _, Values::Tag(_)) => {
                     Partial
                 }
@@ -87,8 +87,8 @@ impl Stored<'_> {
             Format::Off => match (domain, name, values) {
                 (Domain::Vertex, "normal", Values::Vec3(_))
                 | (Domain::Vertex, "color", Values::Vec4(_)) => Kept,
-                // Texture coordinates are lost if they differ between corners of the same vertex. For faces, a file
-                // stores either colors or color indices.
+                // Texture coordinates are lost if they differ between corners of the same vertex. A file stores either
+                // face colors or face color indices, but not both.
                 (Domain::Corner, "uv", Values::Vec2(_))
                 | (Domain::Face, "color", Values::Vec4(_))
                 | (Domain::Face, COLOR_INDEX, Values::Int(_)) => Partial,
@@ -113,7 +113,8 @@ fn types() -> [Values; 6] {
     ]
 }
 
-/// Returns the type of the well-known attribute with this name, as an empty list of values.
+/// Returns the usual type of attributes with this domain and name, as an empty list of values. Returns `None` if there
+/// is no usual type.
 fn usual_type(domain: Domain, name: &str) -> Option<Values> {
     let [_, vec2, vec3, vec4, int, _] = types();
     match domain {
@@ -128,8 +129,8 @@ fn usual_type(domain: Domain, name: &str) -> Option<Values> {
 }
 
 impl Format {
-    /// Returns why files of this format cannot store an object with this [kind](scene::Geometry::kind) of geometry.
-    /// `None` if they can.
+    /// Returns the reason why files of this format cannot store an object with this [kind](scene::Geometry::kind) of
+    /// geometry. Returns `None` if they can.
     pub fn refused_kind(self, kind: &str) -> Option<String> {
         let (kinds, stores): (&[&str], _) = match self {
             Self::Mws => return None,
@@ -150,7 +151,7 @@ impl Format {
         (!kinds.contains(&kind)).then(|| format!("{stores}, found {kind}"))
     }
 
-    /// Returns why files of this format cannot store `n` objects. `None` if they can.
+    /// Returns the reason why files of this format cannot store `n` objects. Returns `None` if they can.
     pub fn refused_count(self, n: usize) -> Option<String> {
         (self == Self::Bzc && n != 1).then(|| {
             format!(
@@ -184,7 +185,7 @@ impl Format {
         )
     }
 
-    /// How the writer of this format handles the names of objects whose meshes are joined into one mesh.
+    /// What happens to the names of objects when a writer of this format joins their meshes into one mesh.
     pub(crate) const fn joined_names(self) -> Names {
         match self {
             Self::Ply => Names::Tags,

@@ -14,8 +14,8 @@ use mesh::parallel;
 /// because the computed area of a zero-area face is rarely exactly 0.
 const DEGENERATE_RATIO: f64 = 1e-14;
 
-/// To find duplicate faces, the faces are divided into this number of groups according to a hash. Each face is compared
-/// only with the faces of its own group. Groups are processed in parallel.
+/// The number of groups into which faces are divided according to a hash, to find duplicate faces. Duplicate faces are
+/// always in the same group. The groups are processed in parallel.
 const N_GROUPS: usize = 16;
 
 /// For each polygon, its index in the file; `None` if all polygons have the same indices as in the file.
@@ -68,7 +68,7 @@ pub(crate) fn clean(
     kept
 }
 
-/// Adds a note about changed or removed elements. The note contains the positions of the elements.
+/// Adds a note about changed or removed elements, with their positions.
 fn note(
     polygons: &Polygons,
     code: &'static str,
@@ -125,7 +125,7 @@ fn degenerate(polygons: &Polygons) -> Vec<usize> {
         let points: Option<Vec<DVec3>> = points
             .map(|&v| polygons.positions.get(v as usize).copied())
             .collect();
-        // A vertex index out of range is reported later, when the mesh is built.
+        // A face with a vertex index out of range is not degenerate. Building the mesh reports this index as an error.
         points.is_some_and(|points| is_degenerate(&points))
     };
     parallel::filter(polygons.n_faces(), has_no_area)
@@ -152,7 +152,7 @@ fn is_degenerate(points: &[DVec3]) -> bool {
 /// Returns the polygons that have the same vertices as an earlier polygon, in the same or the opposite circular order.
 fn duplicates(polygons: &Polygons) -> Vec<usize> {
     let hashes = parallel::collect(polygons.n_faces(), |f| sum_of_hashes(corners(polygons, f)));
-    // Each task sorts the faces of one group by their hashes, so that equal faces are next to each other in the list.
+    // Each task sorts the faces of one group by their hashes, so that faces with the same hash are next to each other.
     let shares = parallel::map(N_GROUPS, |share| {
         let own = hashes
             .iter()
@@ -180,7 +180,7 @@ fn duplicates(polygons: &Polygons) -> Vec<usize> {
     duplicates
 }
 
-/// Returns the sum of the hashes of the vertices of the corners. The sum does not depend on the order of the corners.
+/// Returns a hash of a face that does not depend on the order of its corners: the sum of the hashes of its vertices.
 fn sum_of_hashes(corners: &[u32]) -> u64 {
     // The hash function is the finalizer of SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number
     // generators", 2014).

@@ -10,9 +10,8 @@ use mesh::{FaceId, HalfEdgeId, Mesh, Values, VertexId};
 /// The value of a corner is compared with at most this number of distinct values at the same vertex.
 const MAX_COMPARED: usize = 64;
 
-/// Numbers for the distinct values at the corners of each vertex of a mesh. Corners of one vertex with the same value
-/// share a number. The numbers are assigned in the order of the faces and their corners, and are unique in the whole
-/// mesh.
+/// The numbers of the values at the corners of a mesh. Two corners have the same number if they belong to the same
+/// vertex and have the same value. The numbers start at 0 and are assigned in the order of the faces and their corners.
 #[derive(Debug)]
 pub(crate) struct CornerNumbers {
     /// For each half-edge of a face, the first half-edge that starts at the same vertex and has the same value.
@@ -29,9 +28,8 @@ impl CornerNumbers {
     /// time for a vertex with a million corners linear. If a vertex has more distinct values than this limit, a value
     /// can get a second number.
     pub(crate) fn new(mesh: &Mesh, equal: impl Fn(HalfEdgeId, HalfEdgeId) -> bool + Sync) -> Self {
-        // Each entry of `same` is written by only one task: the task that handles the origin of the half-edge. Each
-        // entry of `numbers` is also written by only one task: the task whose block of numbers contains the value of
-        // the entry.
+        // Relaxed stores are sufficient, because only one task writes each entry. For `same`, this is the task that
+        // handles the origin of the half-edge. For `numbers`, it is the task that handles the number of the entry.
         let unset = || -> Vec<AtomicU32> { mesh::zeroed(mesh.n_half_edges()) };
         let (same, numbers) = (unset(), unset());
         let number_of = |i: usize| u32::try_from(i).unwrap_or(u32::MAX);

@@ -15,7 +15,7 @@ pub(crate) fn leading_number(text: &[u8]) -> Option<(f64, usize)> {
     x.is_finite().then_some((x, length))
 }
 
-/// Parses at most eight digits, beginning at `at`. Returns the value of the digits, and their number.
+/// Parses at most eight digits from index `at` on. Returns the value and the number of the digits.
 ///
 /// Processes all digits at once as the bytes of one 64-bit word (Lemire, "Quickly parsing eight digits", 2018).
 #[inline]
@@ -36,8 +36,8 @@ pub(crate) fn up_to_eight_digits(text: &[u8], at: usize) -> (u64, usize) {
     (low.wrapping_add(high) >> 32, count as usize)
 }
 
-/// Returns the eight bytes that begin at `at` as a 64-bit word, with the first byte as the lowest byte of the word.
-/// Bytes beyond the end of the text are 0.
+/// Returns the eight bytes from index `at` on as a 64-bit word. The first byte is the lowest byte of the word. Bytes
+/// beyond the end of the text are 0.
 #[inline]
 fn eight_bytes(text: &[u8], at: usize) -> u64 {
     if let Some(&[a, b, c, d, e, f, g, h]) = text.get(at..at + 8) {
@@ -93,7 +93,7 @@ fn push_bytes(out: &mut Vec<u8>, word: u64, n: usize) {
     out.truncate(end);
 }
 
-/// Appends an integer in decimal.
+/// Appends an integer as a decimal number.
 #[inline]
 pub(crate) fn push_whole(out: &mut Vec<u8>, value: usize) {
     match u64::try_from(value) {

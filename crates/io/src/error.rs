@@ -55,7 +55,7 @@ pub enum ReadError {
     Mesh {
         /// The file.
         path: PathBuf,
-        /// What is wrong with the polygons.
+        /// The reason why the polygons do not form a valid mesh.
         source: mesh::BuildError,
     },
     /// Content would be left out, which [`ReadOptions::strict`](crate::ReadOptions::strict) forbids.
@@ -111,8 +111,8 @@ impl ReadError {
     }
 }
 
-/// The reason why a scene could not be written. No file was changed, with one exception: if several files are written
-/// and the system fails to rename one of them, the files that were renamed before it are already replaced.
+/// The reason why a scene could not be written. No file was changed, with one exception: if the system fails to rename
+/// one of several files, the files that were renamed before it are already replaced.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum WriteError {

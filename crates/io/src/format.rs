@@ -65,9 +65,9 @@ impl Format {
         TABLE[self as usize].1
     }
 
-    /// Returns the format with the extension of `path`. Upper and lower case are not distinguished. Returns `None` if
-    /// the extension is unknown or missing. The name of a file compressed with gzip ends in `.gz` after the extension
-    /// of its format. Files of the formats `.glb`, `.mws` and `.npz` cannot be compressed.
+    /// Returns the format with the extension of `path`, in upper or lower case. Returns `None` if the extension is
+    /// unknown or missing. The name of a file compressed with gzip ends in `.gz` after the extension of its format.
+    /// Files of the formats `.glb`, `.mws` and `.npz` cannot be compressed.
     pub fn from_path(path: &Path) -> Option<Self> {
         let plain = gzip::plain(path);
         let extension = plain.extension()?;

@@ -1,7 +1,7 @@
 //! Reads and writes compressed files: `model.obj.gz` is read and written like `model.obj`.
 //!
 //! The content is compressed with gzip (RFC 1952). All formats except `.glb`, `.mws` and `.npz` can be compressed. The
-//! size of the decompressed content is limited, because a few bytes can expand to thousands.
+//! size of the decompressed content is limited, because a small compressed file can contain a huge amount of data.
 
 use std::borrow::Cow;
 use std::io::{self, Read as _, Write};
@@ -81,8 +81,8 @@ pub(crate) fn head(store: &dyn Store, path: &Path, most: u64) -> Result<Vec<u8>,
     Ok(out)
 }
 
-/// Compresses the bytes that `write` writes, and returns the number of compressed bytes. The header contains neither a
-/// time nor a name, so equal content gives equal bytes.
+/// Compresses the bytes that `write` writes, and returns the number of compressed bytes. Equal content gives equal
+/// compressed bytes, because the header contains neither a time nor a file name.
 ///
 /// # Errors
 ///

@@ -1,5 +1,5 @@
-//! Handles the images of materials. When a model is read, its images are searched for in the folders of its material
-//! libraries and in the folder of the model. When a scene is written, images are embedded or copied.
+//! Handles the images of materials. When a model is read, the folders of its material libraries and the folder of the
+//! model are searched for its images. When a scene is written, images are embedded or copied.
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
@@ -36,7 +36,7 @@ pub enum Images {
     Keep,
 }
 
-/// The largest number of different image files that a model can refer to. All further images are left out, because
+/// The maximum number of different image files of a model that are loaded. Further images are left out, because
 /// searching for very many files would be slow.
 const MAX_IMAGES: usize = 4096;
 
@@ -167,7 +167,7 @@ const KINDS: [(&str, &str); 16] = [
 
 /// Returns the media type of an image file. The first bytes of the file determine the type. If these bytes do not
 /// belong to a known type, the extension of the file determines the type. Returns `None` if the file does not seem to
-/// be an image, so that other files are never embedded or copied.
+/// be an image. Such a file is never embedded or copied.
 fn media_type(path: &Path, bytes: &[u8]) -> Option<&'static str> {
     let extension = path.extension().unwrap_or_default();
     let of_bytes = sniffed(bytes);
@@ -258,7 +258,8 @@ pub(crate) fn settle<'a>(
     })
 }
 
-/// The file name of an embedded image: the name of the model with the extension of the image.
+/// The file name that an embedded image gets when it is written to a file: the name of the model with the extension of
+/// the image.
 fn new_name(path: &Path, mime: &str) -> Option<PathBuf> {
     let (extension, _) = KINDS.iter().find(|(_, known)| *known == mime)?;
     Some(

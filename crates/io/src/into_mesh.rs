@@ -44,8 +44,8 @@ impl Polygons {
         for (domain, mut column) in self.attributes {
             column.values = sources.gather(domain, column.values);
             let mut domain = domain;
-            // Vertex attributes are inserted before corner attributes. If a vertex attribute has the same name, the
-            // corner attribute does not become a vertex attribute.
+            // All vertex attributes are already inserted, because they come before the corner attributes. A corner
+            // attribute stays on the corners if a vertex attribute has the same name.
             let vertices = built.mesh.attributes();
             if domain == Domain::Corner
                 && !column.name.starts_with("uv")
@@ -143,8 +143,7 @@ struct Sources {
     n_positions: usize,
     /// For each copy of a split vertex, the original vertex. Copies come after the original vertices.
     copies: Vec<usize>,
-    /// For each half-edge, 1 plus the index of its corner in the input, or 0 if the half-edge has no face. Each entry
-    /// is written once.
+    /// For each half-edge, 1 plus the index of its corner in the input, or 0 if the half-edge has no face.
     corners: Vec<AtomicU32>,
     /// For each face, the index of its polygon. `None` if faces and polygons have the same indices.
     faces: Option<Vec<u32>>,

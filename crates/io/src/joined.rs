@@ -17,7 +17,7 @@ pub(crate) struct Joined<'a> {
     /// The meshes of all objects, joined in the order of the objects. Elements that were removed from these meshes
     /// leave no gaps in the arrays.
     pub(crate) mesh: Cow<'a, Mesh>,
-    /// The name of the first object. Losses that concern the whole mesh are reported under this name.
+    /// The name of the first object. Losses of the joined mesh are reported with this name.
     pub(crate) name: String,
     pub(crate) losses: Vec<Loss>,
 }

@@ -20,16 +20,16 @@
 //! | `.npz` (write only) | the arrays of a mesh for `NumPy` | `npz` |
 //! | `.gz` after one of these extensions, except `.glb`, `.mws` and `.npz` | the same, compressed with gzip | `gzip` |
 //!
-//! Every loss is reported, except the loss of comments and headers of files. Content that a reader leaves out or
-//! changes is reported as a [`Note`] with a count. Content that a format cannot store is reported as a [`Loss`]. Errors
-//! in the syntax of a file have a position: the line and the column in a text file, the byte offset in a binary file,
-//! or the JSON pointer in a glTF file. If a file refers to other files, their paths must not lead out of the folder of
-//! this file. A file is written completely or not at all.
+//! Every loss of content is reported, except the loss of comments and headers of files. Content that a reader leaves
+//! out or changes is reported as a [`Note`] with a count. Content that a format cannot store is reported as a [`Loss`].
+//! Errors in the syntax of a file have a position: the line and the column in a text file, the byte offset in a binary
+//! file, or the JSON pointer in a glTF file. If a file refers to other files, their paths must not lead out of the
+//! folder of this file. A file is written completely or not at all.
 //!
 //! The source code of each mesh format is in its own folder. The `mod.rs` of the folder lists how each part of a file
 //! is converted. Most of these folders have a module `read`, which converts bytes to polygons, and a module `write`.
 //! For example, the faces of an OBJ file are read in `obj/statement.rs`, and those of a glTF file in
-//! `gltf/primitives.rs`. The formats share these modules:
+//! `gltf/primitives.rs`. All formats use these modules:
 //!
 //! | module | purpose |
 //! | --- | --- |
@@ -191,7 +191,7 @@ pub struct WriteOptions {
 /// The files that were written, and the content that they do not store.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WriteReport {
-    /// The files that were written. The last file in the list is the requested file.
+    /// The files that were written. The last file in the list is the file that the caller asked to write.
     pub files: Vec<PathBuf>,
     /// The total size of the files in bytes.
     pub bytes: u64,
@@ -205,8 +205,8 @@ pub struct WriteReport {
 ///
 /// # Errors
 ///
-/// Returns a [`ReadError`] if the file cannot be read or breaks the rules of its format. An error in the syntax has a
-/// position.
+/// Returns a [`ReadError`] if the file cannot be read or breaks the rules of its format. Errors in the syntax of the
+/// file have a position.
 pub fn read(store: &dyn Store, path: &Path, options: &ReadOptions) -> Result<Loaded, ReadError> {
     known_format(path)?;
     let mut loaded = read_bytes(store, path, store.read(path)?, options)?;
@@ -322,7 +322,7 @@ struct ParsedObject {
 enum Shape {
     Polygons(Polygons),
     Geometry(Geometry),
-    /// An object with the name and the materials that its file stores.
+    /// An object whose file stores its name and materials.
     Object(Box<Object>),
 }
 
@@ -373,8 +373,8 @@ fn fail_if_left_out(path: &Path, notes: &[Note]) -> Result<(), ReadError> {
 /// Also returns notes about the content that reading would leave out. Content that can be found only by building the
 /// objects has no note.
 ///
-/// Bezier and `.mws` files are checked completely. In glTF files, only the JSON is checked. OBJ files are not checked:
-/// their statements are only counted.
+/// Bezier and `.mws` files are checked completely. In glTF files, only the JSON is checked. OBJ files are not checked,
+/// but their statements are counted.
 ///
 /// # Errors
 ///

@@ -1,4 +1,4 @@
-//! Describes losses, which are content of a scene that a written file does not store.
+//! Describes losses. A loss is content of a scene that a written file does not store.
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -86,8 +86,9 @@ impl fmt::Display for Loss {
     }
 }
 
-/// Returns the number of values that an attribute of this domain has. The arrays of corner attributes also have an
-/// entry for each boundary half-edge. These entries are not counted, because boundary half-edges are not corners.
+/// Returns the number of values of an attribute of this domain that belong to elements. The arrays of corner attributes
+/// also have an entry for each boundary half-edge. These entries are not counted, because boundary half-edges are not
+/// corners.
 pub(crate) fn n_values(mesh: &Mesh, domain: Domain) -> usize {
     match domain {
         Domain::Corner => {

@@ -90,7 +90,8 @@ pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> SingleFile {
     (bytes, Vec::new())
 }
 
-/// Returns the provenance of a file (a text about its origin), if the file is a Meshwright scene and stores one.
+/// Returns the provenance (a text about the origin) of an `.mws` file. Returns `None` if the file has no provenance or
+/// is not an `.mws` file.
 pub(crate) fn provenance(bytes: &[u8]) -> Option<String> {
     let (provenance, _) = split(bytes)?;
     let text = std::str::from_utf8(provenance).ok()?;
@@ -175,7 +176,7 @@ mod tests {
         for i in 0..whole.len() {
             let mut changed = whole.clone();
             changed[i] ^= 1 << (i % 8);
-            // The modified file is either refused or decoded. If it is decoded, its meshes must be valid.
+            // A file with a changed bit can be refused. If it is decoded instead, its meshes must be valid.
             if let Ok(scene) = scene_of(&changed, None, Placements::Keep) {
                 for mesh in scene.objects().iter().filter_map(|o| o.as_mesh()) {
                     assert_eq!(mesh.defects(), [], "byte {i}");

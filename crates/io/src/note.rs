@@ -1,4 +1,4 @@
-//! Describes notes, which report the content that reading changed or left out. All such content is reported, except
+//! Describes notes. A note reports content that reading changed or left out. All of this content is reported, except
 //! comments and headers.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -51,7 +51,7 @@ pub(crate) struct PolygonArrays<'a> {
 }
 
 impl PolygonArrays<'_> {
-    /// The positions of elements, as [`Note::places`] stores them.
+    /// Returns the positions of elements in the form of [`Note::places`].
     pub(crate) fn places(&self, elements: &Elements) -> Vec<Vec<DVec3>> {
         let at = |v: usize| self.positions.get(v).copied();
         let vertex = |v: VertexId| at(v.index());
@@ -99,7 +99,7 @@ impl fmt::Display for Note {
     }
 }
 
-/// The plural nouns at the beginning of notes.
+/// The nouns that can be among the first words of the text of a note, in the plural.
 const NOUNS: [&str; 62] = [
     "animations",
     "attributes",
@@ -170,7 +170,7 @@ const NOUNS: [&str; 62] = [
 fn singular(what: &str) -> String {
     let mut words: Vec<String> = what.split(' ').map(str::to_owned).collect();
     let is_noun = |word: &String| NOUNS.contains(&word.as_str());
-    // At most two words precede the noun, such as in `third texture coordinates`.
+    // Up to two words can precede the noun, for example in `third texture coordinates`.
     let Some(first) = words.iter().take(3).position(is_noun) else {
         return what.to_owned();
     };
@@ -313,7 +313,7 @@ impl Notes {
         }
     }
 
-    /// Adds the notes about another file that this file refers to.
+    /// Adds the notes about a file that this file refers to, such as a material library.
     pub(crate) fn append(&mut self, other: Self) {
         for note in other.list {
             self.push(note);

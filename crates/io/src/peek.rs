@@ -18,9 +18,9 @@ pub struct Peek {
     /// The nodes, skins and animations. Except for `.mws` files, the arrays of numbers are missing: skins have no
     /// inverse bind matrices, and the inputs and outputs of samplers are not valid.
     pub graph: Graph,
-    /// The content that reading would leave out, as far as it is known without building the objects. Examples are
-    /// unused elements of a PLY file, statements of an OBJ file that do not describe polygons, and missing images and
-    /// material libraries. Reading can leave out content that is not listed here.
+    /// The content that reading would leave out and that can be found without building the objects. Examples are unused
+    /// elements of a PLY file, statements of an OBJ file that do not describe polygons, and missing images and material
+    /// libraries. Reading can leave out content that is not listed here.
     pub left_out: Vec<Note>,
 }
 
@@ -142,9 +142,10 @@ pub struct PeekMesh {
     pub joints: u64,
     /// The number of morph targets.
     pub targets: u64,
-    /// The number of faces that certainly do not use any vertex twice. Reading keeps these faces, unless a policy drops
-    /// them. In OBJ, OFF, PLY and binary STL files, such faces are counted if they have at most 16 corners. In `.mws`
-    /// files, all faces are counted. In other formats, the number is 0, because the vertices of faces are not examined.
+    /// The number of faces that certainly do not use any vertex twice. Reading keeps the counted faces, unless a policy
+    /// drops them. In OBJ, OFF, PLY and binary STL files, a face without repeated vertices is counted if it has at most
+    /// 16 corners. In `.mws` files, all faces are counted. In other formats, the number is 0, because the vertices of
+    /// faces are not examined.
     pub simple_faces: u64,
     /// The number of corners of the faces that `simple_faces` counts.
     pub simple_corners: u64,
@@ -167,7 +168,7 @@ pub struct PeekRanges {
     pub degrees: RangeInclusive<u64>,
 }
 
-/// The vertices of a face are compared with each other only if the face has at most this number of corners.
+/// The maximum number of corners of a face whose vertices are compared with each other.
 pub(crate) const MAX_COMPARED: usize = 16;
 
 /// Whether the words are certainly indices of different elements. Returns true only if the words differ from each

@@ -8,7 +8,7 @@ use scene::{Material, Pose, holds_tangents, transform_tangent};
 
 use crate::note::PolygonArrays;
 
-/// Polygons as flat arrays in the order of a file. They need not form a manifold.
+/// The polygons of a file as flat arrays, in the order of the file. The polygons need not form a manifold.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polygons {
     /// The position of each vertex.
@@ -122,7 +122,7 @@ impl Polygons {
     fn reverse_faces(&mut self) {
         let mut order: Vec<u32> = (0..).take(self.corners.len()).collect();
         for ends in self.offsets.windows(2) {
-            // The first corner of a polygon stays first.
+            // Reversing a polygon does not change its first corner.
             order[ends[0] as usize + 1..ends[1] as usize].reverse();
         }
         let corners = &self.corners;

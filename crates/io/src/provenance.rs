@@ -1,4 +1,4 @@
-//! Reads the provenance of a file, which is the text that was passed to the writer as
+//! Reads the provenance of a file. The provenance is the text that the writer got as
 //! [`WriteOptions::provenance`](crate::WriteOptions::provenance).
 
 use std::path::Path;
@@ -89,8 +89,8 @@ fn of_png(bytes: &[u8]) -> Option<String> {
 
 /// The metadata of an SVG file, if it is plain text.
 fn of_svg(bytes: &[u8]) -> Option<String> {
-    // Only the beginning of the file is searched, and this part can end in the middle of a character. Therefore,
-    // invalid UTF-8 is accepted.
+    // Invalid UTF-8 is accepted, because `bytes` is only the beginning of the file and can end in the middle of a
+    // character.
     let text = String::from_utf8_lossy(bytes);
     let (_, behind) = text.split_once("<metadata>")?;
     let (text, _) = behind.split_once("</metadata>")?;

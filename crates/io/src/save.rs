@@ -21,7 +21,7 @@ pub(crate) enum Content<'a> {
     Blocks(Vec<Block<'a>>),
 }
 
-/// A function that appends one block of a file, a few hundred kilobytes, to a buffer.
+/// A function that appends one block of a file to a buffer. A block has a few hundred kilobytes.
 pub(crate) type Block<'a> = Box<dyn Fn(&mut Vec<u8>) + Send + Sync + 'a>;
 
 /// Writes all files to temporary files first. When all temporary files are complete, moves them to their paths in the

@@ -69,8 +69,8 @@ impl<'a> Cursor<'a> {
         self.bytes.len() - self.at
     }
 
-    /// Whether the remaining bytes are enough for `n` times `words_each` words. Each word takes at least one byte. All
-    /// words except the last are followed by a separator.
+    /// Whether the remaining bytes are enough for `n` items of `words_each` words each. A word takes at least one byte,
+    /// and all words except the last need a separator.
     pub(crate) fn has_room(&self, n: usize, words_each: usize) -> bool {
         let least = n.checked_mul(2 * words_each);
         least.is_some_and(|least| least <= self.remaining() + 1)
@@ -299,8 +299,8 @@ pub(crate) fn is_not_finite(word: &[u8]) -> bool {
 ///
 /// # Errors
 ///
-/// Returns an error if the text is in UTF-16 or UTF-32. The position of the error is the beginning of the text, and its
-/// message names the encoding.
+/// Returns an error if the text is in UTF-16 or UTF-32. The error is at the beginning of the text, and its message
+/// contains the name of the encoding.
 pub(crate) fn check_encoding(bytes: &[u8]) -> Result<(), Fault> {
     let is_wide = |first: usize| {
         let mut pairs = bytes.chunks_exact(2).take(16);

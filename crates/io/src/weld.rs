@@ -1,8 +1,8 @@
 //! Merges vertices with exactly equal positions.
 //!
-//! Positions are distributed over buckets by a hash. To find equal positions, each bucket uses a small hash table that
-//! fits in the processor cache. Buckets are processed in parallel. Of several equal positions, the first is kept, and
-//! the kept positions stay in order. Therefore, the result does not depend on the hash.
+//! A hash distributes the positions over buckets. The buckets are processed in parallel. To find equal positions, each
+//! bucket uses a hash table that is small enough for the processor cache. Only the first of several equal positions is
+//! kept, and the kept positions stay in order. Therefore, the result does not depend on the hash.
 
 use std::cmp::Ordering;
 use std::hash::{BuildHasher, RandomState};
@@ -16,7 +16,7 @@ use crate::file_vertices::FileVertices;
 use crate::polygons::gather;
 use mesh::parallel;
 
-/// The number of positions that are hashed and indexed at a time.
+/// The number of positions in a chunk. Each chunk is hashed by one task.
 const CHUNK: usize = 1 << 15;
 /// The approximate number of positions in a bucket.
 const BUCKET: usize = 1 << 14;

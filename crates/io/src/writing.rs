@@ -19,7 +19,7 @@ pub(crate) fn dense(mesh: &Mesh) -> Cow<'_, Mesh> {
     Cow::Owned(copy)
 }
 
-/// Appends a comment. Each of its lines begins with `word`.
+/// Appends a comment. `word` is written at the beginning of each line of the comment.
 pub(crate) fn push_comment(out: &mut Vec<u8>, word: &str, comment: Option<&str>) {
     for line in comment
         .into_iter()

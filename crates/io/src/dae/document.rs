@@ -62,8 +62,8 @@ pub(super) fn parsed(text: &str) -> Result<Xml<'_>, Fault> {
 }
 
 /// Refuses text for which the XML parser would take too much time or memory. The parser allocates an entry for each `<`
-/// and `=`, and compares all attributes of an element with each other. For each element that declares a namespace, the
-/// parser copies the list of all namespaces.
+/// and `=`, and compares all attributes of an element with each other. It also copies the list of all namespaces for
+/// each element that declares a namespace.
 fn check_size(text: &str) -> Result<(), Fault> {
     const MAX_ATTRIBUTES: usize = 200;
     const MAX_NAMESPACES: usize = 50;
@@ -119,7 +119,7 @@ fn place_at(text: &str, at: usize) -> TextPosition {
     }
 }
 
-/// The code of a note, and the text that follows the count in the message.
+/// The code of a note, and the text of the note without the count.
 pub(super) type What = (&'static str, &'static str);
 
 /// The notes about the file. The key is the kind, the text and the code of a note. The value is the count of the note
@@ -263,7 +263,7 @@ pub(super) fn is(node: Node, name: &str) -> bool {
     node.is_element() && node.tag_name().name() == name
 }
 
-/// The index of an element in its file, as a key for tables.
+/// Returns the index of an element in its file, which is used as a key.
 pub(super) fn number_of(node: Node) -> u32 {
     node.id().get()
 }
@@ -392,7 +392,7 @@ fn word_place(node: Node, word: &str) -> TextPosition {
     }
 }
 
-/// Creates an error whose position is that of word `k`. Words are counted from 0 over the texts of all `lists`.
+/// Creates an error with the position of word `k`, where the words in the texts of all `lists` are numbered from 0.
 pub(super) fn word_error(lists: &[Node], mut k: usize, message: String) -> Fault {
     for &list in lists {
         for word in words(list) {

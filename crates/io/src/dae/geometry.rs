@@ -42,13 +42,13 @@ impl Surface<'_> {
     }
 }
 
-/// Reads geometries. Lists of vectors that several geometries use are read only once.
+/// Reads geometries. If several inputs refer to the same source, its vectors are read only once.
 pub(super) struct Geometries<'a, 'd> {
     pub(super) document: &'d Document<'a>,
     sources: BTreeMap<(u32, usize), Rc<Vectors>>,
 }
 
-/// What the vectors of an `<input>` element mean.
+/// The meaning of the vectors of an `<input>` element.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Normal,
@@ -65,7 +65,7 @@ struct Input<'a> {
 
 /// The `<input>` elements of a list of polygons.
 struct Inputs<'a> {
-    /// The number of indices per corner.
+    /// The number of indices of each corner.
     stride: usize,
     /// The position of the vertex index among the indices of a corner.
     vertex: usize,

@@ -151,8 +151,8 @@ fn opacity(scope: &Scope, shader: Node) -> Result<Option<f64>, Fault> {
         "RGB_ONE" => luminance * transparency,
         _ => alpha * transparency,
     };
-    // Programs disagree about whether 0 or 1 means opaque. A completely invisible surface is hardly ever
-    // intended, so it is made opaque.
+    // Programs disagree about whether 0 or 1 means opaque. Therefore, a surface that would be completely invisible is
+    // made opaque.
     if opacity <= 0.0 {
         let what = ("materials-opaque", "invisible materials made opaque");
         scope.document.changed(1, shader, what);
@@ -161,7 +161,7 @@ fn opacity(scope: &Scope, shader: Node) -> Result<Option<f64>, Fault> {
     Ok(Some(opacity))
 }
 
-/// The scopes in which the names in a shader are looked up.
+/// Finds the parameters that a shader refers to by name. The parameters of the profile come before those of the effect.
 struct Scope<'a, 'd> {
     document: &'d Document<'a>,
     scopes: [Node<'a>; 2],

@@ -27,9 +27,9 @@
 //! scene, each of its geometries becomes an object. If a file refers to other files, only the images among them are
 //! read.
 //!
-//! Document type declarations are refused, so that entities cannot expand. A file can instantiate the same content
-//! several times. The total memory for this content is limited to 64 times the size of the file. The limit is never
-//! less than 16 MiB.
+//! Document type declarations are refused, because they can define entities that expand to a huge text. A file can
+//! instantiate the same content several times. The total memory for this content is limited to 64 times the size of the
+//! file. The limit is never less than 16 MiB.
 
 mod cost;
 mod document;
@@ -170,7 +170,7 @@ impl Object<'_, '_> {
         let mut place_of_symbol = Vec::new();
         for symbol in &self.surface.symbols {
             let next = i32::try_from(polygons.materials.len()).unwrap_or(i32::MAX);
-            // Some programs write no binding of symbols to materials, and use the id of a material as its symbol.
+            // Some programs do not bind material symbols to materials, but use the id of a material as its symbol.
             let same_id = self.document.ids.get(symbol);
             let same_id = same_id.filter(|node| document::is(**node, "material"));
             let node = self.placed.materials.get(symbol).or(same_id);

@@ -1,4 +1,4 @@
-//! Finds the geometries that the nodes of a scene reference, with their transforms, names and materials.
+//! Finds the geometries that the nodes of a scene instantiate, with their transforms, names and materials.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -200,7 +200,7 @@ impl<'a, 'd> Walk<'a, 'd> {
         Ok(())
     }
 
-    /// Returns the geometry that a skin or a morph controls, in its rest pose.
+    /// Returns the geometry that a skin or a morph deforms. The deformation is ignored.
     fn geometry_of_controller(&self, instance: Node<'a>) -> Result<Option<Node<'a>>, Fault> {
         const MAX_DEPTH: usize = 16;
         let mut controller = self.document.follow(instance, "url", &["controller"])?;

@@ -1,5 +1,5 @@
-//! Reads lists of vectors. A source is an array of numbers with an accessor. The accessor defines which numbers form a
-//! vector.
+//! Reads the vectors of sources. A source consists of an array of numbers and an accessor, which defines which numbers
+//! form a vector.
 //!
 //! ```text
 //! <source id="s">
@@ -116,7 +116,7 @@ fn components(accessor: Node, names: &[&str]) -> Result<Vec<usize>, Fault> {
             (0..stride.min(4)).collect()
         }
         Some(ordered) => {
-            // Components whose name is not in `names`, such as the alpha of a color, come last.
+            // Components with other names, such as the alpha of a color, come after the components in `names`.
             let further =
                 (0..params.len()).filter(|i| !ordered.contains(i) && !params[*i].is_empty());
             ordered.iter().copied().chain(further).collect()

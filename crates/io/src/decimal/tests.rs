@@ -1,4 +1,4 @@
-//! Reading and writing numbers, compared with the standard library.
+//! Tests that compare the reading and writing of numbers with the standard library.
 
 use proptest::prelude::*;
 
@@ -10,7 +10,7 @@ fn written(x: f64) -> String {
     String::from_utf8(out).unwrap()
 }
 
-/// The result of `leading_number` if it covers all of `text`.
+/// Returns the result of `leading_number` if the number is the whole text.
 fn parse_all(text: &str) -> Option<f64> {
     leading_number(text.as_bytes()).and_then(|(x, length)| (length == text.len()).then_some(x))
 }
@@ -144,7 +144,7 @@ proptest! {
         let round = format!("1e{size}").parse::<f64>().unwrap();
         for x in [f64::from_bits(bits), small, round, small * round] {
             prop_assume!(x.is_finite());
-            // If two strings are equally short and equally close to the number, both are valid.
+            // Two texts can be equally short and equally close to the number. In this case, both are valid.
             let (text, theirs) = (written(x), expected(x));
             prop_assert_eq!(text.len(), theirs.len(), "{} {}", text, theirs);
             prop_assert_eq!(text.find(['.', 'e']), theirs.find(['.', 'e']));

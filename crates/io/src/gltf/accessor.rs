@@ -1,4 +1,5 @@
-//! Reads accessors: typed arrays in the buffers, with strides, normalized integers and sparse values.
+//! Reads accessors. An accessor is a typed array in a buffer. It can have a stride, normalized integers and sparse
+//! values.
 
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
@@ -186,7 +187,7 @@ impl Reader<'_> {
         if has_non_finite.into_inner() {
             let finite = |bytes: &[u8]| i32::from(general(bytes).iter().all(|x| x.is_finite()));
             let finite = self.elements(index, multiplicity, component, 1, finite)?;
-            // A non-finite value causes no error if a sparse value replaces it.
+            // If sparse values have replaced all non-finite values, there is no error.
             if let Some(i) = finite.iter().position(|&is| is == 0) {
                 let message = format!("element {i} is not a finite number");
                 return Err(Fault::json(here, message));
@@ -274,8 +275,8 @@ impl Reader<'_> {
         Ok(elements)
     }
 
-    /// Returns the rows of an accessor (the bytes of its elements in the buffer view), and the number of elements. The
-    /// rows are `None` if the accessor has no view.
+    /// Returns the rows of an accessor, which are the bytes of its elements in the buffer view, and the number of its
+    /// elements. The rows are `None` if the accessor has no view.
     fn dense(
         &self,
         index: usize,

@@ -12,8 +12,8 @@ const MIN_BUDGET: u64 = 1 << 24;
 
 /// If a document has compressed views, each byte of its buffers increases the memory budget by this number times
 /// [`BUDGET_FACTOR`]. The increase is larger than for uncompressed data, because compressed data gives a larger mesh
-/// than uncompressed data of the same size. On average, a triangle with its vertices takes two bytes in a compressed
-/// view, and at least twenty bytes in an uncompressed view.
+/// than uncompressed data of the same size. A triangle with its vertices takes two bytes on average if it is
+/// compressed, and at least twenty bytes if it is not.
 const COMPRESSED: u64 = 4;
 
 /// The memory that can still be used, in bytes.

@@ -21,7 +21,8 @@ pub(super) struct Array {
 }
 
 impl Array {
-    /// Creates the encoding of attributes. Each element has `stride` bytes before the reader applies `filter`.
+    /// Returns how an array of attributes is compressed. Each element has `stride` bytes, to which the reader applies
+    /// `filter`.
     pub(super) fn attribute(stride: usize, filter: Filter) -> Self {
         Self {
             mode: "ATTRIBUTES",
@@ -30,7 +31,7 @@ impl Array {
         }
     }
 
-    /// Creates the encoding of triangles with indices of `size` bytes. The size is 2 or 4.
+    /// Returns how an array of triangles is compressed. Each index has `size` bytes, which is 2 or 4.
     pub(super) fn triangles(size: usize) -> Self {
         Self {
             mode: "TRIANGLES",

@@ -21,8 +21,8 @@ use crate::fault::Fault;
 /// of weights. The Khronos validator uses the same tolerance.
 pub(super) const WEIGHT_TOLERANCE: f64 = 2e-7;
 
-/// Counts the values that are repaired or left out while attributes are read. The keys of both maps are the
-/// descriptions that the notes contain.
+/// Counts the values that are repaired or left out while attributes are read. The keys of both maps are the texts of
+/// the notes.
 #[derive(Default)]
 pub(super) struct Repairs {
     pub(super) changed: BTreeMap<String, usize>,
@@ -249,8 +249,8 @@ impl Directions {
         tangents.of(primitives)
     }
 
-    /// Finds the morph targets that change the directions (normals or tangents). The changes of a primitive are ignored
-    /// if the primitive itself has no such directions.
+    /// Finds the morph targets that change the normals or tangents. If a primitive itself has no normals or tangents,
+    /// the changes by its morph targets are ignored.
     fn of(mut self, primitives: &[Primitive]) -> Self {
         let semantic = Checked::Valid(self.semantic.clone());
         let primitives = primitives.iter();

@@ -44,7 +44,7 @@ pub(super) struct Document {
     /// For each buffer, a flag that is true if the buffer is never read.
     pub(super) fallbacks: Vec<bool>,
     pub(super) views: Vec<View>,
-    /// For each view, how it is compressed; `None` if it is not compressed.
+    /// For each view, a description of its compression. `None` if the view is not compressed.
     pub(super) compressed: Vec<Option<Compressed>>,
     /// The primitives that are compressed by Draco and not decoded yet.
     pub(super) draco: Vec<draco_json::Compressed>,
@@ -74,7 +74,7 @@ impl Document {
     ///
     /// # Errors
     ///
-    /// Returns an error if a part is invalid. The error is about the first invalid part.
+    /// Returns an error for an invalid part of the document.
     pub(super) fn new(json: &Value, budget: &Budget, notes: &mut Notes) -> Result<Self, Fault> {
         check_version(json)?;
         check_extensions(json, notes)?;
@@ -157,7 +157,7 @@ fn check_extensions(json: &Value, notes: &mut Notes) -> Result<(), Fault> {
     Ok(())
 }
 
-/// Counts the uses of extensions. The recursion is limited by the nesting limit of the JSON parser.
+/// Counts the uses of each extension. The recursion is not too deep, because the JSON parser limits the nesting.
 fn count_extensions<'a>(json: &'a Value, uses: &mut BTreeMap<&'a str, usize>) {
     match json {
         Value::Array(values) => {
@@ -188,7 +188,7 @@ fn count_extensions<'a>(json: &'a Value, uses: &mut BTreeMap<&'a str, usize>) {
 ///
 /// # Errors
 ///
-/// Returns an error if an index refers to a missing part, or a skin has no joints.
+/// Returns an error if an index refers to a node, skin or sampler that does not exist, or if a skin has no joints.
 fn check_rig(document: &Document) -> Result<(), Fault> {
     for (i, skin) in document.skins.iter().enumerate() {
         let here = format!("/skins/{i}");
@@ -292,7 +292,7 @@ fn lights(json: &Value) -> Result<Vec<Json>, Fault> {
 fn roots(json: &Value, notes: &mut Notes) -> Result<Vec<usize>, Fault> {
     let scenes = list(json, "scenes")?;
     if scenes.is_empty() {
-        // Without scenes, the roots are the nodes that are not a child of another node.
+        // If the document has no scenes, the roots are the nodes that are not a child of another node.
         let nodes = list(json, "nodes")?;
         let mut is_child = vec![false; nodes.len()];
         for node in nodes {

@@ -43,7 +43,8 @@ impl Compressed {
 pub(super) fn compressed(meshes: &[Value], accessors: &[Value]) -> Result<Vec<Compressed>, Fault> {
     let has_data = |accessor: &Value| {
         let accessor = accessor.as_u64().and_then(|i| usize::try_from(i).ok());
-        // An accessor that does not exist is reported elsewhere.
+        // An accessor that does not exist is treated as if it had data. The code that reads the accessor reports an
+        // error.
         let accessor = accessor.and_then(|i| accessors.get(i));
         accessor.is_none_or(|a| a.get("bufferView").is_some() || a.get("sparse").is_some())
     };

@@ -60,8 +60,8 @@ pub(super) fn note_left_out(json: &Value, document: &Document, notes: &mut Notes
     notes.left_out("extras", extras(json), None, "members `extras` left out");
 }
 
-/// For each part of a document, whether the nodes of the scene use it. Invalid indices are ignored; the reader refuses
-/// them later.
+/// For each part of a document, a flag that is true if the nodes of the scene use the part. Invalid indices are ignored
+/// here, because the reader refuses them later.
 struct Used {
     nodes: Vec<bool>,
     meshes: Vec<bool>,
@@ -147,8 +147,8 @@ fn mark(flags: &mut [bool], i: usize) -> bool {
         .is_some_and(|flag| !std::mem::replace(flag, true))
 }
 
-/// Counts, by name, the attributes of morph targets that are not read. Only meshes for which `is_used` is true are
-/// considered.
+/// Counts the attributes of morph targets that are not read. The keys are the names of the attributes. Meshes for which
+/// `is_used` is false are skipped.
 fn morph_attributes(json: &Value, is_used: &[bool]) -> BTreeMap<String, usize> {
     let mut counts = BTreeMap::new();
     let meshes = elements(json, "meshes").zip(is_used);
@@ -199,7 +199,8 @@ fn has_extras(json: &Value) -> bool {
     json.get("extras").is_some_and(|extras| !extras.is_null())
 }
 
-/// Counts the members `extras`. The recursion is limited by the nesting limit of the JSON parser.
+/// Counts the members `extras` in a part of the JSON. The recursion is not too deep, because the JSON parser limits the
+/// nesting.
 fn count_extras(json: &Value) -> usize {
     match json {
         Value::Array(values) => values.iter().map(count_extras).sum(),

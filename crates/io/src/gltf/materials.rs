@@ -167,7 +167,8 @@ pub(super) fn material_name(document: &Document, i: usize) -> String {
     name.unwrap_or_else(|| format!("material {i}"))
 }
 
-/// The paths of the image files that material `i` of the document refers to, in the order in which they are read.
+/// Returns the paths of the image files that material `i` of the document refers to, in the order in which the reader
+/// reads them.
 pub(super) fn image_paths(document: &Document, i: usize) -> Vec<String> {
     let path = |info: &InfoJson| {
         let source = document.textures.get(info.index)?.source?;
@@ -254,7 +255,7 @@ fn unit(x: f64) -> f64 {
 )]
 pub(super) fn rounded(x: f64) -> f64 {
     let x = (x as f32).clamp(f32::MIN, f32::MAX);
-    // The shortest decimal form of the 32-bit number is parsed as a 64-bit number. So 0.8, for example, stays 0.8 and
-    // does not become 0.800000011920929.
+    // The shortest decimal form of the 32-bit number is parsed as a 64-bit number. For example, 0.8 stays 0.8 instead
+    // of becoming 0.800000011920929.
     x.to_string().parse().unwrap_or(f64::from(x))
 }

@@ -7,7 +7,7 @@ use super::budget::Budget;
 use super::reference::index;
 use crate::fault::Fault;
 
-/// An attribute of a morph target of a primitive: the changes of texture coordinates or colors.
+/// The changes that a morph target of a primitive makes to one set of texture coordinates or to the colors.
 #[derive(Clone, Debug, Eq, Ord, PartialEq, PartialOrd)]
 pub(super) struct ValueChange {
     pub(super) target: usize,
@@ -28,8 +28,7 @@ fn semantic(name: &str) -> Option<Semantic> {
         Some(set) => Semantic::TexCoords(set.parse().ok()?),
         None => Semantic::Colors(0),
     };
-    // Parsing accepts leading zeros in the number of a set, but glTF does not allow them. Therefore, the result is
-    // compared with the name.
+    // Unlike glTF, `parse` accepts leading zeros in the number of a set. The comparison with `name` refuses them.
     (semantic.to_string() == name).then_some(semantic)
 }
 

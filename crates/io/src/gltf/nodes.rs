@@ -20,8 +20,8 @@ pub(super) struct PlacedMesh {
     /// The name of the object.
     pub(super) name: String,
     pub(super) mesh: usize,
-    /// The transform that is applied to the points when the file is read. This transform is the identity if the nodes
-    /// are kept and place the object.
+    /// The transform that the reader applies to the points of the mesh. This transform is the identity if the scene
+    /// keeps the nodes, because the nodes then place the object.
     pub(super) to_scene: DAffine3,
     /// The node of the file whose skin and morph weights are applied to the points.
     pub(super) posed_by: Option<usize>,
@@ -33,7 +33,7 @@ pub(super) struct PlacedMesh {
 pub(super) struct PlacedNodes {
     pub(super) meshes: Vec<PlacedMesh>,
     pub(super) graph: Graph,
-    /// For each node of the file, its index in the graph.
+    /// For each node of the file, its index in the graph. `None` if the node is not in the graph.
     pub(super) places: Vec<Option<usize>>,
     /// For each node of the file, the number of morph targets of its mesh.
     pub(super) targets: Vec<usize>,
@@ -111,7 +111,7 @@ fn note_left_out(document: &Document, notes: &mut Notes) {
 fn scene_nodes(document: &Document) -> Result<Vec<SceneNode>, Fault> {
     let mut visited = vec![false; document.nodes.len()];
     let mut nodes: Vec<SceneNode> = Vec::new();
-    // The stack is explicit, because a chain of nodes can be so long that recursion would overflow the call stack.
+    // The code uses its own stack instead of recursion, because a long chain of nodes would overflow the call stack.
     let mut open: Vec<(usize, Option<usize>)> = Vec::new();
     open.extend(document.roots.iter().rev().map(|&root| (root, None)));
     while let Some((index, parent)) = open.pop() {
@@ -225,8 +225,8 @@ fn shared(
     Ok(placed)
 }
 
-/// Returns the graph of the scene, and for each node of the file, its index in the graph. If the nodes of the file are
-/// exactly those that the writer would create for a graph without nodes, the returned graph has no nodes.
+/// Returns the graph of the scene, and for each node of the file, its index in the graph. The graph has no nodes if the
+/// writer would create exactly the nodes of the file for a graph without nodes.
 fn graph(
     document: &Document,
     nodes: &[SceneNode],

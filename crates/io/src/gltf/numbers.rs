@@ -31,7 +31,8 @@ pub(super) fn number(bytes: &[u8], component: ComponentType, normalized: bool) -
         (ComponentType::F32, &[a, b, c, d]) => return f64::from(f32::from_le_bytes([a, b, c, d])),
         _ => return f64::NAN,
     };
-    // Of the normalized signed integers, the lowest and the second lowest both represent -1.
+    // The lowest signed integer and the next higher one (for example, -128 and -127) both represent -1 if they are
+    // normalized.
     if normalized {
         (value / largest).max(-1.0)
     } else {

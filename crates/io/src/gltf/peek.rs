@@ -95,7 +95,7 @@ pub(crate) fn peek(
     Ok(objects)
 }
 
-/// The content of a mesh, as far as the JSON describes it.
+/// The content of a mesh that the JSON describes.
 struct Counted {
     mesh: PeekMesh,
     /// The materials that the mesh uses.

@@ -26,7 +26,7 @@ pub(super) fn fill(out: &mut [u8], pieces: &[Piece]) {
     }
 }
 
-/// The size of a GLB file whose JSON chunk and binary chunk have these sizes.
+/// Returns the size of a GLB file with a JSON chunk and a binary chunk of these sizes.
 pub(super) fn container_length(json: usize, binary: usize) -> usize {
     let chunk = |length: usize| 8 + length.next_multiple_of(4);
     12 + chunk(json) + if binary > 0 { chunk(binary) } else { 0 }

@@ -31,8 +31,8 @@ const MISSING_ATTRIBUTE_CHARGE: u64 = 16;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Triangles {
     pub(super) positions: Vec<DVec3>,
-    /// The corner attributes, and the vertex attributes that deform the mesh. At this stage, corner attributes also
-    /// have one value for each vertex. In texture coordinates, v points up.
+    /// The corner attributes, and the vertex attributes that deform the mesh. In this struct, corner attributes also
+    /// have one value for each vertex. The texture coordinate v points up.
     pub(super) attributes: Attributes,
     /// Three vertex indices for each triangle.
     pub(super) corners: Vec<u32>,
@@ -119,7 +119,7 @@ pub(super) fn triangles(
     Ok(all)
 }
 
-/// The attributes of a mesh that morph targets change, except positions.
+/// The normals, tangents, texture coordinates and colors of a mesh that morph targets change.
 struct Morphed<'a> {
     normals: Directions,
     tangents: Directions,
@@ -200,7 +200,7 @@ impl Triangles {
         let pointer = |name: &str| format!("{here}/attributes/{name}");
         let semantic = Checked::Valid(Semantic::Positions);
         let Some(positions) = primitive.attributes.get(&semantic) else {
-            // A primitive without positions is valid, but it is empty unless an extension defines its content.
+            // glTF allows primitives without positions. They are empty unless an extension defines their content.
             left_out.empty += 1;
             return Ok((0, 0));
         };

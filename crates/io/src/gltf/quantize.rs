@@ -71,7 +71,8 @@ pub(super) struct Integers {
 }
 
 impl<'a> Quantizer<'a> {
-    /// Creates a quantizer. If `is_compressed` is true, the file is compressed, and its reader applies the filters.
+    /// Creates a quantizer. `is_compressed` is true if the file is compressed. Only readers of compressed files apply
+    /// filters.
     pub(super) fn new(options: Option<Quantization>, is_compressed: bool) -> Self {
         Self {
             options,
@@ -268,13 +269,13 @@ impl<'a> Quantizer<'a> {
                 nodes[i]["scale"] = scale;
                 continue;
             }
-            // The new node gets the name of the old node, because readers name an object after the node with the mesh.
+            // The grid node gets the name of its parent, because readers name an object after the node with the mesh.
             let child = json!({
                 "name": nodes[i]["name"], "mesh": nodes[i]["mesh"].take(), "translation": translation, "scale": scale,
             });
             let index = nodes.len();
             if let Value::Array(children) = &mut nodes[i]["children"] {
-                // The new node with the mesh is the first child, so that readers find the objects in the same order as
+                // The grid node is the first child of its parent, so that readers find the objects in the same order as
                 // without quantization.
                 children.insert(0, index.into());
             }

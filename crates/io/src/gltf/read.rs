@@ -155,7 +155,7 @@ fn pose(
         return Ok(Some(pose));
     };
     let joints = skin.joints.iter().map(|&joint| nodes.to_scene[joint]);
-    // If a joint is not in the scene, the skin has no effect.
+    // If one of the joints is not in the scene, the skin is ignored.
     let Some(joints) = joints.collect::<Option<Vec<_>>>() else {
         return Ok(Some(pose));
     };

@@ -1,4 +1,4 @@
-//! References from one part of a glTF document to another: indices into lists.
+//! Resolves references from one part of a glTF document to another. A reference is an index into a list.
 
 use std::fmt;
 
@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use crate::fault::Fault;
 
-/// Returns the part at `index`. Errors name `pointer`, the location of the reference to this part.
+/// Returns the part at `index`. `pointer` is the location of the reference to this part, for errors.
 ///
 /// # Errors
 ///

@@ -1,5 +1,5 @@
-//! Orders triangles and vertices to make a compressed file small. Each triangle follows its neighbors, and vertices are
-//! in the order of their first use.
+//! Orders triangles and vertices to make a compressed file small. Neighboring triangles are close to each other in this
+//! order, and vertices are in the order of their first use.
 //!
 //! Source: Sander, Nehab, Barczak, "Fast Triangle Reordering for Vertex Locality and Reduced Overdraw", 2007. The order
 //! consists of fans: all remaining triangles around one vertex, then all remaining triangles around the next vertex,
@@ -13,7 +13,8 @@ use mesh::Mesh;
 use super::faces::{Faces, all_corners};
 use super::split::Split;
 
-/// The number of vertices that count as recent. The codec stores about the same number of recent vertices and edges.
+/// The number of vertices that count as recently used. The codec can refer to about the same number of recent vertices
+/// and edges.
 const RECENT: usize = 16;
 
 /// Orders the triangles of each material, and then renumbers the vertices in the order of their first use.
@@ -45,8 +46,8 @@ fn triangles_in_fans(corners: &[u32], n_vertices: usize) -> Vec<u32> {
     let mut last_use = vec![0_usize; n_vertices];
     let mut time = RECENT + 1;
     let mut ordered = Vec::with_capacity(corners.len());
-    // `used` contains the vertices used so far, with the latest one at the end. `untried` is the range of the vertices
-    // that have not yet been tried as the center of a fan.
+    // `used` contains the vertices of the ordered triangles, with the latest vertex at the end. If no vertex in `used`
+    // has triangles left, the next center is searched in the range `untried`.
     let mut used: Vec<u32> = Vec::new();
     let mut untried = 0..n_vertices;
     let mut center = untried.next();

@@ -31,7 +31,8 @@ struct Seams {
 }
 
 impl Split {
-    /// The mesh vertex that the glTF vertex `i` was made from, and one of its corners.
+    /// Returns the mesh vertex from which the glTF vertex `i` was made, and a corner with the values of the glTF
+    /// vertex.
     pub(super) fn corner(&self, mesh: &Mesh, i: usize) -> (VertexId, HalfEdgeId) {
         if let Some(seams) = &self.seams {
             let h = HalfEdgeId::new(seams.corners[i] as usize);
@@ -43,7 +44,7 @@ impl Split {
         (v, corners.next().unwrap_or(HalfEdgeId::new(0)))
     }
 
-    /// The mesh vertex that the glTF vertex `i` was made from.
+    /// Returns the mesh vertex from which the glTF vertex `i` was made.
     pub(super) fn vertex(&self, mesh: &Mesh, i: usize) -> VertexId {
         match &self.seams {
             Some(seams) => mesh.origin(HalfEdgeId::new(seams.corners[i] as usize)),

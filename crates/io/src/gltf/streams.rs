@@ -43,7 +43,7 @@ enum Meaning<'a> {
 }
 
 /// Returns the streams of a mesh, which are its attributes in the form that glTF requires. Adds losses for all other
-/// attributes. `has_target` says whether a morph target is written.
+/// attributes. `has_target` returns whether the morph target with this index is written.
 pub(super) fn streams<'a>(
     mesh: &'a Mesh,
     has_target: impl Fn(usize) -> bool,
@@ -221,8 +221,8 @@ fn stream(domain: Domain, column: &Column, n_uvs: u32) -> Option<Stream<'_>> {
 }
 
 impl Stream<'_> {
-    /// Whether this stream belongs to an attribute of the mesh itself, not of a morph target, and the attribute has
-    /// this name.
+    /// Whether this stream belongs to the mesh itself instead of a morph target, and contains the attribute with this
+    /// name.
     fn is_named(&self, name: &str) -> bool {
         self.target.is_none() && attribute_name(&self.semantic).as_deref() == Some(name)
     }
@@ -254,7 +254,7 @@ impl Stream<'_> {
         }
     }
 
-    /// Returns the text for a loss: which values glTF does not allow, and how they are changed.
+    /// Returns the reason of a loss: which values of this stream glTF does not allow, and how they are changed.
     pub(super) fn change(&self) -> &'static str {
         match self.meaning {
             Meaning::Normal => "zero or not finite, so replaced by the normal of the face",
@@ -331,8 +331,8 @@ fn narrow(value: [f64; 4], good: bool) -> ([f32; 4], bool) {
 }
 
 /// Normalizes a vector. Returns `None` if the vector has no direction. A unit vector that was rounded to 32 bits is
-/// returned unchanged. Its length is not exactly 1, so normalizing would change the vector slightly each time it is
-/// written.
+/// returned unchanged. The length of such a vector is not exactly 1, so normalizing would change the vector slightly
+/// each time it is written.
 fn unit(v: DVec3) -> Option<DVec3> {
     const ROUNDING: f64 = 1e-6;
     if (v.length_squared() - 1.0).abs() < ROUNDING {

@@ -114,7 +114,7 @@ impl Reader<'_> {
             );
             return Err(Fault::json(format!("{here}/count"), message));
         }
-        // Both numbers fit in a `usize`, because they do not exceed the length of the view.
+        // `count` and `offset` fit in a `usize`, because they do not exceed the length of the view.
         let [count, offset] = [count, offset].map(|n| usize::try_from(n).unwrap_or(0));
         Ok(Rows {
             bytes: bytes.get(offset..).unwrap_or_default(),

@@ -105,7 +105,7 @@ pub(crate) fn write(
     })
 }
 
-/// Builds the document without its bytes.
+/// Builds the document without writing the bytes of its buffer.
 fn document<'a>(
     prepared: &'a [PreparedObject<'a>],
     scene: &'a Scene,

@@ -150,8 +150,8 @@ impl<'a> Deformation<'a> {
         self.sets == 0 && self.morphs.is_empty()
     }
 
-    /// Compares the joints, weights and deltas that are written for two vertices of the mesh. The reader merges the
-    /// vertices only if all of these data are equal.
+    /// Compares the joints, weights and deltas that are written for two vertices of the mesh. The reader merges the two
+    /// vertices only if all of these values are equal.
     pub(super) fn compare(&self, a: usize, b: usize) -> Ordering {
         let row = |v: usize| 4 * v * self.sets..4 * (v + 1) * self.sets;
         let by_joints = self.joints[row(a)].cmp(&self.joints[row(b)]);

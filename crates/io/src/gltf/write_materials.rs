@@ -18,8 +18,8 @@ use crate::loss::Losses;
 /// The materials, textures, samplers and images of a document, without duplicates.
 #[derive(Default)]
 pub(super) struct MaterialWriter {
-    /// For each element of `materials`, the material of the scene from which it was made. This material does not
-    /// contain the textures that were dropped.
+    /// For each element of `materials`, the material of the scene from which it was made, without the textures that are
+    /// not written.
     known: Vec<Material>,
     pub(super) materials: Vec<MaterialJson>,
     pub(super) textures: Vec<TextureJson>,

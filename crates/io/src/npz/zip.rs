@@ -47,8 +47,8 @@ impl Archive {
         self.files.push(entry);
     }
 
-    /// Returns the bytes of the archive; `None` if it exceeds a limit of archives: 4 GiB, 65,535 files, or names of
-    /// 65,535 bytes.
+    /// Returns the bytes of the archive. Returns `None` if the archive exceeds a limit of the format: 4 GiB, 65,535
+    /// files, or names of 65,535 bytes.
     pub(super) fn finish(mut self) -> Option<Vec<u8>> {
         let start = u32::try_from(self.bytes.len()).ok()?;
         let count = u16::try_from(self.files.len()).ok()?.to_le_bytes();
@@ -71,7 +71,8 @@ impl Archive {
     }
 }
 
-/// Appends the fields that both headers of a file have: from the version to the length of the extra field, which is 0.
+/// Appends the fields that the local header and the central header of a file have in common: from the version to the
+/// length of the extra field, which is 0.
 fn push_header(out: &mut Vec<u8>, entry: &Entry) {
     out.extend(COMMON.iter().flat_map(|x| x.to_le_bytes()));
     out.extend(entry.sizes.iter().flat_map(|&x| low(x)));

@@ -22,7 +22,7 @@ use mesh::parallel;
 /// The number of vertices, values or faces in a block of the text.
 const BLOCK: usize = 8192;
 
-/// A mesh, and the data that are needed to write the mesh.
+/// A mesh with the data that are needed to write it.
 pub(super) struct MeshBody<'a> {
     mesh: &'a Mesh,
     library: &'a Library,
@@ -269,7 +269,7 @@ fn numbers<const N: usize>(
     CornerNumbers::new(mesh, |a, b| bits(a) == bits(b))
 }
 
-/// Returns the values unchanged, or only zeros if one of the values is not finite.
+/// Returns the values unchanged if all of them are finite. Otherwise, returns only zeros.
 fn finite<const N: usize>(values: [f64; N]) -> [f64; N] {
     let all = values.iter().all(|x| x.is_finite());
     if all { values } else { [0.0; N] }

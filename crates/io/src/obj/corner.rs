@@ -17,8 +17,8 @@ pub(super) type Corner = [Option<Index>; 3];
 pub(super) enum Index {
     /// An index in the file, from 0.
     Absolute(u32),
-    /// An offset from the first element that this part of the file defines. The offset is negative for elements of
-    /// earlier parts.
+    /// An index that counts from 0 at the first element that this part of the file defines. The index is negative for
+    /// elements of earlier parts.
     Relative(i64),
 }
 
@@ -64,9 +64,9 @@ pub(super) fn corner(
     Ok(corner)
 }
 
-/// Parses `field`, one of the indices of the corner `word`. `count` is the number of elements of this kind that are
-/// defined so far. `limit` is the maximum number of elements of this kind in the whole file. It is `None` if only a
-/// part of the file is parsed.
+/// Parses the text `field` of an index. `word` is the text of the whole corner, for errors. `count` is the number of
+/// elements of this kind that are defined so far. `limit` is the maximum number of elements of this kind in the whole
+/// file. It is `None` if only a part of the file is parsed.
 fn index(
     place: TextPosition,
     word: &[u8],

@@ -83,8 +83,8 @@ impl Parser<'_> {
     }
 }
 
-/// Parses at most N numbers from `at` to the end of the line. Returns the numbers, how many there are, and the offset
-/// of the end of the line.
+/// Parses at most N numbers from `at` to the end of the line. Returns an array with the numbers, the count of the
+/// numbers, and the offset after the line end.
 #[inline]
 fn numbers<const N: usize>(line: &[u8], mut at: usize) -> Option<([f64; N], usize, usize)> {
     let mut values = [0.0; N];

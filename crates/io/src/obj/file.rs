@@ -6,14 +6,14 @@ use glam::{DVec2, DVec3, DVec4};
 
 use crate::text::TextPosition;
 
-/// The index of a missing texture coordinate or normal.
+/// The index that corners without a texture coordinate or without a normal get.
 pub(super) const NONE: u32 = u32::MAX;
 
 /// The material name that some programs use for faces without a material. The format has no statement that unsets the
 /// material.
 pub(super) const NO_MATERIAL: &[u8] = b"(null)";
 
-/// The content of an OBJ file. Indices count from 0.
+/// The content of an OBJ file. Indices start at 0.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct ObjFile {
     pub(super) positions: Vec<DVec3>,
@@ -26,10 +26,10 @@ pub(super) struct ObjFile {
     pub(super) normals: Vec<DVec3>,
     /// Polygon i has the corners from `offsets[i]` up to, but not including, `offsets[i + 1]`.
     pub(super) offsets: Vec<u32>,
-    /// The indices of the positions, texture coordinates and normals of the corners. An index is [`NONE`] if it is
-    /// missing; a list is empty if all its indices are missing.
+    /// Three lists: the indices of the positions, of the texture coordinates and of the normals of the corners. A
+    /// missing index is [`NONE`], and a list in which all indices are missing is empty.
     pub(super) corners: [Vec<u32>; 3],
-    /// The offsets of the polylines in `line_corners`. Line i visits the vertices
+    /// The offsets of the polylines in `line_corners`. Polyline i has the vertices
     /// `line_corners[line_offsets[i]..line_offsets[i + 1]]`.
     pub(super) line_offsets: Vec<u32>,
     pub(super) line_corners: Vec<u32>,

@@ -115,8 +115,8 @@ fn together<'a, T: Zeroable + Copy + Send + Sync + 'a>(
     })
 }
 
-/// Joins a column of corner indices. For each part, `before` contains the number of elements in the earlier parts. This
-/// number is added to the relative indices of the part.
+/// Joins the corner indices of all parts. `before` contains, for each part, the number of elements that earlier parts
+/// define. This number is added to the relative indices of the part.
 fn column<'a>(
     pieces: impl Iterator<Item = &'a mut Indices>,
     before: &[usize],
@@ -212,7 +212,7 @@ fn states(parts: &[Part], file: &mut ObjFile) {
     file.material_names = materials.list;
 }
 
-/// Adds the names of a part to `all`. Returns the index of each name in `all`, or `None` for an empty name.
+/// Adds the names of a part to `all`. Returns the index in `all` of each name of the part, or `None` for an empty name.
 fn places(of_part: &Names, all: &mut Names) -> Vec<Option<usize>> {
     let place = |name: &String| (!name.is_empty()).then(|| all.index_of(name.clone()));
     of_part.list.iter().map(place).collect()

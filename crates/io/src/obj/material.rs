@@ -18,11 +18,11 @@ const MAX_LIBRARY_BYTES: u64 = 1 << 28;
 /// The maximum number of library names that the reader looks up, including repeated names. Further names are left out,
 /// because searching for very many files would be slow.
 const MAX_NAMES: usize = 512;
-/// The largest length of a path in bytes.
+/// The maximum length in bytes of a file name that is looked up.
 const MAX_PATH_BYTES: usize = 1024;
 
-/// Reads the materials of an OBJ file. The materials of the libraries come first, in the order of the libraries. Then
-/// follows a default material for each material name that the OBJ file uses but no library defines.
+/// Reads the materials of an OBJ file. The materials of the libraries come first, in the order of the libraries. If the
+/// OBJ file uses material names that no library defines, a default material for each of these names follows.
 ///
 /// # Errors
 ///
@@ -256,14 +256,14 @@ fn converted(from: tobj::Material, ignored: &mut Ignored) -> Material {
     }
 }
 
-/// Splits emitted light into a color from 0 to 1 and a strength of at least 1.
+/// Converts emitted light to a color with components from 0 to 1, and a strength of at least 1.
 fn light(values: [f64; 3]) -> ([f64; 3], f64) {
     let values = values.map(|x| if x.is_finite() { x.max(0.0) } else { 0.0 });
     let strength = values.iter().copied().fold(1.0, f64::max);
     (values.map(|x| x / strength), strength)
 }
 
-/// If alpha is below 1, the material is blended with the background.
+/// Returns the alpha mode that readers of MTL files assume: materials with an alpha below 1 are blended.
 pub(super) fn alpha_mode(alpha: f64) -> AlphaMode {
     if alpha < 1.0 {
         AlphaMode::Blend

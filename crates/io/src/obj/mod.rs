@@ -17,8 +17,9 @@
 //! | `l` | a polyline, if the file has no faces; otherwise left out, with a note |
 //! | other statements | left out, with a note |
 //!
-//! The writer uses this table from right to left. Therefore, the content in the table is preserved if a mesh is written
-//! and read again, or if a file is read and written again.
+//! The writer uses the table above from right to left: it writes the content in the second column as the statements in
+//! the first column. Therefore, the content in the table is preserved if a mesh is written and read again, or if a file
+//! is read and written again.
 //!
 //! Modules:
 //!

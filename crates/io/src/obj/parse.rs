@@ -9,8 +9,8 @@ use crate::fault::Fault;
 use crate::text::{TextPosition, check_encoding, quoted};
 use mesh::parallel;
 
-/// The approximate size of a part in bytes. The size is chosen so that the arrays of a part fit in the cache of a
-/// processor core. Each part ends at the end of a line.
+/// The approximate size in bytes of a part of the text, chosen so that the arrays of a part fit in the cache of a
+/// processor core.
 pub(super) const PART: usize = 256 << 10;
 
 /// Parses the statements of an OBJ file.
@@ -65,8 +65,8 @@ fn first_unknown(file: &ObjFile) -> Option<Fault> {
     Some(TextPosition::of_line(line).error(message))
 }
 
-/// Cuts the bytes of a file into parts of about `size` bytes. Each part except the last ends with a line that is not
-/// continued on the next line.
+/// Cuts the bytes of a file into parts of about `size` bytes. Each part except the last ends at the end of a line that
+/// is not continued on the next line.
 pub(super) fn cut(bytes: &[u8], size: usize) -> Vec<&[u8]> {
     let mut parts = Vec::with_capacity(bytes.len() / size + 1);
     let mut start = 0;

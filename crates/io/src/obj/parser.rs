@@ -1,4 +1,4 @@
-//! The state of parsing: the text and the elements parsed so far.
+//! The state of the parser: the text, and the elements that were parsed so far.
 
 use std::collections::BTreeMap;
 
@@ -27,8 +27,8 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Returns three flags: whether any corner so far has a position, whether any has a texture coordinate, and whether
-    /// any has a normal.
+    /// Returns a flag for each column of corner indices: whether it has an entry. The columns are positions, texture
+    /// coordinates and normals.
     pub(super) fn columns(&self) -> [bool; 3] {
         self.part.corners.each_ref().map(|column| column.len() > 0)
     }

@@ -13,7 +13,7 @@ use crate::text::{TextPosition, name};
 #[derive(Debug, Default)]
 pub(super) struct Part {
     pub(super) positions: Vec<DVec3>,
-    /// One color for each position, or empty.
+    /// The color of each position; the list is empty if no position of this part has a color.
     pub(super) colors: Vec<DVec4>,
     /// The values of `#MRGB` comments. Each value is a 32-bit number whose bytes are the mask, red, green and blue,
     /// from the highest to the lowest byte.
@@ -22,8 +22,8 @@ pub(super) struct Part {
     pub(super) normals: Vec<DVec3>,
     /// For each face, the index after its last corner in the lists of `corners`.
     pub(super) face_ends: Vec<u32>,
-    /// The indices of the positions, texture coordinates and normals of the corners. An index is [`NONE`] if it is
-    /// missing; a list is empty if all its indices are missing.
+    /// Three lists: the indices of the positions, of the texture coordinates and of the normals of the corners. A
+    /// missing index is [`NONE`], and a list in which all indices are missing is empty.
     pub(super) corners: [Indices; 3],
     /// For each polyline, the index after its last corner in `line_corners`.
     pub(super) line_ends: Vec<u32>,
@@ -37,9 +37,9 @@ pub(super) struct Part {
     /// Sets of indices into `groups`.
     pub(super) group_sets: Vec<Vec<u32>>,
     pub(super) groups: Names,
-    /// The names of objects. An empty name means that the following faces have no object.
+    /// The names of objects. An `o` statement with an empty name means that the following faces have no object.
     pub(super) objects: Names,
-    /// The names of materials. An empty name means that the following faces have no material.
+    /// The names of materials. A `usemtl` statement with an empty name means that the following faces have no material.
     pub(super) materials: Names,
     pub(super) libraries: Vec<(TextPosition, String)>,
     /// For each kind of content that was left out, its number of occurrences and its first line.
@@ -112,8 +112,8 @@ impl Part {
     }
 }
 
-/// The groups, object, material and smoothing group of consecutive faces. A field is `None` if this part of the file
-/// does not set it.
+/// The groups, object, material and smoothing group of consecutive faces. A field is `None` if no earlier statement of
+/// this part sets it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct PartRun {
     pub(super) first_face: usize,
@@ -152,8 +152,8 @@ impl Indices {
         }
     }
 
-    /// Appends a value to a column that stays empty until its first value. When the first value is appended, `n`
-    /// missing values are inserted before it.
+    /// Appends an index to a column that stays empty until its first index. When the first index is appended, `n`
+    /// missing indices are inserted before it.
     #[inline]
     pub(super) fn push_optional(&mut self, n: usize, index: Option<Index>) {
         match index {

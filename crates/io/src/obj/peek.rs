@@ -70,9 +70,9 @@ struct Counts {
     mesh: PeekMesh,
     lines: u64,
     points: u64,
-    /// Whether there are faces before the first `usemtl`.
+    /// Whether there are faces before the first `usemtl` statement.
     faces_first: bool,
-    /// Whether the last `usemtl` sets a material. `None` if there is no `usemtl`.
+    /// Whether the last `usemtl` statement sets a material. `None` if there is no `usemtl` statement.
     material: Option<bool>,
     materials: Names,
     objects: Names,

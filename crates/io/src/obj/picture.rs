@@ -69,7 +69,7 @@ fn cut_word(text: &str) -> (&str, &str) {
     (&text[..end], text[end..].trim_start())
 }
 
-/// Removes the quotes around a name.
+/// Returns a name without the quotes around it, if there are any.
 fn unquoted(name: &str) -> &str {
     let inner = name
         .strip_prefix('"')

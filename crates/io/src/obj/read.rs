@@ -191,7 +191,8 @@ fn set_tags(polygons: &mut Polygons, file: &ObjFile, notes: &mut Notes) {
     );
     notes.left_out("too-many-names", n - n_columns, None, what);
     let mut columns: Vec<Vec<bool>> = vec![vec![false; n_faces]; n_columns];
-    // Tags of objects come before tags of groups, so if some tags must be left out, tags of groups are left out first.
+    // If there are too many tags, tags of groups are left out first, because the columns of objects come before those
+    // of groups.
     for (i, run) in file.runs.iter().enumerate() {
         let groups = file.group_sets[run.groups].iter();
         let of_groups = groups.map(|&g| objects + g as usize);

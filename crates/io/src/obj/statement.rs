@@ -192,7 +192,7 @@ impl Parser<'_> {
         Ok(())
     }
 
-    /// Parses at most N numbers up to the end of the line. Returns the numbers and their count.
+    /// Parses the numbers up to the end of the line, at most N. Returns an array with the numbers, and their count.
     fn numbers<const N: usize>(
         &mut self,
         keyword: &str,

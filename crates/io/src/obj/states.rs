@@ -18,8 +18,8 @@ pub(super) struct FaceState<'a> {
     pub(super) smoothing: i32,
 }
 
-/// The state at the end of the text written so far: the counts of defined elements, the material and the smoothing
-/// group. At this point of the text, no groups are set.
+/// The state at the end of the text of an object: the counts of the elements that are defined, the material and the
+/// smoothing group. No groups are set there.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct TextState {
     pub(super) counts: Counts,

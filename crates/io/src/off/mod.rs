@@ -13,14 +13,14 @@
 //! | `n v0 v1 .. i` | face attribute `color_index`; if only some faces have an index, the others get -1; color maps are not supported |
 //! | comments, the number of edges | not kept |
 //!
-//! The letters before `OFF` can be combined, as in `STCNOFF`. The line of a vertex then has the position, normal, color
+//! The letters before `OFF` can be combined, as in `STCNOFF`. The line of a vertex then has its position, normal, color
 //! and texture coordinates, in this order. The keyword in the first line can be missing. If all color components of the
 //! vertices are integers, and at least one of them is greater than 1, all components are divided by 255. Otherwise,
 //! they are used unchanged. The same rule applies separately to the colors of the faces. Binary files are refused.
 //! Files whose vertices do not have three coordinates (`4OFF`, `nOFF`) are also refused.
 //!
-//! The writer uses the same table from right to left. Texture coordinates are written only if they are equal at all
-//! corners of each vertex.
+//! The writer uses the table above from right to left: it writes the content in the second column in the form of the
+//! first column. Texture coordinates are written only if they are equal at all corners of each vertex.
 
 mod read;
 mod write;

@@ -15,7 +15,7 @@ pub(crate) const COLOR_INDEX: &str = "color_index";
 /// The color that faces without a color get if other faces have a color.
 const GRAY: DVec4 = DVec4::new(2.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0, 1.0);
 
-/// Consecutive words on a line, each with its position.
+/// Consecutive words of a line, each with its position in the file.
 type Words<'a, 'w> = &'w [(TextPosition, &'a [u8])];
 
 /// Reads an OFF file from its bytes.
@@ -370,8 +370,8 @@ pub(crate) fn peek(
         if (3..=MAX_COMPARED as u64).contains(&degree) {
             let words = (0..degree).map_while(|_| cursor.argument());
             let vertices: Vec<&[u8]> = words.map(|(_, word)| word).collect();
-            // `are_different` refuses words that begin with a zero. Therefore, the index `0` is checked separately: the
-            // vertices are different if `0` occurs at most once and `are_different` accepts the other words.
+            // The function `are_different` does not accept the index `0`, because it begins with a zero. Therefore, the
+            // vertices are different if `0` occurs at most once and `are_different` accepts the other indices.
             let others: Vec<&[u8]> = (vertices.iter().copied())
                 .filter(|word| *word != b"0")
                 .collect();

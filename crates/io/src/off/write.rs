@@ -164,7 +164,7 @@ fn push_color(out: &mut Vec<u8>, color: DVec4, as_bytes: bool) {
         let start = out.len();
         push_number(out, x);
         let is_whole = |byte: &u8| byte.is_ascii_digit() || *byte == b'-';
-        // A decimal point is added to show that the components are numbers from 0 to 1, not bytes.
+        // A decimal point shows readers that the component is a number from 0 to 1 instead of a byte.
         if out[start..].iter().all(is_whole) {
             out.extend_from_slice(b".0");
         }

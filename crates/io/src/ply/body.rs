@@ -27,7 +27,8 @@ pub(super) struct Body<'a> {
 }
 
 impl<'a> Body<'a> {
-    /// Prepares the values of the elements. In a text file, elements for which `wanted` returns false are skipped.
+    /// Prepares the values of the elements. In a text file, the rows of elements for which `wanted` returns false are
+    /// skipped.
     ///
     /// # Errors
     ///
@@ -132,7 +133,7 @@ impl<'a> Body<'a> {
     }
 }
 
-/// Returns the binary type in which a value of a text file is stored.
+/// Returns the binary type to which a value of a text file is converted.
 fn stored(kind: Type) -> Type {
     if kind.is_float() { Type::Float64 } else { kind }
 }

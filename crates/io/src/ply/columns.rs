@@ -23,7 +23,7 @@ pub(super) enum Kind {
     Vec4,
 }
 
-/// Each kind, its name in comments, and the number of components of its values.
+/// Each kind of attribute, its name in comments, and the number of components of its values.
 const KINDS: [(Kind, &str, usize); 6] = [
     (Kind::Tag, "tag", 1),
     (Kind::Int, "int", 1),
@@ -64,10 +64,11 @@ impl Kind {
 /// The properties of a PLY element that store the values of a mesh attribute.
 #[derive(Clone, Copy)]
 pub(super) enum Source<'a> {
-    /// The numbers are in consecutive scalar properties. The field is the index of the first property.
+    /// The numbers of a value are in consecutive scalar properties. The value of the variant is the index of the first
+    /// of these properties.
     Scalars(usize),
-    /// The numbers are in a list property, as for corner attributes. The first field is the index of the property. The
-    /// second field contains the first corner of each face, followed by the total number of corners.
+    /// The numbers of all corners of a face are in a list property. The first value of the variant is the index of the
+    /// property. The second value contains the first corner of each face, followed by the total number of corners.
     List(usize, &'a [u32]),
 }
 

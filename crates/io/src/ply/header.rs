@@ -7,11 +7,11 @@ use super::types::Type;
 use crate::fault::Fault;
 use crate::text::{BYTE_ORDER_MARK, TextPosition, name, parsed, quoted};
 
-/// The maximum number of properties of all elements together. This maximum limits how often the reader passes over the
-/// data. Usual files have far fewer properties.
+/// The maximum number of properties of all elements together. Usual files have far fewer properties. The reader reads
+/// the data once for each property, so the maximum limits the time for reading.
 pub(super) const MAX_PROPERTIES: usize = 4096;
-/// The maximum number of elements. This maximum limits the time for finding elements by name. Usual files have far
-/// fewer elements.
+/// The maximum number of elements. Usual files have far fewer elements. The maximum limits the time for finding
+/// elements by name.
 const MAX_ELEMENTS: usize = 1024;
 
 /// The encoding of the values of a file.

@@ -86,7 +86,7 @@ pub(crate) fn peek(bytes: &[u8], notes: &mut Notes) -> Result<(PeekMesh, Names),
     Ok((mesh, names))
 }
 
-/// Attributes, by domain and name.
+/// The domains and names of attributes.
 type Names = Vec<(Domain, String)>;
 
 /// Returns the mesh attributes that reading the properties of an element gives, except those that [`PeekMesh`]

@@ -59,8 +59,8 @@ pub(crate) fn read(bytes: &[u8], notes: &mut Notes) -> Result<Polygons, Fault> {
     Ok(reader.polygons)
 }
 
-/// Returns the comments that describe existing properties. If several comments describe the same property, the first
-/// one is used.
+/// Returns the attribute comments whose property exists. If several comments with the same domain describe the same
+/// property, only the first of them is returned.
 pub(super) fn attribute_comments(header: &Header) -> Vec<AttributeComment> {
     let properties = header.elements.iter().flat_map(|e| &e.properties);
     let names: BTreeSet<&str> = properties.map(|p| p.name.as_str()).collect();
@@ -366,7 +366,7 @@ fn mark_used(used: &mut [bool], properties: &[usize]) {
     }
 }
 
-/// Returns the properties, or `None` if any of them was already used for another attribute.
+/// Returns the properties unchanged, or `None` if one of them is already used for another attribute.
 fn free<const N: usize>(used: &[bool], properties: Option<[usize; N]>) -> Option<[usize; N]> {
     properties.filter(|properties| !properties.iter().any(|&p| used[p]))
 }

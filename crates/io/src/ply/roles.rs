@@ -6,7 +6,7 @@ use crate::fault::Fault;
 use crate::note::Notes;
 use crate::text::TextPosition;
 
-/// The elements that become a mesh, as indices into the header.
+/// The elements that become a mesh. Elements and properties are given by their indices.
 #[derive(Debug)]
 pub(super) struct Roles {
     pub(super) vertex: usize,
@@ -104,8 +104,8 @@ fn corner_list(element: &Element) -> Result<usize, Fault> {
     )))
 }
 
-/// Returns the properties of the first family whose names all exist. A family is a list of property names, such as `s`
-/// and `t`.
+/// Returns the indices of the properties of the first family in `names` that is complete. A family is a list of
+/// property names, such as `s` and `t`.
 fn family<const N: usize>(element: &Element, names: &[[&str; N]]) -> Option<[usize; N]> {
     names.iter().find_map(|family| {
         let mut found = [0; N];

@@ -178,7 +178,8 @@ fn even(properties: &[Property], rows: usize, bytes: &[u8], big: bool) -> Option
     Some((layout, length))
 }
 
-/// Scans rows whose lists have different lengths. Returns the layout and the total length of the rows.
+/// Finds the positions of the values if the lengths of lists differ between rows. Returns the layout and the total
+/// length of the rows.
 fn scanned(
     element: &Element,
     all: &[u8],

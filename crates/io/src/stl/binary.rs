@@ -21,7 +21,7 @@ pub(super) fn count(bytes: &[u8]) -> Option<u32> {
     Some(u32::from_le_bytes(*count))
 }
 
-/// The size of a file with the declared number of triangles.
+/// Returns the size that a file with the declared number of triangles has.
 pub(super) fn length(bytes: &[u8]) -> Option<u64> {
     count(bytes).map(|n| START as u64 + FACET as u64 * u64::from(n))
 }

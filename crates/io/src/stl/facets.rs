@@ -9,7 +9,7 @@ use glam::DVec3;
 pub(super) struct Facets {
     /// Three corners for each facet.
     pub(super) corners: Vec<DVec3>,
-    /// The number of facet normals for each [`Side`].
+    /// For each [`Side`], the number of facets whose normal has this relation to the computed normal.
     pub(super) sides: [usize; 3],
     /// The number of facets whose attribute bytes are not 0.
     pub(super) colored: usize,
@@ -30,7 +30,7 @@ pub(super) enum Side {
 /// Compares the normal of a facet with the normal that is computed from the corners of the facet. The two normals agree
 /// if the angle between them is at most 6 degrees (its sine is at most 1/10). They also agree if the normal of the
 /// facet is zero or not finite, or if the area of the facet is zero. If the facet is so thin that its area can be a
-/// result of rounding errors, they agree unless they are nearly opposite.
+/// result of rounding errors, the normals agree unless they are nearly opposite.
 #[inline]
 pub(super) fn compare(normal: DVec3, [a, b, c]: [DVec3; 3]) -> Side {
     let area = (b - a).cross(c - a);

@@ -46,7 +46,8 @@ enum Kind {
     Binary(usize),
 }
 
-/// Determines the kind of a file. Many binary files begin with the word `solid`, so the size is checked first.
+/// Determines whether a file is text or binary. The size of the file is checked first, because many binary files also
+/// begin with the word `solid`.
 fn kind(bytes: &[u8]) -> Result<Kind, Fault> {
     let n_bytes = bytes.len();
     let length = binary::length(bytes);
@@ -58,8 +59,8 @@ fn kind(bytes: &[u8]) -> Result<Kind, Fault> {
         .unwrap_or(bytes)
         .trim_ascii_start();
     let word = start.get(..5).unwrap_or_default();
-    // The header of a binary file can also begin with `solid`. However, a binary file usually has zero bytes near its
-    // beginning, and a text file has none.
+    // Both text files and binary files can begin with `solid`. A binary file usually has zero bytes near its beginning,
+    // and a text file has none.
     if word.eq_ignore_ascii_case(b"solid") && !bytes[..n_bytes.min(512)].contains(&0) {
         return Ok(Kind::Text);
     }

@@ -73,7 +73,7 @@ fn header(options: &WriteOptions) -> [u8; HEADER] {
         text += provenance;
     }
     let mut header = [b' '; HEADER];
-    // The header ends with a zero byte, because some readers recognize binary files by zero bytes.
+    // The last byte of the header is zero, because some readers recognize binary files by zero bytes.
     header[HEADER - 1] = 0;
     let room = &mut header[..HEADER - 1];
     let printable = text

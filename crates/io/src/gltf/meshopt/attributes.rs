@@ -16,7 +16,7 @@
 use super::input::Input;
 use crate::fault::Fault;
 
-/// The number of elements whose differences are stored together.
+/// The number of differences in a group.
 pub(super) const GROUP: usize = 16;
 /// The largest size of a block in bytes.
 const BLOCK_BYTES: usize = 8192;
@@ -33,12 +33,12 @@ const MORE_BITS: Bits = [1, 2, 4, 8];
 /// How the differences of a channel are encoded.
 #[derive(Clone, Copy)]
 enum Channel {
-    /// As four separate differences, one for each byte.
+    /// The channel has four differences, one for each byte.
     Bytes,
-    /// As two separate differences, one for each 16-bit number.
+    /// The channel has two differences, one for each 16-bit number.
     Shorts,
-    /// As the bitwise XOR of the channel and the same channel of the previous element, rotated left by this number of
-    /// bits.
+    /// The difference is the bitwise XOR of the channel and the same channel of the previous element, rotated left by
+    /// this number of bits.
     Bits(u32),
 }
 
@@ -145,8 +145,8 @@ fn groups(
     Ok(())
 }
 
-/// Decodes differences of 1, 2 or 4 bits. If all bits of a difference are set, its value is stored in an
-/// additional byte.
+/// Decodes differences of 1, 2 or 4 bits. If all bits of a difference are set, its value is stored in an additional
+/// byte after the group.
 fn few_bits(input: &mut Input, bits: usize, group: &mut [u8; GROUP]) -> Result<(), Fault> {
     let packed = input.take(2 * bits)?;
     let (in_byte, all) = (8 / bits, (1 << bits) - 1);

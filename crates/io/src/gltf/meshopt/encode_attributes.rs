@@ -48,8 +48,8 @@ fn encode_block(elements: &[u8], before: &[u8]) -> Vec<u8> {
     out
 }
 
-/// Encodes differences. Entry i is the difference between a byte of element i and the byte at the same place in the
-/// element before. The number of differences is a multiple of [`GROUP`].
+/// Encodes the differences of the byte at one position in each element. Entry i is the difference between the bytes of
+/// element i and of the element before it. The number of differences is a multiple of [`GROUP`].
 fn encode_groups(differences: &[u8], out: &mut Vec<u8>) {
     let groups = differences.as_chunks::<GROUP>().0;
     let kinds = out.len();
@@ -75,8 +75,8 @@ fn encode_groups(differences: &[u8], out: &mut Vec<u8>) {
     }
 }
 
-/// Encodes differences of 2 or 4 bits. Differences that do not fit into these bits follow after the group as full
-/// bytes.
+/// Encodes differences of 2 or 4 bits. Differences that do not fit into these bits are stored as full bytes after the
+/// group.
 fn encode_few_bits(group: &[u8; GROUP], bits: usize, out: &mut Vec<u8>) {
     let most = (1 << bits) - 1;
     for together in group.chunks(8 / bits) {

@@ -129,7 +129,7 @@ fn quaternion([x, y, z, last]: [i16; 4]) -> [f32; 4] {
 /// is infinite if it is too large.
 fn exponential(bits: i32) -> f32 {
     let (exponent, mantissa) = (bits >> 24, bits << 8 >> 8);
-    // As a 64-bit float, the number is exact for every exponent.
+    // The number is computed as a 64-bit float, which stores it exactly for every exponent.
     libm::ldexp(f64::from(mantissa), exponent) as f32
 }
 

@@ -84,7 +84,8 @@ pub(super) fn header(stream: &[u8], expected: u8) -> Result<(), Fault> {
     }
 }
 
-/// Returns the signed difference that a number encodes. The numbers 0, 1, 2, 3 and so on encode 0, -1, 1, -2 and so on.
+/// Returns the signed difference that a number in zigzag encoding represents. The numbers 0, 1, 2, 3 and so on encode
+/// 0, -1, 1, -2 and so on.
 pub(super) fn zigzag(v: u32) -> u32 {
     (v >> 1) ^ (v & 1).wrapping_neg()
 }

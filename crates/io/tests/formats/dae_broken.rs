@@ -1,4 +1,4 @@
-//! Tests of invalid COLLADA files. Errors have a position, and the reader does not panic.
+//! Tests of invalid COLLADA files. The reader returns errors with a position and does not panic.
 
 use std::fmt::Write;
 use std::path::Path;

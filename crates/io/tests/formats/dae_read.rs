@@ -1,4 +1,4 @@
-//! Tests of handmade COLLADA files, which are compared with the expected result.
+//! Tests that compare the result of reading handmade COLLADA files with the expected result.
 
 use geometry::shapes;
 use glam::{DVec2, DVec3, DVec4};
@@ -184,7 +184,7 @@ fn each_input_becomes_a_column_with_its_own_indices() {
         panic!("uv1 has two components");
     };
     assert_eq!(second[h[2].index()], b);
-    // The corners of each vertex have equal values, so the values become vertex attributes.
+    // The corners of each vertex have equal normals and colors, so these become vertex attributes.
     let normals = mesh.get(VERTEX_NORMAL).unwrap();
     assert_eq!(normals[mesh.origin(h[0]).index()], DVec3::Z);
     assert_eq!(normals[mesh.origin(h[2]).index()], DVec3::X);

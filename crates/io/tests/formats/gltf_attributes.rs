@@ -265,7 +265,8 @@ fn colors_of_every_type_are_read() {
 
 #[test]
 fn sparse_accessors_do_not_need_a_buffer_view() {
-    // All four positions are zero at first. Sparse values replace three of them, which gives the square.
+    // Without a buffer view, all four positions are zero. Sparse values replace three of them with the other corners of
+    // the square.
     let mut bytes = floats(&SQUARE[3..]);
     bytes.extend([1_u8, 2, 3, 0]);
     let accessors = json!([{

@@ -1,4 +1,4 @@
-//! Tests of invalid glTF files. Errors have a JSON pointer, and the reader does not panic.
+//! Tests of invalid glTF files. The reader returns errors with a JSON pointer and does not panic.
 
 use mesh_io::{ReadError, ReadOptions};
 use proptest::prelude::*;

@@ -39,7 +39,7 @@ fn joined(json: &Value, binary: &[u8]) -> Vec<u8> {
     [&head, &text[..], &word(binary.len()), b"BIN\0", binary].concat()
 }
 
-/// Changes the JSON of the first file, reads the file, and returns the error.
+/// Changes the JSON of the first file of `FILES`, reads the changed file, and returns the error.
 fn error_of(change: impl FnOnce(&mut Value)) -> String {
     let (mut json, binary) = parts(FILES[0].0);
     change(&mut json);

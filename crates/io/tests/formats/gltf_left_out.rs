@@ -79,7 +79,7 @@ fn parts_of_an_unused_node_are_left_out_too() {
         ("images-unused", 1),
     ];
     assert_eq!(left_out(&json), expected);
-    // The material of a primitive that is not made of triangles is not read.
+    // If a primitive does not consist of triangles, its material is not read.
     let mut json = asset();
     json["meshes"][0]["primitives"][0]["mode"] = json!(0);
     let codes: Vec<_> = left_out(&json).into_iter().map(|(code, _)| code).collect();
@@ -128,7 +128,7 @@ fn names_of_textures_and_extras_of_materials_are_kept() {
     }
 }
 
-/// The result of reading and writing a part of a file.
+/// What happens to a part of a file when the file is read and written.
 #[derive(Clone)]
 enum Outcome {
     /// The values at these JSON pointers are unchanged. If a pointer refers to an attribute of a morph target, the
@@ -138,7 +138,7 @@ enum Outcome {
     Lost(&'static str),
 }
 
-/// The name of a part, a change that adds it to the asset, and the result.
+/// The name of a part of glTF files, a function that adds the part to a document, and the expected outcome.
 type Part = (&'static str, fn(&mut Value), Outcome);
 
 fn kept_parts() -> Vec<Part> {
@@ -324,7 +324,7 @@ fn the_third_table_matches_the_measured_results() {
     }
 }
 
-/// Returns the asset with a second root, a camera, a skin and an animation.
+/// Returns the document of `asset` with a second root node, a camera, a skin and an animation.
 fn animated() -> Value {
     let mut json = asset();
     push(&mut json, "nodes", json!({ "name": "eye", "camera": 0 }));

@@ -1,4 +1,4 @@
-//! Checks that small glTF files that declare large content are refused quickly and without much memory.
+//! Tests of small glTF files that declare large content. The reader must refuse them quickly and without much memory.
 
 use std::time::{Duration, Instant};
 

@@ -40,7 +40,7 @@ pub(crate) fn painted(name: &str, material: Material) -> Object {
     }
 }
 
-/// A material in which nearly all properties differ from their defaults.
+/// Returns a material in which nearly all properties differ from their defaults.
 pub(crate) fn rich() -> Material {
     let texture = |u: f64| Texture {
         uv_set: 1,

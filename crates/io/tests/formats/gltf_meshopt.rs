@@ -145,8 +145,8 @@ fn fallback_buffers_are_never_read() {
         "torus_fallback.bin",
         std::fs::read(file("torus_fallback.bin")).unwrap(),
     );
-    // The file of the fallback buffer is missing. In the first round, the buffer is declared as a fallback. In the
-    // second round, it is not.
+    // The file of the fallback buffer is missing. The file `a.gltf` declares the buffer as a fallback, but the file
+    // `b.gltf` does not.
     let path = folder.with("a.gltf", &gltf);
     assert_same(
         only(&path).as_mesh().unwrap(),
@@ -161,7 +161,7 @@ fn fallback_buffers_are_never_read() {
         only(&path).as_mesh().unwrap(),
         &torus("torus_fallback.gltf"),
     );
-    // A view without compression cannot use the missing buffer.
+    // In the file `c.gltf`, a view without compression needs the missing buffer, which is an error.
     json["bufferViews"][0]
         .as_object_mut()
         .unwrap()
@@ -270,7 +270,8 @@ fn decoded_views_are_limited_to_64_times_the_file() {
     let count = |blocks: usize| 256 * blocks as u64 / 3 * 3;
     for (blocks, is_fine) in [(10, true), (10_000, false)] {
         let mut json = points(&stream(blocks), count(blocks));
-        // Equal points are merged into one vertex, so the triangles become degenerate and are dropped.
+        // The mode 4 means triangles. All points are equal and are merged into one vertex, so the triangles are left
+        // out.
         json["meshes"][0]["primitives"][0]["mode"] = json!(4);
         let result = read_json(&json);
         assert_eq!(result.is_ok(), is_fine, "{blocks}");

@@ -11,7 +11,7 @@ use crate::gltf_morph_normals::{only_mesh, scene, written};
 use crate::gltf_read::{read_baked, read_json};
 use crate::gltf_rig::Accessors;
 
-/// The texture coordinates of a vertex, the texture coordinates of the second set, and the color.
+/// The texture coordinates of a vertex, its texture coordinates in the second set, and its color.
 type Row = ([f32; 2], [f32; 2], [f32; 4]);
 
 const OWN: [Row; 6] = [

@@ -1,5 +1,5 @@
-//! Tests of the nodes of glTF files. A file that is read and written again keeps its hierarchy, cameras, lights and
-//! extras.
+//! Tests of the nodes of glTF files. If a file is read and written again, its hierarchy, cameras, lights and extras do
+//! not change.
 
 use geometry::shapes;
 use glam::{DVec3, DVec4};
@@ -12,8 +12,8 @@ use store::Disk;
 use crate::Folder;
 use crate::gltf_read::{SQUARE, document, floats, read_json, square};
 
-/// Returns a document with a hierarchy of nodes. Two nodes reference the first mesh. Each of the other meshes is
-/// referenced by one node. There are two cameras and two lights.
+/// Returns a document with a hierarchy of nodes. Two nodes reference the first mesh. One node references each of the
+/// other meshes. There are two cameras and two lights.
 fn asset() -> Value {
     let mut json = square(&[0, 1, 2, 0, 2, 3], 4);
     let primitives = json["meshes"][0]["primitives"].clone();
@@ -134,7 +134,7 @@ fn an_asset_that_no_step_touched_comes_out_as_it_went_in() {
     assert_eq!(canonical(&after), canonical(&asset()));
     assert_eq!(after["meshes"].as_array().unwrap().len(), 4);
     assert_eq!(after["nodes"].as_array().unwrap().len(), 8);
-    // When the written file is read again, the scene is identical bit for bit.
+    // Reading a written file restores the scene bit for bit.
     let folder = Folder::new();
     for extension in ["glb", "gltf", "mws"] {
         let path = folder.path("a").with_extension(extension);
@@ -197,7 +197,8 @@ fn meshes_that_are_not_manifold_are_converted_without_a_loss() {
     options.policies.orientation = Orientation::Keep;
     let mut bytes = floats(&SQUARE);
     bytes.extend(floats(&[0.0, 0.0, 1.0]));
-    // Three triangles share an edge, or two triangles have opposite orientations.
+    // In the first mesh, three triangles share an edge. In the second mesh, two neighboring triangles have opposite
+    // orientations.
     for indices in [
         &[0_u16, 1, 2, 1, 0, 3, 0, 1, 4][..],
         &[0, 1, 2, 0, 1, 3, 2, 4, 3],
@@ -274,7 +275,7 @@ fn formats_without_nodes_are_written_with_placed_instances() {
         for loss in [("nodes", 8), ("cameras", 2), ("lights", 2)] {
             assert!(lost.contains(&loss), "{extension}: {lost:?}");
         }
-        // The losses of cameras have no object name.
+        // Cameras do not belong to an object, so their loss has no object name.
         let mut losses = report.losses.iter();
         let cameras = losses.find(|l| l.attribute == "cameras").unwrap();
         assert!(cameras.object.is_empty());

@@ -1,4 +1,4 @@
-//! Tests of handmade glTF files, which are compared with the expected result.
+//! Tests that compare the result of reading handmade glTF files with the expected result.
 
 use glam::{DVec2, DVec3, DVec4};
 use mesh::{Mesh, UV, VERTEX_NORMAL};
@@ -54,11 +54,11 @@ pub(crate) fn floats(values: &[f32]) -> Vec<u8> {
     values.iter().flat_map(|x| x.to_le_bytes()).collect()
 }
 
-/// The four corners of a square, counter-clockwise.
+/// The positions of the four corners of a square, counter-clockwise.
 pub(crate) const SQUARE: [f32; 12] = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0, 0.0];
 
-/// Returns a document with the square. The indices follow the positions in the buffer, and `mode` is the mode of the
-/// primitive.
+/// Returns a document with the corners of [`SQUARE`] and one primitive, which has these indices and this mode. In the
+/// buffer, the indices follow the positions.
 pub(crate) fn square(indices: &[u16], mode: u32) -> Value {
     let mut bytes = floats(&SQUARE);
     bytes.extend(indices.iter().flat_map(|i| i.to_le_bytes()));
@@ -125,7 +125,8 @@ fn without_indices_vertices_are_used_in_order() {
     let mut positions = SQUARE.to_vec();
     positions.extend_from_within(0..3);
     positions.extend_from_within(6..9);
-    // The triangles are 0 1 2 and 3 0 2. Each corner is a new vertex, and equal vertices are merged.
+    // The corners of the square are used in the order 0 1 2, 3 0 2. Each corner has its own vertex in the file, and
+    // equal vertices are merged.
     let bytes = floats(&positions);
     let accessors = json!([{ "bufferView": 0, "componentType": 5126, "count": 6, "type": "VEC3" }]);
     let mesh = mesh_of(&document(

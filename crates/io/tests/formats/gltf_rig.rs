@@ -1,5 +1,5 @@
-//! Tests of skins, morph targets and animations of glTF files. A file that is read and written again keeps its skins,
-//! morph targets and animations.
+//! Tests of skins, morph targets and animations of glTF files. If a file is read and written again, its skins, morph
+//! targets and animations do not change.
 
 use glam::{DAffine3, DVec3, Mat4};
 use mesh::{joint_name, morph_name};
@@ -63,7 +63,7 @@ impl Accessors {
     }
 }
 
-/// The number of rings of the arm.
+/// The number of rings of vertices of the arm.
 const RINGS: usize = 5;
 
 /// Returns the vertices of an arm along the y axis. The arm consists of rings of four vertices.
@@ -85,7 +85,7 @@ fn triangles() -> Vec<u16> {
     all
 }
 
-/// The joints and weights of a ring.
+/// For each ring of the arm, the joints and weights of its vertices.
 const BOUND: [([u8; 4], [f32; 4]); RINGS] = [
     ([0, 0, 0, 0], [1.0, 0.0, 0.0, 0.0]),
     ([1, 0, 0, 0], [0.25, 0.75, 0.0, 0.0]),
@@ -405,7 +405,7 @@ fn weights_and_deltas_become_vertex_attributes() {
     assert_eq!(names, expected);
 }
 
-/// Returns the posed points, computed directly from the definition in the specification.
+/// Computes the points of the posed arm directly from the definitions in the glTF specification.
 fn posed_by_hand(scene: &Scene, turn: &DAffine3) -> Vec<DVec3> {
     let mesh = scene.objects()[0].as_mesh().unwrap();
     let at = |x: f64, y: f64| DAffine3::from_translation(DVec3::new(x, y, 0.0));

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use crate::gltf_read::read_json;
 use crate::gltf_rig::arm;
 
-/// Reads the arm after a change of its JSON.
+/// Changes the JSON of the arm, and reads the changed document.
 fn changed(change: impl Fn(&mut Value)) -> Result<Loaded, mesh_io::ReadError> {
     let mut json = arm();
     change(&mut json);
@@ -92,7 +92,7 @@ fn repairs_and_left_out_parts_are_counted() {
         };
         changed(change).unwrap().notes.iter().map(text).collect()
     };
-    // All weights are 0.
+    // Without a buffer view, all weights are 0.
     let found = notes(|j| {
         let accessor = j["accessors"][3].as_object_mut().unwrap();
         accessor.remove("bufferView");
@@ -103,7 +103,7 @@ fn repairs_and_left_out_parts_are_counted() {
             "20 vertices without weights in /meshes/0/primitives/0/attributes/WEIGHTS_0"
         )
     );
-    // The weights are read from the bytes of the positions.
+    // The accessor of the weights refers to the bytes of the positions, so the weights are arbitrary bytes.
     let found = notes(|j| {
         j["accessors"][3]["count"] = json!(20);
         j["accessors"][3]["byteOffset"] = json!(0);

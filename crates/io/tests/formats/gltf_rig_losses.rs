@@ -1,4 +1,4 @@
-//! Tests of losses: skins, morph targets and animations that written files do not store.
+//! Tests of the losses that are reported if written files do not store skins, morph targets or animations.
 
 use mesh::{joint_name, morph_name};
 use mesh_io::WriteOptions;
@@ -113,7 +113,7 @@ fn more_than_four_influences_are_reduced_or_written_as_more_sets() {
     let back = scene_of(crate::read(&path).unwrap());
     let weights = |scene: &Scene| scene.objects()[0].as_mesh().unwrap().attributes().clone();
     assert_eq!(weights(&back), weights(&scene));
-    // The written file has the same number of sets as the file that was read.
+    // By default, the written file has as many sets of joints as the file that was read.
     let (json, _, losses) = output(&back);
     assert_eq!(losses, Vec::<String>::new());
     assert!(json["meshes"][0]["primitives"][0]["attributes"]["WEIGHTS_1"].is_u64());

@@ -110,8 +110,8 @@ fn triangles_with_seams_and_materials_survive_a_round_trip() {
                 .map(|i| DVec4::new(0.5, 0.25, 1.0, (i % 2) as f64))
                 .collect(),
         );
-        // The writer orders faces by material. These faces are already in this order, so their order does not
-        // change.
+        // The faces of this mesh are already ordered by material. Therefore, the writer, which orders faces by
+        // material, does not change their order.
         mesh.set(MATERIAL, (0..20).map(|i| i / 8 - 1).collect());
         let materials = vec![
             Material {
@@ -149,7 +149,7 @@ fn vertex_normals_stay_on_vertices() {
 
 #[test]
 fn normals_of_32_bits_are_written_unchanged() {
-    // If this normal were divided by its length, the last digit of z would change each time.
+    // Dividing this normal by its length would change the last digit of z each time the file is written.
     let normal = DVec3::new(
         -0.725_670_099_258_422_9,
         0.688_042_759_895_324_7,

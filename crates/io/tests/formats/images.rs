@@ -1,5 +1,4 @@
-//! Tests of the images of materials, which are read from the folder of the model, embedded, copied, or reported as
-//! missing.
+//! Tests that images of materials are read from the folder of the model, embedded, copied, or reported as missing.
 
 use std::path::{Path, PathBuf};
 
@@ -123,7 +122,7 @@ fn a_different_image_or_file_with_the_same_name_is_not_replaced() {
     let files = convert(&store, "in/a.obj", "out/b.obj", None);
     assert_eq!(files, ["b.mtl", "b.obj", "x.2.png", "x.png"]);
     assert_eq!(store.read("out/x.png".as_ref()).unwrap(), b"other");
-    // The second time, the copy already exists and is not written again.
+    // If the conversion is repeated, the copy of the image already exists and is not written again.
     assert_eq!(convert(&store, "in/a.obj", "out/b.obj", None), files);
     // An image with the name of the written model is renamed, so it does not replace the model.
     let store = model("b.obj", &[("in/b.obj", PNG)]);
@@ -170,7 +169,7 @@ fn missing_and_unsafe_images_are_notes_with_the_path() {
         let expected = format!("in/a.obj: 1 image `{texture}` left out: {why}");
         assert_eq!(found.notes[0].to_string(), expected);
         assert_eq!(image(&found), Image::File(texture.to_owned()));
-        // The path of the missing image is still written.
+        // The path of an image is written even if the image is missing.
         convert(&store, "in/a.obj", "out/b.glb", None);
         assert_eq!(
             image(&read(&store, "out/b.glb")),

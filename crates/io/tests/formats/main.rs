@@ -125,8 +125,8 @@ fn polygons(mesh: &Mesh) -> Vec<Vec<usize>> {
     mesh.faces().map(polygon).collect()
 }
 
-/// Compares the polygons, positions and attributes of two meshes. Corner values are listed by face, so the ids of
-/// half-edges do not matter.
+/// Checks that two meshes have the same polygons, positions and attributes. Corner values are compared in the order of
+/// the faces, so the ids of half-edges do not matter.
 fn assert_same(a: &Mesh, b: &Mesh) {
     assert_eq!(a.positions(), b.positions());
     assert_eq!(polygons(a), polygons(b));

@@ -1,4 +1,4 @@
-//! Tests of OBJ files, which are compared with the result of another reader.
+//! Tests that compare the result of reading OBJ files with the result of the crate `tobj`.
 
 use std::sync::Arc;
 
@@ -9,7 +9,8 @@ use scene::{Geometry, Object};
 
 use crate::{Folder, assert_same, only, polygons, read, write};
 
-/// Returns the text of a grid with bumps. The grid can be triangulated, and can have texture coordinates and normals.
+/// Returns the text of an OBJ file with a bumpy grid. If `cut` is true, the grid consists of triangles instead of
+/// quads.
 fn grid_text(columns: usize, rows: usize, cut: bool, uvs: bool, normals: bool) -> String {
     use std::fmt::Write;
     let mut text = String::new();

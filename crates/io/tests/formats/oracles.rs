@@ -80,7 +80,8 @@ fn ply_files_without_attributes_are_doubles_and_lists() {
     }
 }
 
-/// The crate `mesh_loader` returns three separate vertices for each facet.
+/// Positions are compared instead of indices, because the crate `mesh_loader` returns three separate vertices for each
+/// facet.
 #[test]
 fn another_reader_finds_the_same_facets_in_stl_files() {
     for mesh in [
@@ -194,7 +195,7 @@ proptest! {
                 prop_assert_eq!(&normals[c].to_array()[..], &theirs.normals[3 * n..3 * n + 3]);
             }
         }
-        // Different line ends and continued lines do not change the result.
+        // Other line ends do not change the result, and neither do lines that continue after a backslash.
         for (from, to) in [("\n", "\r"), (" ", " \\\n")] {
             let other = text.replace("\r\n", "\n").replace(from, to);
             let other = folder.with("b.obj", other);

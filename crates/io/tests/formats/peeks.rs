@@ -193,7 +193,7 @@ fn lists_of_ply_that_are_left_out() {
     peek_notes(&[("a.ply", text.as_bytes())], &["weights", "other"]);
 }
 
-/// Returns the graph without the arrays of numbers, which are not in the JSON of a file.
+/// Returns a copy of the graph without the arrays of numbers, which peeking at a glTF file does not read.
 pub(crate) fn without_numbers(graph: &Graph) -> Graph {
     let mut graph = graph.clone();
     graph.arrays.clear();

@@ -1,4 +1,4 @@
-//! Tests of invalid PLY files. Errors have a position.
+//! Tests of invalid PLY files. The reader returns errors with a position.
 
 use std::time::{Duration, Instant};
 

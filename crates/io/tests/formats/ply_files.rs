@@ -23,7 +23,8 @@ fn put(mesh: &mut Mesh, domain: Domain, name: &str, rule: Rule, values: Values) 
     mesh.insert_column(domain, Column { name, rule, values });
 }
 
-/// Returns a value for each half-edge with a face, computed from its index. The other half-edges get zero.
+/// Returns a value for each half-edge. If the half-edge has a face, its value is computed from its index. Otherwise, it
+/// gets zero.
 fn on_corners<T: Default + Clone>(mesh: &Mesh, value: impl Fn(f64) -> T) -> Vec<T> {
     let mut all = vec![T::default(); mesh.n_half_edges()];
     for h in mesh.faces().flat_map(|f| mesh.face_half_edges(f)) {

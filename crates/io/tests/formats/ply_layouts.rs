@@ -21,8 +21,8 @@ enum Encoding {
     Big,
 }
 
-/// Appends a value of the type with index `kind`, as bytes or as a word. The value is a small integer, which every
-/// type can store.
+/// Appends a value in this encoding, with the type `TYPES[kind]`. The value is a small integer, which every type can
+/// store.
 fn push(out: &mut Vec<u8>, encoding: Encoding, kind: usize, value: i64) {
     let bytes = match kind % 8 {
         0 | 1 => value.to_be_bytes()[7..].to_vec(),
@@ -38,7 +38,7 @@ fn push(out: &mut Vec<u8>, encoding: Encoding, kind: usize, value: i64) {
     }
 }
 
-/// The types of a list: the type of the count (an integer) and the type of the items.
+/// The type of the count of a list, which is an integer type, and the type of its items.
 type List = (usize, usize);
 
 #[derive(Clone, Debug)]

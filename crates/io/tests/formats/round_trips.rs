@@ -1,5 +1,5 @@
-//! Checks that writing a scene and reading it again preserves the scene. The only exceptions are reported losses and
-//! the changes in a table in the documentation of the crate.
+//! Checks that writing a scene and reading it again preserves the scene. The only exceptions are reported losses, and
+//! the changes that a table in the documentation of the crate lists.
 
 mod flat;
 mod models;
@@ -31,7 +31,7 @@ enum Outcome {
     Exactly,
     /// The numbers of the content are rounded to 32 bits.
     Rounded,
-    /// The content has a different form after reading, and this is not reported.
+    /// The content has a different form after reading, and no loss reports the change.
     Changed,
     /// Some or all of the content is not restored, and a loss reports it.
     Lost,
@@ -91,7 +91,7 @@ fn reported(objects: &[Object], losses: &[Loss]) -> BTreeSet<Key> {
         (domain, name) => key(domain, name),
     };
     let mut all: BTreeSet<Key> = losses.iter().map(of).collect();
-    // If all vertices of a mesh are isolated, the mesh is lost together with its vertices.
+    // If all vertices of a mesh are isolated and the format does not store isolated vertices, the whole mesh is lost.
     let is_bare = |object: &Object| object.as_mesh().is_some_and(|mesh| mesh.n_faces() == 0);
     if objects.iter().any(is_bare) && all.contains(&key(Domain::Vertex, "position")) {
         all.insert(key(None, "name"));
@@ -113,7 +113,7 @@ fn table() -> BTreeMap<String, Vec<Outcome>> {
         let line = line.trim().trim_matches('|');
         line.split('|').map(|cell| cell.trim().to_owned()).collect()
     };
-    // The second table is about the nodes of a scene.
+    // Only the first table of the file is about formats and features of this test.
     let (table, _) = TABLE.split_once("\n## ").unwrap();
     let mut lines = table
         .lines()
@@ -214,7 +214,7 @@ fn check_laws(objects: &[Object], extension: &str) -> Result<(), String> {
             || what.0 == Some(Domain::Vertex) && reported.contains(&as_corners)
             // If unused materials are lost, the indices of the remaining materials change.
             || *what == key(Domain::Face, "material") && reported.contains(&key(None, "materials"));
-        // In the table, the entry for one custom attribute applies to all custom attributes.
+        // The entry of the table for one custom attribute also applies to all other custom attributes.
         let other = key(Domain::Vertex, "heat");
         let is_custom = *difference == Difference::Rounded
             && matches!(what.0, Some(Domain::Vertex | Domain::Corner))
@@ -262,7 +262,7 @@ fn check_laws(objects: &[Object], extension: &str) -> Result<(), String> {
     ensure(third.bytes == second.bytes, || {
         "the third file differs from the second".to_owned()
     })?;
-    // The second round trip can write content differently if its form changed in the first round trip.
+    // If the form of the content changed in the first round trip, the second round trip can write different bytes.
     let other_forms = ["name", "domain", "rule", "order of faces"].map(|what| key(None, what));
     let has_other_form = other_forms.iter().any(|what| all.contains_key(what));
     let is_another_form = has_other_form || is_merged || has_empty_columns(objects);

@@ -45,7 +45,7 @@ const UP: [f32; 3] = [0.0, 0.0, 1.0];
 const FLAT: [[f32; 3]; 4] = [UP, [0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
 const NEXT: [[f32; 3]; 4] = [UP, [1.0, 0.0, -0.0], [1.0, 1.0, 0.0], [-0.0, 1.0, 0.0]];
 
-/// Returns the corners of all triangles, read directly from the bytes.
+/// Reads the corners of all triangles directly from the bytes of a binary file.
 fn naive(bytes: &[u8]) -> Vec<DVec3> {
     let mut corners = Vec::new();
     for facet in bytes[84..].chunks(50) {

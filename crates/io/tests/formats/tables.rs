@@ -1,4 +1,4 @@
-//! Tests of tables: `.csv` and `.npz` files, which can only be written.
+//! Tests of writing `.csv` and `.npz` files.
 
 use std::collections::BTreeMap;
 

@@ -70,7 +70,7 @@ fn add(all: &mut Differences, key: Key, difference: Difference) {
 }
 
 fn materials(a: &Object, b: &Object, all: &mut Differences) {
-    // Whether an image is a file or embedded depends on the format.
+    // The format determines whether an image is a file or embedded, so this difference is ignored.
     let with_bytes = |object: &Object| {
         let mut materials = object.materials.clone();
         for texture in materials.iter_mut().flat_map(Material::textures_mut) {
@@ -259,7 +259,7 @@ impl Flat {
         places.len() < self.positions.len()
     }
 
-    /// Keeps these vertices, in this order.
+    /// Keeps only the vertices in `order`, in this order.
     fn renumber(&mut self, order: &[usize]) {
         let mut new = vec![usize::MAX; self.positions.len()];
         for (to, &from) in order.iter().enumerate() {
@@ -327,8 +327,8 @@ impl Flat {
         self.faces = turned.into_iter().map(|t| t.0).collect();
     }
 
-    /// Moves corner values to vertices, if the corner values agree around each vertex and no vertex values have this
-    /// name.
+    /// Moves the corner values with this name to the vertices, if all corners of each vertex have the same value and no
+    /// vertex values have this name.
     fn agree(&mut self, name: &str) -> bool {
         let (from, to) = (key(Domain::Corner, name), key(Domain::Vertex, name));
         let (kind, rows) = &self.columns[&from];
@@ -380,7 +380,7 @@ fn row(values: &Values, i: usize) -> Row {
     }
 }
 
-/// Whether a rule can apply to values. Unit vectors must have three numbers.
+/// Whether values can have this edit rule. The rule for unit vectors requires vectors of three numbers.
 pub(super) fn fits(rule: Rule, values: &Values) -> bool {
     rule != Rule::Normal || matches!(values, Values::Vec3(_))
 }

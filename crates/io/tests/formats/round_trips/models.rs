@@ -524,7 +524,7 @@ fn other_geometry() -> Vec<Feature> {
     ]
 }
 
-/// Meshes of all kinds, each with the same name as the file.
+/// Returns objects with meshes of all kinds. Each object has the same name as the file.
 pub(super) fn shapes_of_all_kinds() -> Vec<Vec<Object>> {
     let mut deleted = shapes::cube();
     let f = deleted.faces().next().unwrap();

@@ -146,8 +146,8 @@ fn made(positions: Vec<DVec3>, faces: &[Vec<u32>], columns: &[Sketch]) -> Vec<Ob
     objects
 }
 
-/// Whether two edges join the same vertices, which can result from splitting. A file cannot distinguish these edges, so
-/// reading splits them again.
+/// Whether two edges of the mesh have the same two vertices, which can result from splitting. A file cannot distinguish
+/// two such edges, so reading splits their vertices again.
 fn has_double_edges(objects: &[Object]) -> bool {
     let mesh = objects[0].as_mesh().unwrap();
     let mut ends: Vec<_> = mesh
@@ -161,7 +161,8 @@ fn has_double_edges(objects: &[Object]) -> bool {
     ends.windows(2).any(|pair| pair[0] == pair[1])
 }
 
-/// Every run tests the same cases. The environment variables `PROPTEST_RNG_SEED=2 PROPTEST_CASES=1000` run other cases.
+/// By default, every run tests the same cases. To test other cases, set environment variables, for example
+/// `PROPTEST_RNG_SEED=2 PROPTEST_CASES=1000`.
 fn cases() -> ProptestConfig {
     let config = ProptestConfig::default();
     match config.rng_seed {

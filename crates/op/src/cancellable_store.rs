@@ -94,7 +94,8 @@ struct CancellableFile<'a> {
 
 impl Write for CancellableFile<'_> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        // The size of the file is unknown, so the progress report only states that the work continues.
+        // The size of the file is unknown, so each report says that 0 of 1 parts are finished. The report is needed to
+        // find out whether the run was canceled.
         self.progress
             .report("write", 0, 1)
             .map_err(io::Error::other)?;
@@ -124,7 +125,7 @@ mod tests {
 
     use super::*;
 
-    /// Cancels at the second call.
+    /// Lets the run continue at the first call of `advance`, and cancels the run at every later call.
     #[derive(Default)]
     struct Once(AtomicUsize);
 

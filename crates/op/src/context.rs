@@ -54,14 +54,15 @@ impl<'a> Context<'a> {
     ///
     /// # Errors
     ///
-    /// Returns [`OpError::Cancelled`] if the run was canceled. The operation must then return this error at once.
+    /// Returns [`OpError::Cancelled`] if the run was canceled. The operation must then return [`OpError::Cancelled`] at
+    /// once.
     pub fn advance(&self, what: &str, done: u64, total: u64) -> Result<(), OpError> {
         Ok(self.progress.report(what, done, total)?)
     }
 
-    /// Sets the object that the step changes, and on which selections are evaluated. Also stores the materials of this
-    /// object, and the other objects of the scene for [`other_mesh`](Self::other_mesh). The context shares the meshes
-    /// of the other objects with the scene until [`clear_object`](Self::clear_object) is called.
+    /// Sets the object that the step changes. The selections of the step are evaluated on this object. Also stores the
+    /// materials of the object, and the other objects of the scene for [`other_mesh`](Self::other_mesh). The context
+    /// shares the meshes of the other objects with the scene until [`clear_object`](Self::clear_object) is called.
     pub fn set_object(&mut self, scene: &Scene, name: &str) {
         let (mut materials, mut others) = (Vec::new(), Vec::new());
         for object in scene.objects() {
@@ -112,7 +113,7 @@ impl<'a> Context<'a> {
         }
     }
 
-    /// Adds a note (a remark in one line) to the report of the step, unless the report already has an equal note.
+    /// Adds a note (a remark in one line) to the report of the step, unless the report already has the same note.
     pub(crate) fn note(&self, note: String) {
         let mut notes = self.notes.lock().unwrap_or_else(PoisonError::into_inner);
         if !notes.contains(&note) {
@@ -132,8 +133,7 @@ impl<'a> Context<'a> {
     }
 
     /// Returns the store of the run, for writing large files. Writes to this store report progress and fail if the run
-    /// is canceled. If a write failed because of the cancellation, [`advance`](Self::advance) then returns
-    /// [`OpError::Cancelled`].
+    /// is canceled. After such a failure, [`advance`](Self::advance) returns [`OpError::Cancelled`].
     pub fn cancellable_store(&self) -> CancellableStore<'_> {
         CancellableStore::new(&*self.files.store, self.progress)
     }

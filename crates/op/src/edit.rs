@@ -18,8 +18,8 @@ pub enum OnRefusal {
 }
 
 impl OnRefusal {
-    /// Returns the planned number of edited elements. With [`OnRefusal::Error`], this is the number of selected
-    /// elements. With [`OnRefusal::Skip`], it is any number from 0 to the number of selected elements.
+    /// Returns the range of the number of elements that the step will edit. With [`OnRefusal::Error`], the step edits
+    /// all selected elements. With [`OnRefusal::Skip`], the step can edit any number of the selected elements.
     #[must_use]
     pub fn done(self, selected: Range) -> Range {
         match self {
@@ -37,11 +37,11 @@ impl OnRefusal {
         }
     }
 
-    /// Returns the refusal as an error, or counts it in the report.
+    /// Returns the error `refused`, or counts the refusal in the report and returns `Ok`.
     ///
     /// # Errors
     ///
-    /// Returns the error `refused` if this is [`OnRefusal::Error`], or if the error is not a refusal.
+    /// Returns `refused` if `self` is [`OnRefusal::Error`], or if `refused` is not an [`OpError::Refused`].
     pub fn refuse(self, refused: OpError, report: &mut Report) -> Result<(), OpError> {
         match self {
             Self::Error => Err(refused.skippable()),
@@ -73,7 +73,7 @@ impl From<Seams> for mesh::Seams {
 
 /// The target of an edit: an element, or a pair of elements.
 pub trait EditTarget: Copy {
-    /// Returns the elements.
+    /// Returns the elements of this target.
     fn elements(self) -> Vec<Element>;
 
     /// Asks the processor to prefetch the memory for the edits that follow index `at` in the list.
@@ -109,11 +109,12 @@ impl<E: EditTarget> EditTarget for [E; 2] {
     }
 }
 
-/// Edits the elements in order. Each edit is checked against the mesh as edited so far.
+/// Calls `edit` for each element, in the order of `elements`. Each edit is checked against the mesh that the earlier
+/// edits have produced.
 ///
-/// The report counts the edits and, for [`OnRefusal::Skip`], the refused edits by reason. If an earlier edit of the
-/// same call has removed an element, the edit of that element counts as refused. `what` is the name of the task that
-/// progress reports show.
+/// The report counts the edits. With [`OnRefusal::Skip`], the report also counts the refused edits for each reason. If
+/// an earlier edit of the same call has removed an element, the edit of that element counts as refused. `what` is the
+/// name of the task that progress reports show.
 ///
 /// # Errors
 ///

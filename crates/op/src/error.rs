@@ -118,7 +118,8 @@ pub enum OpError {
         reason: Refusal,
         /// A message that describes the refusal and names the elements.
         message: String,
-        /// The elements that caused the refusal. The ids of the elements belong to the mesh at the time of the refusal.
+        /// The elements that caused the refusal. The ids are those that the elements had in the mesh when the edit was
+        /// refused.
         elements: Vec<Element>,
         /// The locations of the elements.
         places: Vec<ErrorLocation>,
@@ -163,13 +164,13 @@ impl OpError {
         self
     }
 
-    /// Returns advice for the user who wrote the step, if there is any.
+    /// Returns advice on what to change in the recipe; `None` if there is no advice for this error.
     pub fn help(&self) -> Option<&'static str> {
         let can_skip = matches!(self, Self::Refused { can_skip: true, .. });
         can_skip.then_some("to continue in such cases, add `on_refusal: Skip`")
     }
 
-    /// Creates the error for a coordinate that is not finite. The message names the operation and the parameters that
+    /// Creates the error for a coordinate that is not finite. `parameters` names the parameters of the operation that
     /// determine the coordinate.
     pub fn overflow(operation: &str, parameters: &str) -> Self {
         Self::Parameter(format!(
@@ -177,8 +178,8 @@ impl OpError {
         ))
     }
 
-    /// Creates the error for a refused edit of the elements `edited`. The message of the error names edges as recipes
-    /// do, by their vertices.
+    /// Creates the error for a refused edit of the elements `edited`. The message of the error names each edge by its
+    /// two vertices, as recipes do.
     pub fn refused_edit(refusal: EditError, mesh: &Mesh, edited: &[Element]) -> Self {
         let between = |element: Element| {
             let Element::Edge(e) = element else {

@@ -16,7 +16,7 @@ mod tests {
         PlanContext, Problem, Report, edit_each,
     };
 
-    /// Splits the first edge, and then flips the edges with these ids.
+    /// An operation that splits edge 0, and then flips the edges with the ids in `edges`.
     #[derive(Debug, Deserialize, JsonSchema, Serialize)]
     struct SplitAndFlip {
         edges: Vec<usize>,

@@ -53,11 +53,11 @@ pub struct Files {
     /// A line that says how the output files were made (their provenance). Output files contain this line if their
     /// format can store the line.
     pub provenance: Option<String>,
-    /// The uses of files so far.
+    /// A log of the files that the run has used so far.
     pub log: FileLog,
 }
 
-/// A log of each use of a file, in order of time. Clones share one list.
+/// A log of all uses of files, in the order of time. All clones of a `FileLog` share the same list of entries.
 #[derive(Clone, Debug, Default)]
 pub struct FileLog(Arc<Mutex<Vec<FileUse>>>);
 
@@ -115,8 +115,8 @@ impl Default for Files {
 }
 
 impl Files {
-    /// Returns the full path of an input file. `path` is relative to the folder of the recipe. If the caller reads the
-    /// file, it must call [`has_read`](Self::has_read).
+    /// Returns the full path of an input file. `path` is relative to the folder of the recipe. A caller that reads the
+    /// file must also call [`has_read`](Self::has_read).
     pub fn to_read(&self, path: &str) -> PathBuf {
         let full = self.input.join(path);
         let file = FileUse::Requested {
@@ -127,9 +127,10 @@ impl Files {
         full
     }
 
-    /// Logs that a file was read. This can be a file whose path [`to_read`](Self::to_read) returned, or another file to
-    /// which such a file refers. A step can be cached only if its operation calls this method for every input path that
-    /// it requested. The result of a cached step must not depend on the contents of any other file.
+    /// Logs that the file at `path` was read. The path can come from [`to_read`](Self::to_read), or from the content of
+    /// another input file, such as an OBJ file that names a material library. A step can be cached only if its
+    /// operation calls this method for every input path that it requested. The result of a cached step must not depend
+    /// on the contents of any other file.
     pub fn has_read(&self, path: impl Into<PathBuf>) {
         self.log.note(FileUse::Read(path.into()));
     }
@@ -187,11 +188,11 @@ impl Files {
         Ok(self.output.join(relative))
     }
 
-    /// Returns the text of an error about output files, for people to read. In this text, the paths of output files are
-    /// relative to the output folder, as in the recipe. A full path would name the temporary folder into which a run
-    /// writes.
+    /// Converts an error about output files to an [`OpError`]. In the message of the result, the paths of output files
+    /// are relative to the output folder, as in the recipe. A full path would name the temporary folder into which a
+    /// run writes.
     pub fn output_error(&self, error: impl fmt::Display) -> OpError {
-        // The path of the folder ends with a separator (unless it is empty), so that the separator is removed, too.
+        // `join("")` adds a separator to the end of the folder's path, so the separator is also removed from the text.
         let folder = self.output.join("").display().to_string();
         let mut text = error.to_string();
         if !folder.is_empty() {

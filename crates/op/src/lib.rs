@@ -2,8 +2,8 @@
 //! operation runs, plans, reports, errors, selections and parameter types. This crate contains no operation.
 //!
 //! An operation is a struct whose fields are its parameters. Most operations change one mesh and implement
-//! [`MeshOperation`]. For these operations, the trait provides the choice of objects (`on:`), the reports of lost data
-//! and the rollback after an error. Operations that need the whole scene implement [`Operation`].
+//! [`MeshOperation`]. Code that all of them share chooses the objects (`on:`), reports lost data, and undoes the
+//! changes after an error. Operations that need the whole scene implement [`Operation`].
 //!
 //! ```
 //! use mesh::DVec3;

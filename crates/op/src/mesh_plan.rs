@@ -1,4 +1,5 @@
-//! The plan of a mesh: what is known about it before anything runs, such as counts, attributes and bytes.
+//! The plan of a mesh: the facts that are known before the run, such as the counts of elements, the attributes, and the
+//! size in bytes.
 
 use mesh::{
     CORNER_NORMAL, CORNER_TANGENT, DVec3, Domain, Rule, TANGENT, VERTEX_NORMAL, is_morph_direction,
@@ -7,7 +8,7 @@ use mesh::{
 
 use crate::Range;
 
-/// What is known about an attribute before anything runs.
+/// The plan of an attribute: the facts about the attribute that are known before the run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PlannedAttribute {
     /// The domain of the attribute.
@@ -85,7 +86,7 @@ impl MeshPlan {
                 .map(|(domain, c)| PlannedAttribute {
                     domain,
                     name: c.name.clone(),
-                    // Attributes with the rule `Drop` are lost in an edit that changes connectivity.
+                    // An edit that changes the connectivity removes attributes with the rule `Drop`.
                     certain: c.rule != Rule::Drop,
                 })
                 .collect(),
@@ -99,13 +100,13 @@ impl MeshPlan {
         self.degrees == Range::exactly(3)
     }
 
-    /// Returns how many corners some of the faces have together, as a range. `faces` is the number of these faces. The
-    /// result is at most twice the number of edges of the mesh.
+    /// Returns the range of the total number of corners of some faces of the mesh. `faces` is the number of these
+    /// faces. The total is at most twice the number of edges of the mesh.
     pub fn corners_of(&self, faces: Range) -> Range {
         faces.times(self.degrees).capped(self.edges.by(2).max)
     }
 
-    /// Adds these numbers of elements to the counts of the plan.
+    /// Adds `vertices`, `edges` and `faces` to the counts of the plan.
     pub fn grow(&mut self, vertices: Range, edges: Range, faces: Range) {
         self.vertices = self.vertices.plus(vertices);
         self.edges = self.edges.plus(edges);
@@ -148,7 +149,7 @@ impl MeshPlan {
         (self.attributes).retain(|attribute| !is_morph_direction(&attribute.name));
     }
 
-    /// Whether one of the known attributes has weights of joints.
+    /// Whether one of the known attributes stores the weights of a joint.
     pub fn has_joints(&self) -> bool {
         let is_joint = |a: &PlannedAttribute| joint_of(&a.name).is_some();
         (self.attributes.iter()).any(|a| a.domain == Domain::Vertex && is_joint(a))
@@ -162,7 +163,8 @@ impl MeshPlan {
             .count()
     }
 
-    /// Returns the size of the mesh in bytes. Attributes that are not listed in the plan are not included.
+    /// Returns the range of the size of the mesh, in bytes. The size does not include attributes that are missing from
+    /// the plan.
     pub fn bytes(&self) -> Range {
         let count = |domain| match domain {
             Domain::Vertex => self.vertices,
@@ -188,8 +190,8 @@ fn missing_element_message(number: u64, count: Range, noun: &str) -> Option<Stri
     (number >= count.max).then(message)
 }
 
-/// Returns the size of one value of an attribute, in bytes. The lower end of the range is 0 if it is not certain that
-/// the attribute exists.
+/// Returns the range of the size of one value of an attribute, in bytes. The range starts at 0 if it is not certain
+/// that the attribute exists.
 fn value_bytes(attribute: &PlannedAttribute) -> Range {
     let name = &attribute.name;
     let exactly = |bytes: usize| Range::exactly(bytes as u64);

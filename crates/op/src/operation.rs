@@ -19,7 +19,7 @@ use crate::{
 pub trait MeshOperation:
     Debug + Send + Sync + Serialize + DeserializeOwned + JsonSchema + 'static
 {
-    /// The name of the step in recipes, which is the name of the struct.
+    /// The name of the operation in recipes. It is the same as the name of the struct.
     const NAME: &'static str;
     /// The version of the results. Increase it if a new version of the program can give a different result for the same
     /// parameters and input.
@@ -37,8 +37,9 @@ pub trait MeshOperation:
     /// is empty, the tables do not show this number.
     const DONE: &'static str = "";
 
-    /// Returns the names of the other objects whose meshes the operation reads with [`Context::other_mesh`]. Each name
-    /// comes with the name of the parameter that contains it. A step without `on:` does not act on these objects.
+    /// Returns the other objects whose meshes the operation reads with [`Context::other_mesh`]. Each pair consists of
+    /// the name of an object and the name of the parameter that contains this name. A step without `on:` does not
+    /// change the objects that this method returns.
     fn reads(&self) -> Vec<(&str, &'static str)> {
         Vec::new()
     }
@@ -66,7 +67,7 @@ pub trait MeshOperation:
     /// # Errors
     ///
     /// Returns an [`OpError`]. When an error is returned, a part of the mesh has possibly already been changed. The
-    /// caller has opened the journal of the mesh, and undoes the changes after an error.
+    /// caller records all changes of the mesh, and undoes them after an error.
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError>;
 }
 
@@ -74,7 +75,7 @@ pub trait MeshOperation:
 pub trait Operation:
     Debug + Send + Sync + Serialize + DeserializeOwned + JsonSchema + 'static
 {
-    /// The name of the step in recipes, which is the name of the struct.
+    /// The name of the operation in recipes. It is the same as the name of the struct.
     const NAME: &'static str;
     /// The version of the results. Increase it if a new version of the program can give a different result for the same
     /// parameters and input.
@@ -93,8 +94,8 @@ pub trait Operation:
     const DONE: &'static str = "";
     /// Whether a step can choose objects with `on:`.
     const TAKES_ON: bool = false;
-    /// Whether the operation leaves the scene unchanged when it fails. If not, the run keeps the meshes in their state
-    /// before the step, and the operation changes copies of these meshes.
+    /// Whether the operation leaves the scene unchanged when it fails. If false, the run keeps the meshes in their
+    /// state before the step, and the operation changes copies of these meshes.
     const ATOMIC: bool = false;
 
     /// Changes `plan` in the same way as [`apply`](Self::apply) will change the scene. Returns the problems of the
@@ -209,7 +210,7 @@ const fn target_kind<T: MeshOperation>() -> TargetKind {
     }
 }
 
-/// Applies an operation to one object. If the operation fails, the mesh of the object is unchanged.
+/// Applies an operation to the mesh of the object `name`. If the operation fails, this mesh is unchanged.
 fn apply_to<T: MeshOperation>(
     operation: &T,
     scene: &mut Scene,
@@ -223,13 +224,13 @@ fn apply_to<T: MeshOperation>(
         return Err(OpError::Object(message));
     };
     let before = columns(mesh);
-    // Copies the mesh if it is shared.
+    // Copies the mesh if another `Arc` also points to it.
     let mesh = Arc::make_mut(mesh);
     mesh.begin();
     let done = operation.apply(mesh, cx);
     cx.clear_object();
-    // If an operation assigns a new mesh to `*mesh` instead of calling `Mesh::replace`, the journal is lost, and
-    // nothing can be rolled back.
+    // If an operation assigns a new mesh to `*mesh` instead of calling `Mesh::replace`, the record of the changes is
+    // lost, and the changes cannot be undone.
     let is_recording = mesh.is_recording();
     let mut report = match done {
         Ok(report) => report,

@@ -1,4 +1,4 @@
-//! The plan of a scene: what is known before anything runs, such as the names and kinds of its objects.
+//! The plan of a scene: the facts that are known before the run, such as the names and kinds of the objects.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -32,7 +32,7 @@ pub enum PlannedGeometry {
 }
 
 impl PlannedGeometry {
-    /// Returns the word for this kind of geometry.
+    /// Returns the name of this kind of geometry, such as `mesh`.
     pub fn kind(&self) -> &'static str {
         match self {
             Self::Mesh(_) => "mesh",
@@ -78,8 +78,8 @@ pub struct Plan {
     /// exist, or what their values are.
     pub possible_losses: Vec<Loss>,
     graph: Arc<Graph>,
-    /// Whether an earlier step could not be read or planned. If so, the scene will possibly have objects that are
-    /// missing from the plan.
+    /// Whether an earlier step could not be read or planned. If true, the scene possibly has objects that are missing
+    /// from the plan.
     pub incomplete: bool,
 }
 
@@ -109,13 +109,13 @@ impl Plan {
         plan
     }
 
-    /// Returns the objects, in order.
+    /// Returns the objects in the order of the scene.
     pub fn objects(&self) -> &[PlannedObject] {
         &self.objects
     }
 
-    /// Returns the objects for modification. To add an object, use [`insert`](Self::insert) instead: its time does not
-    /// grow with the number of objects.
+    /// Returns the objects for modification. To add objects, use [`insert`](Self::insert) instead, because the time of
+    /// `insert` does not grow with the number of objects.
     pub fn objects_mut(&mut self) -> &mut Vec<PlannedObject> {
         self.is_edited = true;
         self.index_by_name.clear();
@@ -124,7 +124,7 @@ impl Plan {
     }
 
     /// Returns whether [`objects_mut`](Self::objects_mut) was called since the last call of `take_edited`. If
-    /// `objects_mut` was not called, the only possible change of the objects is that some were added at the end.
+    /// `objects_mut` was not called, the list of objects can only have changed by the addition of objects at its end.
     pub fn take_edited(&mut self) -> bool {
         std::mem::take(&mut self.is_edited)
     }
@@ -176,8 +176,8 @@ impl Plan {
         taken
     }
 
-    /// Adds an object `to` with the same nodes as the object `from` but with another geometry. Returns a problem if an
-    /// object with the name `to` already exists.
+    /// Adds an object with the name `to` and the geometry `geometry`. Each node that references the object `from` gets
+    /// a sibling node that references the new object. Returns a problem if an object with the name `to` already exists.
     pub fn insert_copy(
         &mut self,
         from: &str,
@@ -195,27 +195,27 @@ impl Plan {
         taken
     }
 
-    /// Removes an object from the plan. Its nodes are removed in the same way as by [`Scene::remove`].
+    /// Removes an object from the plan. [`Scene::remove`] describes which nodes are also removed.
     pub fn remove(&mut self, name: &str) {
         self.objects_mut().retain(|o| o.name != name);
         self.edit_graph(|graph| graph.remove_object(name));
     }
 
-    /// Returns the nodes that place the objects, with their skins and animations. The scales, rotations and hierarchy
-    /// of these nodes are exact. Translations that are computed from points can differ from those of the scene.
-    /// [`Graph::arrays`] is incomplete.
+    /// Returns the graph of the nodes that place the objects in the scene. The graph also contains the skins and
+    /// animations. The scales, rotations and hierarchy of these nodes are exact. Translations that are computed from
+    /// points can differ from those of the scene. [`Graph::arrays`] is incomplete.
     pub fn graph(&self) -> &Graph {
         &self.graph
     }
 
-    /// Calls `change` with the graph of the nodes, unless the graph is empty.
+    /// Calls `change` to edit the graph of the nodes. Does nothing if the graph is empty.
     pub fn edit_graph(&mut self, change: impl FnOnce(&mut Graph)) {
         if !self.graph.is_empty() {
             change(Arc::make_mut(&mut self.graph));
         }
     }
 
-    /// Adds the nodes of a file.
+    /// Adds the nodes of a file to the graph of the plan.
     pub fn append_graph(&mut self, graph: Graph) {
         if !graph.is_empty() {
             Arc::make_mut(&mut self.graph).append(graph);
@@ -228,16 +228,15 @@ impl Plan {
         (unplaced.saturating_add(self.graph.nodes_of(name).len() as u64)).max(1)
     }
 
-    /// Returns a problem if an object already has this name. `field` is the name of the parameter that contains the
-    /// object name.
+    /// Returns a problem if an object already has the name `name`. `field` is the parameter that contains this name.
     pub fn taken(&self, name: &str, field: &str) -> Option<Problem> {
         self.object(name)?;
         let message = scene::DuplicateName(name.to_owned()).to_string();
         Some(Problem::error(message).at([field]))
     }
 
-    /// If no object has this name, returns a problem that lists the known names. Always returns `None` if the plan is
-    /// incomplete. `path` is the path of the parameter that contains the object name.
+    /// If no object has the name `name`, returns a problem that lists the names of all objects. Always returns `None`
+    /// if the plan is incomplete. `path` is the path of the parameter that contains the object name.
     pub fn missing<const N: usize>(&self, name: &str, path: [&str; N]) -> Option<Problem> {
         if self.incomplete || self.object(name).is_some() {
             return None;
@@ -258,8 +257,8 @@ impl Plan {
         &self.outputs
     }
 
-    /// Adds a file that the step writes. Returns the problems with its `path`. `check` is called with the path, and
-    /// returns a problem if the file name extension is not supported.
+    /// Adds the output file at `path` to the plan, and returns the problems with this path. `check` must return a
+    /// problem if the file name extension is not supported.
     pub fn write(
         &mut self,
         cx: &PlanContext,

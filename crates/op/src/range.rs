@@ -5,7 +5,7 @@
 pub struct Range {
     /// The lowest possible count.
     pub min: u64,
-    /// The highest possible count; `u64::MAX` if no limit is known.
+    /// The highest possible count; `u64::MAX` if the highest count is unknown.
     pub max: u64,
 }
 
@@ -36,7 +36,7 @@ impl Range {
         self.min == self.max
     }
 
-    /// Whether the count can be `n`.
+    /// Whether `n` is in the range.
     pub const fn contains(self, n: u64) -> bool {
         self.min <= n && n <= self.max
     }
@@ -105,7 +105,7 @@ impl Range {
         }
     }
 
-    /// Returns this range with both ends reduced to `cap` where they exceed it.
+    /// Returns this range, with each end that is greater than `cap` replaced with `cap`.
     #[must_use]
     pub fn capped(self, cap: u64) -> Self {
         Self {

@@ -98,8 +98,8 @@ impl Registry {
         Self::default()
     }
 
-    /// Adds an operation. If the current name or an earlier name of this operation already belongs to another
-    /// operation, [`check`](Self::check) reports the conflict.
+    /// Adds an operation. If another operation already has one of the current or earlier names of the new operation,
+    /// [`check`](Self::check) reports the conflict.
     #[must_use]
     pub fn with<T: Operation>(mut self) -> Self {
         let entry = Entry::of::<T>();
@@ -123,7 +123,7 @@ impl Registry {
         self.with::<T>()
     }
 
-    /// Adds a group of operations, by calling `register`.
+    /// Calls `register`, which adds a group of operations.
     #[must_use]
     pub fn with_group(self, register: fn(Self) -> Self) -> Self {
         register(self)
@@ -143,7 +143,7 @@ impl Registry {
         &self.entries
     }
 
-    /// Returns the operation with this name, which can be its current name or one of its earlier names.
+    /// Returns the operation whose current name, or one of whose earlier names, is `name`.
     pub fn get(&self, name: &str) -> Option<&Entry> {
         self.entries
             .iter()
@@ -220,7 +220,8 @@ pub fn to_ron(value: &dyn erased_serde::Serialize) -> String {
     ron::to_string(value).expect("parameters are plain data")
 }
 
-/// Returns the loss report for lost animation channels. `before` is the number of animation channels before the step.
+/// Returns the record of the animation channels that the step lost; `None` if it lost none. `before` is the number of
+/// animation channels before the step.
 fn lost_channels(before: usize, graph: &Graph) -> Option<Loss> {
     let lost = before.saturating_sub(graph.n_channels());
     let what = mesh::counted(lost, "animation channel");

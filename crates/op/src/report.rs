@@ -49,7 +49,7 @@ pub enum ReadingElements {
 /// The edits that were refused for one reason.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
 pub struct Refused {
-    /// The reason for which these edits were refused.
+    /// The reason for the refusal of these edits.
     pub reason: Refusal,
     /// The number of refused edits.
     pub count: u64,
@@ -133,7 +133,8 @@ impl Loss {
         format!("{} may lose {}: {}", self.owner(), self.what, self.reason)
     }
 
-    /// Returns what messages call the owner of the lost data: the name of the object, or `the scene`.
+    /// Returns the text that names the owner of the lost data in messages: the name of the object in quotation marks,
+    /// or `the scene`.
     fn owner(&self) -> String {
         match self.object.as_str() {
             "" => "the scene".to_owned(),
@@ -168,8 +169,8 @@ impl Report {
         }
     }
 
-    /// Counts edits that were refused for this reason. `first` returns the message of the first of the refused edits.
-    /// `first` is called only if the report does not yet count a refusal for this reason.
+    /// Adds `count` edits that were refused for the reason `reason`. `first` returns the message of the first of these
+    /// edits. `first` is called only if the report does not yet count a refusal for this reason.
     pub(crate) fn count_refused(
         &mut self,
         reason: Refusal,
@@ -202,7 +203,7 @@ impl Report {
         Ok(())
     }
 
-    /// Adds the contents of a second report, which is about another part of the same step.
+    /// Adds the contents of the report `other`, which describes another part of the same step.
     pub fn merge(&mut self, other: Self) {
         self.changed += other.changed;
         for refused in other.refused {

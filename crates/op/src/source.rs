@@ -10,8 +10,8 @@ use crate::plan::numbered;
 use crate::{Context, MeshPlan, OpError, Plan, PlannedGeometry, Problem, Report, Vector};
 
 /// The largest number of edges of a mesh that is built from polygons. Each edge is a side of at most two faces, so the
-/// faces have at most two corners for each edge. Each corner can need two half-edges, so each edge can need four. The
-/// largest possible id of a half-edge is 2^32 - 2.
+/// faces have at most two corners for each edge. A corner can need a separate edge, that is, two half-edges. The mesh
+/// can therefore have up to four half-edges for each edge. The largest possible id of a half-edge is 2^32 - 2.
 const MAX_EDGES: u64 = (u32::MAX as u64 - 1) / 4;
 
 /// A mesh that a step creates. A `Source` consists of the name of the new object, the planned element counts of its
@@ -99,15 +99,15 @@ impl<'a> Source<'a> {
         problems
     }
 
-    /// Adds the object at the end of a scene. `make` creates the mesh. `make` is called only if there are no problems,
-    /// the name is not taken, and the memory is sufficient.
+    /// Adds the object at the end of a scene. `make` creates the mesh, and is called only if there are no problems, no
+    /// other object has the name, and the memory is sufficient.
     ///
     /// # Errors
     ///
     /// Returns [`OpError::Parameter`] for the first problem, or if a coordinate overflows. Returns [`OpError::Object`]
     /// if the name is taken. Returns [`OpError::Budget`] if the mesh would exceed the memory budget of `cx` or the
-    /// largest supported number of edges. Returns [`OpError::Cancelled`] if the run was canceled. The scene is
-    /// unchanged.
+    /// largest supported number of edges. Returns [`OpError::Cancelled`] if the run was canceled. If an error is
+    /// returned, the scene is unchanged.
     pub fn insert(
         self,
         scene: &mut Scene,

@@ -16,8 +16,8 @@ pub struct Statistics {
 }
 
 impl Statistics {
-    /// Returns the statistics of the finite values; `None` if there are none. The result is identical bit for bit for
-    /// any number of threads.
+    /// Returns the statistics of the finite values; `None` if no value is finite. The bits of the result do not depend
+    /// on the number of threads.
     pub fn of(values: &[f64]) -> Option<Self> {
         let finite = || values.iter().copied().filter(|x| x.is_finite());
         let first = finite().next()?;

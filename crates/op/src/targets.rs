@@ -10,7 +10,7 @@ use scene::{Geometry, Scene};
 use crate::source::named_object;
 use crate::{Context, OpError, Plan, PlanContext, PlannedGeometry, Problem, Range, Report};
 
-/// The words that messages use for the kind of objects that an operation works on.
+/// The parts of messages about the kind of objects that an operation can change.
 #[derive(Clone, Copy, Debug)]
 pub struct TargetKind {
     /// The name of the operation.
@@ -41,7 +41,7 @@ impl TargetKind {
         )
     }
 
-    /// Plans the operation on each object that it acts on. `change` updates the plan of an object and returns the
+    /// Plans the operation on each object that the step acts on. `change` updates the plan of an object and returns the
     /// problems. `change` returns `None` if the object is of the wrong kind.
     pub fn plan(
         &self,
@@ -79,8 +79,8 @@ impl TargetKind {
     }
 }
 
-/// Returns the names of the objects that a step acts on, in the order of the scene. If the step has `on:`, these are
-/// the objects named there. If not, these are all objects whose geometry `is_wanted` accepts.
+/// Returns the names of the objects that a step acts on, in the order of the scene. If the step has `on:`, it acts on
+/// the objects named there. Otherwise, it acts on all objects whose geometry `is_wanted` accepts.
 ///
 /// # Errors
 ///
@@ -102,7 +102,7 @@ pub fn target_names(
 }
 
 /// Returns a scene with the objects that a step acts on. If the step has `on:`, the scene has the objects named there
-/// and the nodes that reference them. If not, the scene has all objects.
+/// and the nodes that reference them. Otherwise, the scene has all objects.
 pub fn target_scene<'s>(scene: &'s Scene, cx: &Context) -> Cow<'s, Scene> {
     let Some(on) = cx.on else {
         return Cow::Borrowed(scene);

@@ -7,7 +7,7 @@ use std::ops::Bound::{self, Excluded, Included, Unbounded};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Serialize};
 
-/// A number outside the range of its type.
+/// The error for a number that is not finite or is outside the range of its type.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OutOfRange {
     value: f64,

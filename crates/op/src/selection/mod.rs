@@ -161,7 +161,7 @@ pub use vertex::VertexSelection;
 
 /// The variants that all selection types share. The macro `selection` documents each variant.
 enum Shared<'a, S> {
-    /// Stands for all variants that only one of the selection types has.
+    /// Any variant that only one of the selection types has.
     Own,
     All,
     Inside(&'a Region),
@@ -218,7 +218,7 @@ pub trait Select: Sized + Sync {
     /// Returns the errors of [`resolve`](Self::resolve).
     fn mask(&self, mesh: &Mesh, cx: &Context) -> Result<Vec<bool>, OpError>;
 
-    /// Returns the possible number of elements that this selection contains in a planned mesh, as a range.
+    /// Returns the range of the number of elements that this selection selects in a planned mesh.
     fn count(&self, plan: &MeshPlan) -> Range;
 
     /// Returns all elements of a mesh.
@@ -227,7 +227,7 @@ pub trait Select: Sized + Sync {
     /// Returns the vertices of an element.
     fn vertices(mesh: &Mesh, id: Self::Id) -> impl Iterator<Item = VertexId>;
 
-    /// Returns the elements whose flag is set in `mask`.
+    /// Returns the elements whose flags in `mask` are true.
     fn marked(mesh: &Mesh, mask: &[bool]) -> impl Iterator<Item = Self::Id> {
         Self::elements(mesh).filter(|id| mask[id.index()])
     }
@@ -237,7 +237,7 @@ pub trait Select: Sized + Sync {
 }
 
 impl<S: Select> Shared<'_, S> {
-    /// Returns one flag for each element: whether this variant selects the element.
+    /// Returns a mask: one flag for each element, which says whether this variant selects the element.
     fn mask(&self, mesh: &Mesh, cx: &Context) -> Result<Vec<bool>, OpError> {
         Ok(match *self {
             Self::Own => {
@@ -324,8 +324,7 @@ impl<S: Select> Shared<'_, S> {
         })
     }
 
-    /// Returns the possible number of elements that the variant selects, as a range. `all` is the number of all
-    /// elements.
+    /// Returns the range of the number of elements that the variant selects. `all` is the number of all elements.
     fn count(&self, all: Range, plan: &MeshPlan) -> Range {
         match self {
             Self::All => all,
@@ -430,8 +429,8 @@ fn center<S: Select>(mesh: &Mesh, id: S::Id) -> DVec3 {
     sum / n
 }
 
-/// Returns a mask of the `count` marked elements with the lowest keys. Among elements with equal keys, those with the
-/// lowest ids are chosen.
+/// Returns a mask of the `count` elements of `mask` for which `key` returns the lowest values. Among elements with
+/// equal values, the elements with the lowest ids are chosen.
 fn lowest<S: Select, K: PartialOrd>(
     mesh: &Mesh,
     count: u32,
@@ -439,7 +438,7 @@ fn lowest<S: Select, K: PartialOrd>(
     key: impl Fn(S::Id) -> K,
 ) -> Vec<bool> {
     let mut keyed: Vec<(K, S::Id)> = S::marked(mesh, mask).map(|id| (key(id), id)).collect();
-    // Positions are finite, so keys are never NaN.
+    // Positions are finite, so the values of `key` are never NaN.
     keyed.sort_by(|a, b| a.partial_cmp(b).expect("keys are numbers"));
     let mut chosen = vec![false; mask.len()];
     for (_, id) in keyed.into_iter().take(count as usize) {

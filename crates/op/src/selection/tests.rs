@@ -161,7 +161,7 @@ fn inside_of_selects_by_the_winding_number_of_another_object() {
     for p in mould.positions_mut() {
         *p *= 1.5;
     }
-    // Neither the orientation nor a small hole changes the result.
+    // The selection `InsideOf` does not depend on the orientation of the other mesh, and tolerates a small hole.
     mould.reverse();
     mould.delete_face(FaceId::new(3)).unwrap();
     let grid = shapes::grid(8, 8);
@@ -248,8 +248,8 @@ fn random_choices_depend_on_seed_and_step_only() {
 
 #[test]
 fn random_choices_are_uniform() {
-    // 2000 choices of 10 edges out of 40: each edge is chosen about 500 times. The probability of a deviation
-    // of 100 is below one in a million.
+    // Among 2000 choices of 10 out of 40 edges, each edge is chosen about 500 times. The probability that the number
+    // differs from 500 by 100 is below one in a million.
     let grid = shapes::grid(4, 4);
     let mut times_chosen = vec![0; 40];
     for seed in 0..2000 {
@@ -419,7 +419,8 @@ fn loops_end_at_vertices_without_four_edges() {
     assert_eq!(ends("EdgeLoop(Between(6, 7))", &grid), [5, 6, 7, 8, 9]);
     assert_eq!(edges(&parse("EdgeLoop(Between(0, 1))"), &grid).len(), 14);
     assert_eq!(edges(&parse("EdgeRing(Between(0, 1))"), &grid).len(), 4);
-    // Three edges meet at the corners of a cube, and triangles have no opposite edges.
+    // At the corners of a cube, three edges meet, so edge loops end there. In triangles, no edge has an opposite edge,
+    // so edge rings end there.
     assert_eq!(
         edges(&parse("EdgeLoop(Between(0, 1))"), &shapes::cube()).len(),
         1

@@ -2,8 +2,8 @@
 //! operation runs, plans, reports, errors, selections and parameter types. This crate contains no operation.
 //!
 //! An operation is a struct whose fields are its parameters. Most operations change one mesh and implement
-//! [`MeshOperation`]. Code that all of them share chooses the objects (`on:`), reports lost data, and undoes the
-//! changes after an error. Operations that need the whole scene implement [`Operation`].
+//! [`MeshOperation`]. For these operations, this crate chooses the meshes that a step changes (`on:`), reports lost
+//! data, and undoes the changes after an error. Operations that need the whole scene implement [`Operation`].
 //!
 //! ```
 //! use mesh::DVec3;

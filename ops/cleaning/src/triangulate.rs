@@ -8,10 +8,10 @@
 //!    a ------- b          a ------- b          '---'                  '---'
 //! ```
 //!
-//! A face with n corners becomes n - 2 triangles, which take the place of the face in the order of the faces. Vertices
-//! and edges keep their ids, and the n - 3 diagonals are added at the end. [`Triangulate`] documents which diagonals
-//! are chosen. The half-edges of the mesh are kept, and new half-edges are added. The mesh is not built again from
-//! triangles, so a closed mesh stays closed even where two diagonals join the same two vertices.
+//! A face with n corners becomes n - 2 triangles. In the order of the faces, the triangles take the place of the face.
+//! Vertices and edges keep their ids, and the n - 3 diagonals get the highest edge ids. [`Triangulate`] documents which
+//! diagonals are chosen. The half-edges of the mesh are kept, and new half-edges are added. The mesh is not built again
+//! from triangles, so a closed mesh stays closed even where two diagonals join the same two vertices.
 
 mod assemble;
 mod duplicates;
@@ -55,8 +55,8 @@ impl MeshOperation for Triangulate {
     const SUMMARY: &'static str = "Cut polygons into triangles";
     const EXAMPLE: &'static str = "Triangulate()";
     // Since version 2 of the operation, faces with more than 4096 corners are first cut into smaller polygons. Since
-    // version 3, these polygons are monotone. Each of these two versions can choose other diagonals than the version
-    // before, if several diagonals are equally good.
+    // version 3, these polygons are monotone. If several diagonals are equally good, versions 2 and 3 can each choose
+    // other diagonals than the version before.
     const VERSION: u32 = 3;
     const WORDS: &'static [&'static str] = &["triangles", "ears"];
 
@@ -100,8 +100,8 @@ impl MeshOperation for Triangulate {
         cx.advance("triangulate", 1, 3)?;
         let duplicates = duplicates::avoid(mesh, &mut cuts);
         cx.advance("triangulate", 2, 3)?;
-        // For each half-edge, the mesh stores three ids, and a separate list stores the half-edge from which the values
-        // are copied. Each of these arrays is extended once.
+        // For each half-edge, the arrays of the new mesh store three ids, and `assemble` stores the half-edge from
+        // which the attribute values are copied. Each of these arrays is extended once, which needs additional memory.
         let n_half_edges = mesh.n_half_edges() + 2 * diagonals;
         mesh::require_memory(24 * n_half_edges + 24 * mesh.n_vertices());
         mesh.replace(assemble::assemble(mesh, &cuts, diagonals));

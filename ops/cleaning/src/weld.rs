@@ -8,9 +8,9 @@
 //!    +-----+ +-----+            +-----+-----+
 //! ```
 //!
-//! Vertices at most `distance` apart are linked, and vertices that are connected by links merge into one. Two
-//! vertices that are 0.9 times `distance` apart therefore always merge. Two vertices that are 1.1 times `distance`
-//! apart merge only if a chain of other vertices links them. Which vertices merge does not depend on the order of the
+//! Vertices at most `distance` apart are linked, and vertices that are connected by links merge into one. For example,
+//! two vertices that are 0.9 times `distance` apart always merge. Two vertices that are 1.1 times `distance` apart
+//! merge only if a chain of other vertices links them. Which vertices merge does not depend on the order of the
 //! vertices. The result does not depend on the number of threads.
 
 use mesh::{VERTEX_NORMAL, counted};
@@ -46,14 +46,14 @@ impl MeshOperation for Weld {
     const DONE: &'static str = "merged";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        // The step drops the normals if it reverses faces, so they are not certain to stay.
+        // The step drops the normals if it reverses faces, so it is not certain that the normals are kept.
         for attribute in &mut plan.attributes {
             attribute.certain &= attribute.name != VERTEX_NORMAL.name;
         }
         plan.vertices.min = plan.vertices.min.min(1);
         plan.edges = plan.edges.or_less();
         plan.faces = plan.faces.or_less();
-        // Faces can lose corners, but each remaining face has at least three.
+        // Faces can lose corners, but each remaining face has at least three corners.
         plan.degrees = plan.degrees.or(Range::exactly(3));
         Vec::new()
     }

@@ -81,7 +81,7 @@ impl Operation for MovePatchPoint {
 }
 
 impl MovePatchPoint {
-    /// Returns the patches with the moved control point.
+    /// Returns copies of the patches in which the control point is moved.
     fn moved(&self, patches: &[Patch]) -> Result<Vec<Patch>, OpError> {
         let all = patches.iter().flat_map(|p| p.points().as_flattened());
         let Some(&from) = all.clone().nth(self.index as usize) else {
@@ -112,7 +112,7 @@ mod tests {
         op::test::read(text).unwrap()
     }
 
-    /// Returns the control points of a flat patch whose first column is at this x.
+    /// Returns the control points of a flat patch. The points of its first column have the x coordinate `x`.
     fn patch(x: f64) -> [[DVec3; 4]; 4] {
         let steps = [0.0, 1.0, 2.0, 3.0];
         steps.map(|row| steps.map(|column| DVec3::new(x + column, row, 0.0)))

@@ -144,8 +144,8 @@ impl Tessellate {
         plan
     }
 
-    /// Checks, before anything is allocated, that there are enough ids for the elements, and that the mesh fits into
-    /// the memory budget.
+    /// Checks that there are enough ids for the elements, and that the mesh fits into the memory budget. This check
+    /// runs before memory is allocated.
     fn check_budget(
         &self,
         name: &str,
@@ -154,8 +154,8 @@ impl Tessellate {
         cx: &Context,
     ) -> Result<(), OpError> {
         let counts = counts(patches, self.segments.get(), self.faces.into()).map_err(too_large)?;
-        // Each corner can need a separate edge, and each edge has two half-edges. So a mesh can have at most half as
-        // many corners as there are ids.
+        // Each corner can need a separate edge, and each edge has two half-edges. A mesh can therefore have at most
+        // half as many corners as there are half-edge ids.
         let max = (u32::MAX - 1) / 2;
         if counts.corners > u64::from(max) {
             let corners = counts.corners;
@@ -229,7 +229,8 @@ impl Tessellate {
     }
 }
 
-/// The builder of the mesh has appended copies of some vertices. Appends the values of these copies to `values`.
+/// Appends values to `values` for the copies of vertices that were added when the mesh was built. Each copy gets the
+/// value of its original.
 fn with_copies(mut values: Vec<DVec3>, report: &BuildReport) -> Vec<DVec3> {
     for (original, _) in &report.split_vertices {
         values.push(values[original.index()]);

@@ -58,7 +58,7 @@ impl Bend {
         Stretch::new(self.axis, self.about, self.from, self.to)
     }
 
-    /// Returns a message if `towards` is the same axis as `axis`.
+    /// Returns an error message if `towards` is the same axis as `axis`.
     fn same_axis(&self) -> Option<String> {
         let message = || format!("`towards` must not be the bent axis {:?}", self.axis);
         (self.towards == Some(self.axis)).then(message)

@@ -159,7 +159,7 @@ impl MeshOperation for Displace {
     }
 }
 
-/// Returns the values of a vertex attribute.
+/// Returns the values of the vertex attribute `name`, which must hold one number for each vertex.
 fn numbers(mesh: &Mesh, name: &str) -> Result<Vec<f64>, OpError> {
     match mesh
         .attributes()
@@ -199,7 +199,7 @@ fn unreadable(path: &str, error: &render::PictureError) -> OpError {
     OpError::File(format!("{path}: {error}"))
 }
 
-/// Returns, for each vertex, the mean of the heights at its corners.
+/// Returns, for each vertex, the mean of the heights at its corners; 0 if the vertex has no corner.
 fn heights(mesh: &Mesh, heights: &Heights, uv: &str) -> Result<Vec<f64>, OpError> {
     let column = mesh.attributes().column(Domain::Corner, uv);
     let uvs = column

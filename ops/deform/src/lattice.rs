@@ -50,7 +50,8 @@ pub struct Lattice {
 }
 
 impl Lattice {
-    /// Returns a message about the first entry of `moves` whose control point does not exist.
+    /// If an entry of `moves` names a control point that does not exist, returns an error message about the first such
+    /// entry.
     fn bad_moves(&self) -> Option<String> {
         let [x, y, z] = self.size.map(Count::get);
         let outside = |point: &[u32; 3]| point.iter().zip([x, y, z]).any(|(&i, n)| i >= n);
@@ -60,7 +61,7 @@ impl Lattice {
         ))
     }
 
-    /// Returns the lattice between two corners.
+    /// Returns the lattice that fills the box between the corners `min` and `max`.
     fn lattice(&self, min: DVec3, max: DVec3) -> deform::Lattice {
         let size = self.size.map(|n| n.get() as usize);
         let mut offsets = vec![DVec3::ZERO; size.iter().product()];

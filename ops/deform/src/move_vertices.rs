@@ -202,8 +202,9 @@ mod tests {
             let text = format!("(vertices: Nearest(to: (0, 0, 0)), by: {by}, falloff: 0.5)");
             applied_as_planned(&parse(&text), &half)
         };
-        // The selected vertex is the center of the scaling and does not move. The factor of the scaling is at most 3.
-        // So a vertex at a distance d of less than 0.5 from the selected vertex moves by at most 2 d.
+        // The selected vertex is the center of the scaling and does not move. The scale factor is at most 3. A vertex
+        // at the distance d from the selected vertex therefore moves by at most 2 d, and only vertices with d < 0.5
+        // move.
         let after = with("Scale((3, 3, 3))");
         let moved = half.positions().iter().zip(after.positions());
         assert!(

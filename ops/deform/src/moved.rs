@@ -1,4 +1,4 @@
-//! Code shared by the operations of this group: coordinates along an axis, and moving vertices in parallel.
+//! Code that several deformations share: coordinates along an axis, and moving vertices in parallel.
 
 use geometry::deform::Frame;
 use mesh::{DVec3, VertexId, parallel};
@@ -45,8 +45,9 @@ pub(crate) struct Stretch {
 }
 
 impl Stretch {
-    /// Creates the part between the coordinates `from` and `to` of the axis through `about`. If `from` is missing, the
-    /// lowest coordinate of the mesh along the axis is used. If `to` is missing, the highest coordinate is used.
+    /// Creates the part between the coordinates `from` and `to` of the axis through `about`. If `from` is `None`, the
+    /// part starts at the lowest coordinate of the mesh along the axis. If `to` is `None`, the part ends at the highest
+    /// coordinate.
     pub(crate) const fn new(
         axis: Axis,
         about: Vector,
@@ -61,7 +62,7 @@ impl Stretch {
         }
     }
 
-    /// Returns a problem if the range ends before it starts.
+    /// Returns a problem if `from` is greater than `to`.
     pub(crate) fn problems(&self) -> Vec<Problem> {
         match (self.from, self.to) {
             (Some(from), Some(to)) if from > to => {
@@ -77,7 +78,7 @@ impl Stretch {
     }
 
     /// Returns the coordinate frame with the unit vectors `towards`, axis × `towards`, and axis. If `from` or `to` is
-    /// missing, the corresponding end of the bounding box is used.
+    /// `None`, the corresponding end of the bounding box is used.
     pub(crate) fn frame(&self, mesh: &Mesh, towards: Axis) -> Result<Frame, OpError> {
         let axis = unit(self.axis);
         let [min, max] = geometry::bounds(mesh).unwrap_or_default();
@@ -92,8 +93,8 @@ impl Stretch {
         let about: DVec3 = self.about.into();
         let towards = unit(towards);
         Ok(Frame {
-            // `from` and `to` are coordinates of points along the axis. So the origin must not include the coordinate
-            // of `about` along the axis.
+            // `from` and `to` are coordinates of points along the axis. The coordinate of the origin along the axis is
+            // therefore 0, and not that of `about`.
             origin: about - axis * axis.dot(about),
             axes: [towards, axis.cross(towards), axis],
             from,

@@ -148,8 +148,8 @@ mod tests {
         op::test::read(text).unwrap()
     }
 
-    /// Returns a scene with a sphere of radius 1 and a cube around it. The faces of the cube are divided, and their
-    /// distance from the center is 2.
+    /// Returns a scene with a sphere of radius 1 and a cube around it. A new vertex above the center of each side of
+    /// the cube divides the side into triangles. The distance of each new vertex from the center of the cube is 2.
     fn scene() -> Scene {
         let mut cube = subdivided_cube();
         cube.set(VERTEX_NORMAL, vec![DVec3::Z; cube.n_vertices()]);
@@ -208,8 +208,8 @@ mod tests {
     fn vertices_beyond_the_distance_stay_and_are_counted() {
         let mut scene = scene();
         let before = positions(&scene, "cube");
-        // The distance from the unit sphere is √3 - 1 for the 8 corners of the cube. It is 1 for the vertices above the
-        // centers of the sides.
+        // The 8 corners of the cube are √3 - 1 from the unit sphere. The vertices above the centers of the sides are 1
+        // from the unit sphere.
         let report = op::test::run(&step(r#"(onto: "ball", distance: 0.8)"#), &mut scene).unwrap();
         assert_eq!(report.changed, 8);
         assert_eq!(

@@ -212,8 +212,9 @@ mod tests {
 
     #[test]
     fn results_that_are_not_manifold_are_refused_as_such() {
-        // Two hexagons back to back. `bisect` cuts both along a new edge from vertex 0 to vertex 3, so two edges join
-        // the same vertices. A mesh with two edges between the same vertices cannot be built from polygons.
+        // Two hexagons back to back. `bisect` cuts each hexagon along a new edge from vertex 0 to vertex 3, so two
+        // edges join the same two vertices. A mesh with two edges between the same vertices cannot be built from
+        // polygons.
         let points = [(2, 0), (1, 2), (-1, 2), (-2, 0), (-1, -2), (1, -2)];
         let points = points.map(|(x, y)| DVec3::new(f64::from(x), f64::from(y), 0.0));
         let faces = [[0_u32, 1, 2, 3, 4, 5], [5, 4, 3, 2, 1, 0]];

@@ -120,7 +120,7 @@ mod tests {
         let before = shapes::icosahedron();
         let longest = "(edges: Longest(count: 1), at: 0)";
         let mesh = applied(&parse(longest), before.clone());
-        // No vertex moves, and only the end with the higher id is removed.
+        // With `at: 0`, the collapse moves no vertex and only removes the end with the higher id.
         assert_eq!(mesh.n_vertices(), 11);
         assert!(
             mesh.positions()

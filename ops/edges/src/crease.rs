@@ -89,7 +89,7 @@ impl Crease {
     }
 }
 
-/// Sets the attribute of the given elements to `sharpness`. Returns how many values changed.
+/// Sets the attribute of the given elements to `sharpness`. Returns the number of values that changed.
 fn sharpen<I: Id>(
     mesh: &mut Mesh,
     attribute: Attribute<I, f64>,

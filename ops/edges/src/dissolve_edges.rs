@@ -43,8 +43,8 @@ impl MeshOperation for DissolveEdges {
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let chosen = self.edges.count(plan);
         let n = self.on_refusal.done(chosen);
-        // Removing n edges merges at most n + 1 faces into one. Each removed edge reduces the total number of sides by
-        // two.
+        // Removing n edges merges at most n + 1 faces into one face. Each removed edge was a side of two faces, so it
+        // reduces the total number of sides by two.
         let sides = plan.degrees.max.saturating_sub(2);
         let merged = n.max.saturating_mul(sides).saturating_add(plan.degrees.max);
         plan.degrees.max = merged

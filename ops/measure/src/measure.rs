@@ -50,8 +50,8 @@ impl Measure {
         }
     }
 
-    /// A step without `on` leaves out the object that the quantity refers to, such as the object to which distances are
-    /// measured. Returns whether `object` is this object.
+    /// Whether a step without `on` leaves out `object`, because the quantity refers to it. For example, a step that
+    /// measures distances to an object leaves out this object.
     fn leaves_out(&self, object: &str) -> bool {
         self.of.other().is_some_and(|(other, _)| other == object)
     }

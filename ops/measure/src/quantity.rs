@@ -135,8 +135,8 @@ impl MeasureOf {
         }
     }
 
-    /// Returns the name of the other object that the quantity needs, with the path of the parameter that contains this
-    /// name.
+    /// Returns the name of the other object that the quantity needs, and the path of the parameter that contains this
+    /// name. Returns `None` if the quantity needs no other object.
     pub(crate) fn other(&self) -> Option<(&str, [&'static str; 3])> {
         match self {
             Self::Distance { to, .. } => Some((to, ["of", "Distance", "to"])),
@@ -145,8 +145,8 @@ impl MeasureOf {
         }
     }
 
-    /// Returns the value for each vertex or face of a mesh, in order of the indices. Missing values are represented by
-    /// values that are not finite. The mesh must not have deleted elements.
+    /// Returns the value for each vertex or face of a mesh, in the order of their ids. If the quantity is not defined
+    /// at an element, the value of the element is not finite. The mesh must not have deleted elements.
     ///
     /// # Errors
     ///

@@ -65,8 +65,8 @@ impl MeshOperation for Bisect {
     const WORDS: &'static [&'static str] = &["slice", "clip", "plane"];
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        // The plane crosses each side of a face at most once. The number of cuts through the face is half the number of
-        // crossings.
+        // The plane crosses each side of a face at most once. The number of cuts through a face is half the number of
+        // its sides that the plane crosses.
         let per_face = plan.degrees.max / 2;
         let crossings = plan.edges.or_less();
         let cuts = plan.faces.by(per_face).capped(crossings.max).or_less();

@@ -1,13 +1,14 @@
 //! Builds the arrays of the cut mesh.
 //!
-//! Old half-edges keep their indices, and only their `next` and `face` change. The diagonals are added face by face, in
-//! the order of [`Cut::diagonals`]. The first half-edge of a diagonal starts at the corner with the lower index.
+//! Old half-edges keep their indices and their origins. Only `next` and `face` of old half-edges change. The diagonals
+//! are added face by face, in the order of [`Cut::diagonals`]. The first half-edge of a diagonal starts at the corner
+//! with the lower index.
 
 use geometry::triangulate::Cut;
 use mesh::{EdgeId, FaceId, HalfEdgeId, Mesh, Sources, VertexId};
 
-/// Returns the mesh with its faces cut. `n_diagonals` is the number of diagonals of all cuts. The mesh with these
-/// diagonals must not have more elements than there are ids.
+/// Returns a mesh in which the faces of `mesh` are cut as `cuts` specifies. `n_diagonals` is the total number of
+/// diagonals. The new mesh must not have more elements than there are ids.
 pub(crate) fn assemble(mesh: &Mesh, cuts: &[Cut], n_diagonals: usize) -> Mesh {
     let n_old = mesh.n_half_edges();
     let n = n_old + 2 * n_diagonals;
@@ -40,7 +41,8 @@ pub(crate) fn assemble(mesh: &Mesh, cuts: &[Cut], n_diagonals: usize) -> Mesh {
             connectivity.origin.push(mesh.origin(h));
             corner_sources.push(h);
         }
-        // The half-edge from one corner to another: a side of the face, or a half-edge of a diagonal.
+        // Returns the half-edge from the corner `from` to the corner `to`: a side of the face, or a half-edge of a
+        // diagonal.
         let half_edge = |from: u32, to: u32| {
             let pair = [from.min(to), from.max(to)];
             match diagonals.binary_search(&pair) {
@@ -72,7 +74,8 @@ pub(crate) fn assemble(mesh: &Mesh, cuts: &[Cut], n_diagonals: usize) -> Mesh {
     cut
 }
 
-/// Returns the sources of edge values: old edges keep their values, diagonals get zero values.
+/// Returns, for each edge, the edge from which it copies its attribute values. Old edges keep their values. For
+/// diagonals, the source is `NONE`, so diagonals get zero values.
 fn edge_sources(n_old: usize, n_diagonals: usize) -> Vec<EdgeId> {
     let mut sources: Vec<EdgeId> = (0..n_old).map(EdgeId::new).collect();
     sources.resize(n_old + n_diagonals, EdgeId::NONE);

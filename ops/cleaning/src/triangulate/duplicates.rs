@@ -1,4 +1,4 @@
-//! Avoids duplicate diagonals: diagonals between two vertices that are already joined.
+//! Avoids duplicate diagonals: diagonals between two vertices that an edge or another diagonal already joins.
 //!
 //! ```text
 //!      d ---- c           Both faces of a pillow have the corners a, b, c, d. If both are cut along a-c,
@@ -13,7 +13,7 @@ use geometry::triangulate::Cut;
 use mesh::{FaceId, Mesh, VertexId, parallel};
 use rayon::prelude::*;
 
-/// A diagonal: its vertices, the lower first, and its face.
+/// A diagonal: its two vertices, sorted by their ids, and the face that it cuts.
 type Diagonal = ([VertexId; 2], FaceId);
 
 /// Replaces each duplicate diagonal of a quadrilateral with the other diagonal, if the other diagonal is equally good
@@ -47,7 +47,7 @@ pub(crate) fn avoid(mesh: &Mesh, cuts: &mut [Cut]) -> usize {
     self::duplicates(mesh, &all(mesh, cuts)).len()
 }
 
-/// Returns all diagonals, sorted.
+/// Returns the diagonals of all cuts, sorted by their vertices.
 fn all(mesh: &Mesh, cuts: &[Cut]) -> Vec<Diagonal> {
     let blocks = parallel::blocks(cuts.len(), |faces| {
         let (mut diagonals, mut pairs) = (Vec::new(), Vec::new());

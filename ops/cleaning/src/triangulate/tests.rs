@@ -121,7 +121,8 @@ fn equal_diagonals_are_decided_by_the_lowest_vertex() {
 
 #[test]
 fn a_quad_with_a_reflex_corner_is_cut_at_that_corner() {
-    // Two arrow heads. In the first arrow head, the inner diagonal is the longer one.
+    // `arrow` is a convex kite, so it is cut along its shorter diagonal. `reflex` is an arrow head, and only its longer
+    // diagonal lies inside it.
     let arrow = [(0.0, 0.0), (1.0, -0.2), (8.0, 0.0), (1.0, 0.2)];
     let reflex = [(0.0, 0.0), (9.0, -0.1), (8.9, 0.0), (9.0, 0.1)];
     for (points, kept) in [(arrow, false), (reflex, true)] {
@@ -158,7 +159,7 @@ fn two_quads_back_to_back_become_a_tetrahedron() {
 
 #[test]
 fn a_diagonal_between_joined_vertices_is_avoided() {
-    // Vertices 0 and 2 are joined by an edge behind the square.
+    // An edge behind the square already joins the vertices 0 and 2.
     let points = vec![
         DVec3::ZERO,
         DVec3::X,
@@ -179,7 +180,7 @@ fn a_diagonal_between_joined_vertices_is_avoided() {
 
 #[test]
 fn unavoidable_duplicate_diagonals_are_counted_and_the_mesh_stays_closed() {
-    // Two arrow heads back to back. Each has only one inner diagonal.
+    // Two quads in the shape of arrow heads, back to back. In each quad, only one diagonal lies inside the quad.
     let points = vec![
         DVec3::ZERO,
         DVec3::new(2.0, 1.0, 0.0),
@@ -281,7 +282,7 @@ fn faces_that_ear_clipping_cannot_cut_become_fans_and_are_counted() {
         assert_eq!(report.notes, [note]);
         assert_eq!(cut.valence(VertexId::new(0)), points.len() - 1);
     }
-    // Ear clipping may fail for crossing sides, but the mesh is valid in any case.
+    // If the sides of the face cross, ear clipping may fail, but the mesh is valid in any case.
     checked(&all(), &polygon(&eight));
 }
 
@@ -289,7 +290,7 @@ fn faces_that_ear_clipping_cannot_cut_become_fans_and_are_counted() {
 fn scaling_does_not_change_the_diagonals() {
     let mesh = shapes::cylinder(11, true);
     let expected = applied(&all(), mesh.clone());
-    // Scaling by powers of two is exact.
+    // Multiplying coordinates by a power of two causes no rounding error.
     for exponent in [-900_i64, -300, 1, 300, 1000] {
         let scale = f64::from_bits(u64::try_from(1023 + exponent).unwrap() << 52);
         let mut scaled = mesh.clone();
@@ -408,7 +409,8 @@ proptest! {
         let (cut, report) = checked(&all(), &mesh);
         prop_assert_eq!(report.notes, Vec::<String>::new());
         prop_assert_eq!(cut.n_faces(), n - 2);
-        // Areas are not signed: overlapping or turned-over triangles would increase the sum.
+        // `area` adds the absolute areas of the faces, so overlapping or turned-over triangles would increase the
+        // total.
         prop_assert!((geometry::area(&cut) - geometry::area(&mesh)).abs() < 1e-9 * geometry::area(&mesh));
     }
 

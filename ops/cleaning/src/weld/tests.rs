@@ -14,7 +14,7 @@ fn weld(distance: f64) -> Weld {
     Weld { distance }
 }
 
-/// Returns a mesh with the same faces, but without shared vertices.
+/// Returns a mesh with the same faces in which each corner of a face has its own vertex.
 fn torn(mesh: &Mesh) -> Mesh {
     let mut positions = Vec::new();
     let mut polygons = Vec::new();
@@ -82,7 +82,8 @@ fn a_second_weld_changes_nothing() {
 
 #[test]
 fn a_mesh_without_close_vertices_keeps_every_number() {
-    // Building the mesh again from polygons could pair half-edges differently, so the mesh must not be built again.
+    // If no vertices merge, the mesh must not be built again from polygons, because half-edges could then get other
+    // ids.
     let mesh = shapes::uv_sphere(6, 5);
     assert_eq!(applied(&weld(1e-6), mesh.clone()), mesh);
     assert_eq!(applied(&weld(1e-6), Mesh::default()), Mesh::default());
@@ -138,7 +139,7 @@ fn faces_and_edges_keep_their_values() {
     mesh.set(CREASE, (0..24).map(f64::from).collect());
     let welded = applied(&weld(0.0), mesh.clone());
     assert_eq!(values(&welded, MATERIAL), [5, 4, 3, 2, 1, 0]);
-    // A merged edge has the value of the first of its two edges.
+    // When two edges become one edge, the edge gets the value of the edge with the lower id.
     for e in welded.edges() {
         let place = |mesh: &Mesh, e| {
             let [a, b] = mesh.edge_vertices(e).map(|v| mesh.position(v));
@@ -206,7 +207,7 @@ fn squares_of_opposite_orientation_agree_after_welding() {
         ]
     );
     assert!(welded.get(VERTEX_NORMAL).is_none());
-    // The values of edges and corners are at the same positions as before.
+    // Each edge and each corner has the value that the edge or corner at the same position had before the step.
     for e in welded.edges() {
         let first = mesh
             .edges()

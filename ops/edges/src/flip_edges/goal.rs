@@ -15,11 +15,11 @@
 //! the plane, a flip does not change the Dirichlet energy of linear functions. The change of the Dirichlet energy by a
 //! flip is a quadratic form of rank 1 in the values of the function at the four corners. The sign of this quadratic
 //! form depends on whether the fourth corner of the two triangles is inside the circle through the other three corners
-//! (Rippa, "Minimal Roughness Property of the Delaunay Triangulation", 1990). So in the plane, a flip reduces the
-//! energy if and only if the edge does not satisfy the Delaunay condition. Flipping such edges ends with the Delaunay
-//! triangulation (Lawson, "Software for C1 Surface Interpolation", 1977). Four times the sum of the energies of all
-//! triangles is the harmonic index of Musin, "Properties of the Delaunay Triangulation", 1997. The energy is also
-//! defined for surfaces in space.
+//! (Rippa, "Minimal Roughness Property of the Delaunay Triangulation", 1990). In the plane, a flip therefore reduces
+//! the energy if and only if the edge does not satisfy the Delaunay condition. Flipping such edges ends with the
+//! Delaunay triangulation (Lawson, "Software for C1 Surface Interpolation", 1977). Four times the sum of the energies
+//! of all triangles is the harmonic index of Musin, "Properties of the Delaunay Triangulation", 1997. The energy is
+//! also defined for surfaces in space.
 //!
 //! A flip that reduces the number of zero-area triangles is an improvement. If all four corners are collinear, both
 //! diagonals give zero-area triangles, and the shorter diagonal is better. Together, these two rules let flips resolve
@@ -33,16 +33,16 @@ use std::ops::Range;
 
 use mesh::{DVec3, EdgeId, Mesh, VertexId};
 
-/// A triangle whose height is less than this fraction of its size counts as a zero-area triangle, because its computed
-/// area is rounding error.
+/// A triangle counts as a zero-area triangle if its height is less than this fraction of its size, because the computed
+/// area of such a triangle is only rounding error.
 const NO_AREA: f64 = 1e-14;
 
 /// The range of squared lengths for which products of four lengths neither underflow nor overflow. The lengths are from
 /// 1e-60 to 1e60 scene units.
 const SIZES: Range<f64> = 1e-120..1e120;
 
-/// Energies whose relative difference is less than this value count as equal. Four corners on a circle, such as the
-/// corners of a square, therefore keep their diagonal.
+/// Energies whose relative difference is less than this value count as equal. If all four corners lie on a circle, as
+/// in a square, the diagonal is therefore not flipped.
 const TIE: f64 = 1e-12;
 
 /// The energies of two zero-area triangles.
@@ -50,7 +50,7 @@ const BOTH_WITHOUT_AREA: [f64; 2] = [f64::INFINITY; 2];
 
 /// The goal of flips.
 pub(crate) enum Goal {
-    /// The lowest sum of cotangents.
+    /// The lowest possible sum of the cotangents of all angles.
     Delaunay,
     /// Vertex valences close to their targets, which are 6 inside the surface and 4 on the boundary.
     Valence {
@@ -172,9 +172,10 @@ impl Quad {
 }
 
 /// Returns the sum of the cotangents of the angles of a triangle. The sum is infinite if the triangle has no area, and
-/// NaN if the triangle is too small or too large to compute. A flip with an energy of NaN is never an improvement.
+/// NaN if the triangle is too small or too large to compute. If the energy of a triangle is NaN, the flip is never an
+/// improvement.
 ///
-/// The corners are sorted by their ids, so the result for the same three vertices is always exactly the same.
+/// The corners are sorted by their ids, so that the bits of the result do not depend on the order of the corners.
 fn energy(mesh: &Mesh, mut corners: [VertexId; 3]) -> f64 {
     corners.sort_unstable();
     let [p, q, r] = corners.map(|v| mesh.position(v));

@@ -1,10 +1,11 @@
 //! Flips edges as long as flips improve the mesh.
 //!
-//! A pass checks edges in order of their ids. The first pass checks all edges. Each later pass checks only edges near
-//! vertices whose edges changed. At all other edges, the check would have the same result as in the previous pass. (A
-//! flip is refused if an edge already joins the two opposite corners. If this joining edge is flipped, both of its
-//! former ends count as changed vertices.) A pass without a flip is the last one. Every pass checks all refused edges
-//! again, so the last pass finds all edges that are still refused.
+//! A pass checks edges in order of their ids. The first pass checks all edges. Each later pass checks the edges near
+//! vertices whose edges changed, and the edges whose flip the previous pass refused. At all other edges, the check
+//! would have the same result as in the previous pass. (A flip is refused if an edge already joins the two opposite
+//! corners. If this joining edge is flipped, both of its former ends count as changed vertices.) A pass that flips no
+//! edge is the last pass. Every pass checks all edges again that the previous pass refused, so the report counts only
+//! the refusals of the last pass.
 
 use mesh::{EdgeId, EditError, FaceId, Mesh, VertexId};
 use op::{Context, OpError, Report};
@@ -15,7 +16,8 @@ use crate::flip_edges::goal::{Goal, Quad};
 ///
 /// # Errors
 ///
-/// Returns [`OpError::Cancelled`] if the run was canceled. Some edges have possibly been flipped before.
+/// Returns [`OpError::Cancelled`] if the run was canceled. Some edges have possibly been flipped before the
+/// cancellation.
 pub(crate) fn flip_until(
     mesh: &mut Mesh,
     edges: &[EdgeId],
@@ -92,7 +94,7 @@ struct ChangedNeighborhood {
     vertices: Vec<VertexId>,
     /// For each vertex, whether it is in `vertices`.
     has_vertex: Vec<bool>,
-    /// For each edge, whether flipping it is allowed and it is not collected yet.
+    /// For each edge, whether it can be collected: flipping the edge is allowed, and the edge is not collected yet.
     is_free: Vec<bool>,
 }
 

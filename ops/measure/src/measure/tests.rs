@@ -9,7 +9,7 @@ fn parse(text: &str) -> Measure {
     read(text).unwrap()
 }
 
-/// Returns the values of an attribute after the step, and the notes.
+/// Runs the step. Returns the values of the new attribute, and the notes of the report.
 fn measured(text: &str, mesh: Mesh) -> (Vec<f64>, Vec<String>) {
     let step = parse(text);
     let (mesh, report) = try_applied(&step, mesh).unwrap();
@@ -138,7 +138,8 @@ fn geodesics_start_at_the_selected_vertices() {
     let (found, _) = measured(text, shapes::cube());
     assert_eq!(found[0], 0.0);
     assert!(found[1..].iter().all(|d| *d > 1.0 && *d < 5.0), "{found:?}");
-    // The farthest vertex is the opposite one, at the distance 2 √5 across two sides.
+    // The farthest vertex is the opposite corner of the cube. The shortest path to it crosses two sides and has the
+    // length 2 √5.
     let (far, _) =
         (found.iter().zip(0..)).fold((0.0, 0), |a, (d, v)| if *d > a.0 { (*d, v) } else { a });
     assert!((far - 20_f64.sqrt()).abs() < 0.5, "{far}");

@@ -44,9 +44,9 @@ fn corners(mesh: &Mesh, points: &[Point], f: FaceId) -> [Point; 3] {
     corners.try_into().expect("a triangle")
 }
 
-/// Returns the square, triangulated by inserting the points one after the other, and its points: the corners of the
-/// square and then the inserted points without duplicates. A point inside or on the border of a triangle cuts it into
-/// three triangles, so a point on an edge gives a zero-area triangle.
+/// Triangulates the square by inserting the points one after the other. Returns the mesh and the points of its
+/// vertices: the corners of the square, and then the inserted points without duplicates. A point inside or on the
+/// border of a triangle cuts it into three triangles, so a point on an edge gives a zero-area triangle.
 fn cut_square(inside: &[Point]) -> (Vec<Point>, Mesh) {
     let mut points = vec![[0, 0], [SIDE, 0], [SIDE, SIDE], [0, SIDE]];
     let mut triangles = vec![[0, 1, 2], [0, 2, 3]];
@@ -123,7 +123,7 @@ proptest! {
 
 #[test]
 fn the_diagonals_of_squares_are_not_flipped() {
-    // All four corners are on a circle, so neither diagonal is better.
+    // The four corners of a square lie on a circle, so neither diagonal of the square is better.
     let grid = geometry::shapes::fans(&geometry::shapes::grid(9, 7));
     let (flipped, report) =
         try_applied(&parse("(edges: All, until: Delaunay)"), grid.clone()).unwrap();

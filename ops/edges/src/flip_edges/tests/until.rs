@@ -126,7 +126,7 @@ proptest! {
         flip_with_checks(&mut mesh, until);
         prop_assert_eq!(mesh.defects(), []);
         prop_assert_eq!(remaining_improvements(&mesh, until), []);
-        // A second run changes nothing.
+        // A second run of the operation changes nothing.
         let at_goal = mesh.clone();
         let report = flip_with_checks(&mut mesh, until);
         prop_assert_eq!(report.changed, 0);
@@ -228,7 +228,7 @@ fn refused_flips_at_seams_are_counted() {
 
 #[test]
 fn an_improving_flip_that_is_refused_is_counted() {
-    // The opposite corners of the long edge are already joined by a short edge.
+    // A short edge already joins the corners opposite to the long edge.
     let mut sliver = shapes::tetrahedron();
     let positions = [(-9., 0., 0.), (9., 0., 0.), (0., 1., -0.1), (0., -1., -0.1)];
     for (p, at) in sliver.positions_mut().iter_mut().zip(positions) {
@@ -287,7 +287,7 @@ fn the_unit_of_length_does_not_matter() {
     for until in ["Delaunay", "Valence"] {
         let flip = parse(&format!("(edges: All, until: {until})"));
         let expected = applied(&flip, scaled(1.0));
-        // Scaling by powers of two is exact.
+        // Multiplying coordinates by a power of two causes no rounding error.
         for scale in [1_f64 / (1_u64 << 40) as f64, (1_u64 << 40) as f64] {
             for scale in [scale, scale * scale, scale * scale * scale] {
                 let mesh = applied(&flip, scaled(scale));

@@ -83,8 +83,8 @@ impl MeshOperation for DeleteFaces {
     }
 }
 
-/// Removes the faces one by one. Repeats this for the remaining faces, until none remain or none of them can be
-/// removed.
+/// Tries to remove the faces one by one, and then tries again with the faces whose removal was refused. Stops when all
+/// `faces` are removed, or when no further face can be removed.
 fn one_by_one(mesh: &mut Mesh, faces: Vec<FaceId>, cx: &Context) -> Result<Report, OpError> {
     let total = faces.len();
     let mut refused: Vec<(FaceId, EditError)> = Vec::new();
@@ -172,8 +172,8 @@ mod tests {
 
     #[test]
     fn a_refused_face_is_tried_again_after_later_faces() {
-        // Removing face 0 makes a vertex non-manifold while face 1 exists. Removing face 7, at the opposite corner,
-        // always makes a vertex non-manifold.
+        // As long as face 1 exists, removing face 0 would make a vertex non-manifold. Removing face 7, at the opposite
+        // corner, would always make a vertex non-manifold.
         let ring = applied(&parse("(faces: Faces([4]))"), shapes::grid(3, 3));
         let numbers = "(faces: Faces([0, 1, 7]), on_refusal: Skip)";
         let (mesh, report) = try_applied(&parse(numbers), ring).unwrap();

@@ -8,9 +8,9 @@
 //!   +-------- +             +------ +               which does not move
 //! ```
 //!
-//! Faces that share an edge move together, as a region. A point p of a region with the center c moves to
-//! `R s (p - c) + c + o`, where s is the scale, R the rotation and o the offset. For `Distance(d)`, the offset o is d
-//! times the normal of the region.
+//! Faces that share an edge move together, as a region. A point p of a region with the center c moves to `R s (p - c) +
+//! c + o`, where s is the scale, R the rotation and o the offset. With `by: Distance(d)`, the offset o is the unit
+//! normal of the region, multiplied by d.
 
 mod region;
 
@@ -102,7 +102,7 @@ impl MeshOperation for ExtrudeFaces {
     const WORDS: &'static [&'static str] = &["offset", "thicken"];
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        // The number of edges of all rims is at most the number of sides of the selected faces. No edge is on two rims.
+        // All rims together have at most as many edges as the selected faces have sides. No edge is on two rims.
         let sides = self.faces.count(plan).times(plan.degrees);
         let rim = sides.capped(plan.edges.max).or_less();
         plan.grow(rim, rim.by(2), rim);
@@ -154,7 +154,7 @@ impl MeshOperation for ExtrudeFaces {
     }
 }
 
-/// Applies a linear map to a region, with the center of the region as the fixed point.
+/// Applies the linear map `linear` to the vertices of a region. The center of the region is the fixed point.
 fn transform(mesh: &mut Mesh, region: &Region, linear: DMat3) -> Result<(), OpError> {
     if linear == DMat3::IDENTITY {
         return Ok(());
@@ -171,7 +171,7 @@ fn transform(mesh: &mut Mesh, region: &Region, linear: DMat3) -> Result<(), OpEr
     Ok(())
 }
 
-/// Marks faces. Extends the list of marks if a face was added after the list was created.
+/// Sets the marks of `faces` to true. Extends `marks` if it has no entry for a face, because the face was added later.
 fn mark(marks: &mut Vec<bool>, faces: &[FaceId]) {
     for f in faces {
         marks.resize(marks.len().max(f.index() + 1), false);

@@ -28,7 +28,7 @@ pub fn register(registry: Registry) -> Registry {
         .with::<BevelFaces>()
 }
 
-/// Changes the plan of a mesh (the predicted counts): adds a ring of quadrilaterals inside each of `faces` faces.
+/// Adds a ring of quadrilaterals inside each of `faces` faces to the plan of a mesh, which predicts its counts.
 fn plan_rings(plan: &mut MeshPlan, faces: Range) {
     let corners = plan.corners_of(faces);
     plan.grow(corners, corners.by(2), corners);

@@ -101,7 +101,8 @@ mod tests {
     fn the_distance_follows_the_normal() {
         let mesh = applied(&parse("(distance: 2)"), shapes::square());
         assert_eq!(mesh.position(VertexId::new(4)), DVec3::new(0.5, 0.5, 2.0));
-        // The result is a cube whose sides are 2 x 2 squares, each with a pyramid of height 1.
+        // The result is a cube with a pyramid of height 1 on each side. The sides of the cube are squares with the side
+        // length 2.
         let mesh = applied(&parse("(distance: 1)"), shapes::cube());
         assert!((geometry::volume(&mesh) - (8.0 + 6.0 * 4.0 / 3.0)).abs() < 1e-12);
     }

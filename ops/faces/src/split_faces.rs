@@ -88,7 +88,8 @@ impl SplitFaces {
     }
 }
 
-/// Returns the id with this number. If the number is too large for an id, returns an id that no mesh contains.
+/// Returns the vertex id with this number. If the number is too large for an id, returns `NONE`, which is not the id of
+/// a vertex.
 fn vertex(number: u32) -> VertexId {
     if number == u32::MAX {
         VertexId::NONE
@@ -170,7 +171,7 @@ mod tests {
             refused("(between: [(0, 4294967295)])", shapes::cube()),
             Refusal::Missing
         );
-        // The second cut repeats the first, so an edge already joins its vertices.
+        // The second cut repeats the first cut, so an edge already joins the two vertices of the second cut.
         assert_eq!(
             refused("(between: [(0, 3), (3, 0)])", shapes::cube()),
             Refusal::DuplicateEdge

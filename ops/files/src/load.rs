@@ -165,7 +165,7 @@ impl Load {
                 PeekGeometry::Curve { points } => PlannedGeometry::Curve(Range::exactly(points)),
                 PeekGeometry::Polylines { .. } => PlannedGeometry::Polylines,
             };
-            // `name` does not replace the names that objects have in the file.
+            // The parameter `name` does not replace the names that objects have in the file.
             let is_named_here = self.name.as_ref() == Some(&object.name);
             let field = if is_named_here { "name" } else { "path" };
             let taken = plan.insert(&object.name, geometry);
@@ -183,7 +183,8 @@ impl Load {
     }
 }
 
-/// If the faces of the file were examined, returns the possible loss of faces that contain a vertex twice.
+/// Returns the possible loss of faces that may contain a vertex twice. Returns `None` if there are no such faces, or if
+/// `peek` did not examine the faces.
 fn dropped_faces(peek: &Peek, path: &Path) -> Option<Loss> {
     let count = |object: &PeekObject| match object.geometry {
         PeekGeometry::Mesh(mesh) if mesh.keeps_vertices || mesh.simple_faces > 0 => {
@@ -205,7 +206,7 @@ fn dropped_faces(peek: &Peek, path: &Path) -> Option<Loss> {
     })
 }
 
-/// Converts a note of the reader about content of the file that was left out. Returns a loss.
+/// Converts a note to a loss. In the note, the reader of the file reports that it left out some content.
 fn loss(note: &Note) -> Loss {
     Loss::reading(
         &note.path.display().to_string(),
@@ -215,7 +216,8 @@ fn loss(note: &Note) -> Loss {
     )
 }
 
-/// Converts a note of the reader about a change that it made to a mesh, such as a split vertex.
+/// Converts a note to a change. In the note, the reader of the file reports that it changed a mesh, for example by
+/// splitting a vertex.
 fn change(note: &Note) -> ReadingChange {
     let vertex = |v: &VertexId| v.index() as u64;
     let elements = note.elements.as_ref().map(|elements| match elements {
@@ -235,12 +237,12 @@ fn change(note: &Note) -> ReadingChange {
     }
 }
 
-/// The plan of a mesh, which predicts its attributes before the run, lists at most this number of joints, and at most
-/// this number of morph targets.
+/// The largest number of joints, and the largest number of morph targets, in the plan of a mesh (the prediction of its
+/// counts and attributes before the run).
 const MAX_PLANNED: u64 = 1 << 12;
 
-/// Returns the plan of a mesh that is read from a file: its predicted counts and attributes. `peek` contains the number
-/// of elements of each kind in the file.
+/// Returns the plan of a mesh that is read from a file. The plan predicts the counts and attributes of the mesh. `peek`
+/// contains the number of elements of each kind in the file.
 fn planned(object: &PeekObject, peek: &PeekMesh, policies: Policies) -> MeshPlan {
     let range = |range: RangeInclusive<u64>| Range::between(*range.start(), *range.end());
     let ranges = peek.ranges(policies);
@@ -273,8 +275,8 @@ fn planned(object: &PeekObject, peek: &PeekMesh, policies: Policies) -> MeshPlan
     provide_uncertain(peek.normals, Domain::Corner, mesh::CORNER_NORMAL.name);
     provide_uncertain(peek.colors, Domain::Vertex, mesh::COLOR.name);
     provide_uncertain(peek.materials, Domain::Face, mesh::MATERIAL.name);
-    // These attributes are not certain: the reader can leave out morph targets, and a joint has weights only if a
-    // vertex uses the joint.
+    // The attributes of joints and morph targets are not certain: the reader can leave out morph targets, and a joint
+    // has weights only if a vertex uses the joint.
     let deformers = |n: u64, name: fn(usize) -> String| {
         let n = usize::try_from(n.min(MAX_PLANNED)).unwrap_or(0);
         (0..n).map(name)

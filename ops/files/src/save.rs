@@ -118,7 +118,7 @@ impl Operation for Save {
         };
         let written = mesh_io::write(&cx.cancellable_store(), &path, &chosen, &options);
         if written.is_err() {
-            // If the run was cancelled, the step fails with `Cancelled` instead of the error of the writer.
+            // If the run was canceled, the step fails with `Cancelled` instead of the error of the writer.
             cx.advance("write", 0, 1)?;
         }
         let written = written.map_err(|e| files.output_error(e))?;

@@ -50,7 +50,7 @@ pub(crate) fn plan(save: &Save, plan: &mut Plan, cx: &PlanContext) -> Vec<Proble
     problems
 }
 
-/// The losses that certainly occur, and the losses that possibly occur.
+/// The losses that will certainly occur, and the losses that will possibly occur.
 #[derive(Default)]
 struct Losses {
     certain: Vec<Loss>,
@@ -71,8 +71,9 @@ impl Losses {
     }
 }
 
-/// Adds the losses for a format without nodes. If `all` is true, all objects are written, and the losses are certain.
-/// If `all` is false, only some objects with their nodes are written, so the losses are only possible.
+/// Adds the losses of nodes, cameras, lights, skins and animations, for a format that cannot store nodes. If `all` is
+/// true, all objects are written, and the losses are certain. If `all` is false, only some objects with their nodes are
+/// written, so the losses are only possible.
 fn graph_losses(plan: &Plan, objects: &[&PlannedObject], all: bool, losses: &mut Losses) {
     let graph = plan.graph();
     let unplaced: u64 = objects.iter().map(|o| o.unplaced_nodes).sum();
@@ -93,14 +94,14 @@ fn graph_losses(plan: &Plan, objects: &[&PlannedObject], all: bool, losses: &mut
     }
 }
 
-/// A format, and the options of the writer.
+/// The format of the output file, and the step with its options.
 struct Writing<'a> {
     save: &'a Save,
     format: Format,
 }
 
 impl Writing<'_> {
-    /// Adds the losses of a mesh.
+    /// Adds the losses that occur when the mesh of the object is written.
     fn mesh(&self, object: &str, mesh: &MeshPlan, losses: &mut Losses) {
         let format = self.format;
         if format.has_only_triangles() && mesh.degrees.max > 3 && mesh.faces.max > 0 {

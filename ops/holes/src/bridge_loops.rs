@@ -57,8 +57,8 @@ impl MeshOperation for BridgeLoops {
                 "`first` and `second` must be on different holes, but they are the same vertex";
             problems.push(Problem::error(message).at(["second"]));
         }
-        // If the hole with more edges has n edges, the band between the holes has n faces. Every hole has at least two
-        // edges.
+        // Let n be the number of edges of the hole with more edges. The band between the holes then has n faces. Every
+        // hole has at least two edges.
         let band = Range::between(2, plan.edges.max);
         plan.grow(Range::exactly(0), band, band);
         plan.degrees = plan.degrees.or(Range::between(3, 4));
@@ -141,7 +141,7 @@ mod tests {
     fn joining_the_hole_and_the_rim_of_a_sheet_gives_a_torus() {
         let mesh = sheet_with_a_hole();
         assert_eq!(mesh.n_boundary_loops(), 2);
-        // A corner of the rim is joined to the opposite corner of the hole.
+        // The first new edge joins a corner of the outer rim to the opposite corner of the hole.
         let mut corners = mesh.vertices().filter(|&v| {
             let p = mesh.position(v);
             p == DVec3::new(1.0, 1.0, 0.0)

@@ -64,8 +64,8 @@ impl MeshOperation for Cut {
 }
 
 impl Cut {
-    /// Returns the edges that can be cut together. If an edge cannot be cut, returns an error. If `on_refusal` is
-    /// `Skip`, leaves out the edge instead, and counts it in the report.
+    /// Returns the edges of `edges` that can be cut together. If an edge cannot be cut, the function returns an error
+    /// or, with `on_refusal: Skip`, leaves out the edge and counts it in the report.
     fn allowed(
         &self,
         mesh: &Mesh,
@@ -115,6 +115,8 @@ mod tests {
 
     #[test]
     fn a_path_across_a_sheet_separates_it() {
+        // The vertex ids of the sheet, seen from above:
+        //
         // 6 7 8
         // 3 4 5
         // 0 1 2

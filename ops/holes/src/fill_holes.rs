@@ -63,7 +63,7 @@ impl MeshOperation for FillHoles {
     const WORDS: &'static [&'static str] = &["hole", "close", "cap", "repair"];
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        // A filled hole has at least three edges, and no edge is on two holes.
+        // Only holes with at least three edges are filled, and no edge is on the boundary of two holes.
         match self.with {
             Cover::Face => {
                 let corners = self.max_edges.map_or(u64::MAX, |most| most.get().into());

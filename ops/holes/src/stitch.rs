@@ -73,7 +73,8 @@ impl MeshOperation for Stitch {
             return Ok(report.note("there are no pairs of coinciding boundary edges to join"));
         }
         let edit = |mesh: &mut Mesh, [h, g]: [HalfEdgeId; 2]| {
-            // It is possible that this pair is already joined, because joining neighboring pairs can join it, too.
+            // Joining the neighboring pairs of a pair can also join this pair, so it is possible that the pair is
+            // already joined.
             if is_closed(mesh, h) && is_closed(mesh, g) {
                 return Ok(());
             }
@@ -91,7 +92,7 @@ impl MeshOperation for Stitch {
     }
 }
 
-/// Whether the edge of `h`, which was on the boundary, has already been joined.
+/// Whether the edge of `h` has already been joined to another edge. Before the step, `h` was a boundary half-edge.
 fn is_closed(mesh: &Mesh, h: HalfEdgeId) -> bool {
     !mesh.has_edge(h.edge()) || mesh.face(h).is_some()
 }

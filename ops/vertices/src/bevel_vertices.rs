@@ -51,7 +51,7 @@ impl MeshOperation for BevelVertices {
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let done = self.on_refusal.done(self.vertices.count(plan));
         if done.max > 0 {
-            // An edge can be cut at one end, at both ends or not at all. A beveled vertex has at least three edges.
+            // An edge can be cut near one end, near both ends or not at all. A beveled vertex has at least three edges.
             let cuts = Range::between(done.by(3).min, plan.edges.by(2).max);
             // A new face has as many corners as its vertex had edges. An old face gains at most one corner for each of
             // its corners.
@@ -100,7 +100,7 @@ mod tests {
         let counts = [mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()];
         assert_eq!(counts, [24, 36, 14]);
         assert!(plan.vertices.contains(24) && plan.edges.contains(36));
-        // The coordinates of every vertex are 1, 1 and 1/2, in any order and with any signs.
+        // The absolute values of the coordinates of every vertex are 1, 1 and 1/2, in any order.
         for &p in mesh.positions() {
             let mut p = p.abs().to_array();
             p.sort_by(f64::total_cmp);

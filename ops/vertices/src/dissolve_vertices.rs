@@ -52,8 +52,8 @@ impl MeshOperation for DissolveVertices {
         }
         let n = self.on_refusal.done(chosen);
         plan.vertices = plan.vertices.minus(n);
-        // Each removed vertex also removes at least one edge. If the mesh has faces, at least one face remains, with at
-        // least three edges.
+        // The removal of a vertex also removes at least one edge. If the mesh has faces, at least one face with at
+        // least three edges remains.
         plan.edges = Range::between(plan.edges.min.min(3), plan.edges.minus(n).max);
         plan.faces.min = plan.faces.min.min(1);
         plan.degrees = Range::between(3, plan.edges.by(2).max.max(3));
@@ -91,7 +91,7 @@ mod tests {
 
     #[test]
     fn an_icosahedron_without_two_poles_has_two_pentagons() {
-        // Vertices 0 and 3 are opposite.
+        // In the icosahedron, the vertices 0 and 3 lie opposite each other.
         let poles = parse("(vertices: Vertices([0, 3]))");
         let mesh = applied(&poles, shapes::icosahedron());
         assert_eq!(

@@ -51,7 +51,8 @@ impl MeshOperation for Tangents {
             }
         }
         plan.provide(Domain::Corner, CORNER_TANGENT.name);
-        // A later step that changes connectivity drops the tangents, so they are not certain to stay.
+        // A later step that changes the connectivity drops the tangents, so it is not certain that the tangents are
+        // kept.
         if let Some(tangents) = plan.attributes.last_mut() {
             tangents.certain = false;
         }
@@ -98,7 +99,7 @@ mod tests {
         op::test::read(text).unwrap()
     }
 
-    /// A grid whose texture coordinates follow x and y.
+    /// Returns a grid whose texture coordinates are the x and y coordinates of its vertices.
     fn sheet(name: &str) -> Mesh {
         let mut mesh = shapes::grid(3, 2);
         let place = |h: usize| mesh.position(mesh.origin(mesh::HalfEdgeId::new(h)));

@@ -97,7 +97,8 @@ mod tests {
         mesh.get(VERTEX_NORMAL).unwrap().to_vec()
     }
 
-    /// Computes the same normals by scattering: every face adds its weighted normal to its vertices.
+    /// Computes vertex normals in another way, as a reference for the tests: every face adds its weighted normal to
+    /// each of its vertices.
     fn scattered(mesh: &Mesh, weight: Weight) -> Vec<DVec3> {
         let mut sums = vec![DVec3::ZERO; mesh.n_vertices()];
         for f in mesh.faces() {
@@ -214,7 +215,8 @@ mod tests {
     #[test]
     fn isolated_vertices_and_faces_that_cancel_get_zero_and_are_counted() {
         let points = vec![DVec3::ZERO, DVec3::X * 0.1, DVec3::Y * 0.3, DVec3::Z];
-        // The mesh has both sides of one triangle, and the isolated vertex 3.
+        // The mesh consists of two triangles with the same vertices and opposite orientations, and of the isolated
+        // vertex 3.
         let (mesh, _) = Mesh::from_polygons(points, &[[0, 1, 2], [0, 2, 1]]).unwrap();
         for weight in WEIGHTS {
             let (mesh, report) = try_applied(&VertexNormals { weight }, mesh.clone()).unwrap();
@@ -316,7 +318,8 @@ mod tests {
             let expected = scattered(&mesh, weight);
             let found = normals_of(mesh.clone(), weight);
             for v in mesh.vertices().map(VertexId::index) {
-                // The bound is loose because rounding dominates where face normals nearly cancel.
+                // The tolerance is large because rounding errors dominate where the normals of the faces nearly cancel
+                // each other out.
                 prop_assert!(found[v].distance(expected[v]) < 1e-9, "{v} {} {}", found[v], expected[v]);
             }
         }

@@ -51,7 +51,8 @@ fn each_region_moves_along_its_normal_and_scales_about_its_center() {
 
 #[test]
 fn faces_that_share_an_edge_are_one_region_with_a_mean_normal() {
-    // The faces are the front face and the right face, so the normal of the region is the mean of -y and +x.
+    // The region consists of the front face and the right face of the cube, so its normal is the direction between -y
+    // and +x.
     let (mesh, report) = try_applied(
         &parse("(faces: Faces([2, 3]), by: Distance(1))"),
         shapes::cube(),
@@ -89,12 +90,13 @@ fn repeated_extrusions_of_a_cube_give_one_closed_component() {
         "(faces: Faces([1]), by: Distance(0.4), scale: 1.8)",
         "(faces: Faces([1]), by: Distance(0.8))",
         "(faces: Faces([1]), by: Distance(0.3), scale: 0.6, tag: \"crown\")",
-        // One step grows both arms, to the right and to the left. Then the right arm is bent upwards.
+        // Two steps grow both arms, one to the right and one to the left. Two more steps bend the right arm upwards.
         "(faces: Faces([3, 5]), by: Distance(0.5), scale: 0.4, tag: \"arms\")",
         "(faces: Faces([3, 5]), by: Distance(1.5), scale: 0.8)",
         "(faces: Faces([3]), by: Distance(0.5), rotate: [(axis: Y, angle: -60)])",
         "(faces: Faces([3]), by: Distance(1))",
-        // The hips, whose first side face has id 50. Two legs grow out of the left and right side faces.
+        // One step adds the hips, whose first side face has the id 50. Two legs then grow out of the left and the right
+        // side face of the hips.
         "(faces: Faces([0]), by: Distance(1))",
         "(faces: Faces([50, 52]), by: Distance(0.2), scale: 0.5, tag: \"legs\")",
         "(faces: Faces([50]), by: Offset((-0.4, 0, -0.4)), rotate: [(axis: Y, angle: -90)])",

@@ -25,7 +25,7 @@ struct Rim {
     ends: [DVec3; 2],
 }
 
-/// The boundary edges that coincide with an edge.
+/// Whether no other boundary edge, one, or several boundary edges coincide with an edge.
 #[derive(Clone, Copy, PartialEq)]
 enum Matches {
     None,
@@ -41,9 +41,9 @@ impl Pairs {
         let total = rims.len() as u64;
         cx.advance("find coinciding edges", 0, total)?;
         let mut matches = vec![Matches::None; rims.len()];
-        // The cells around an edge form nine rows of three cells. `begins` has the positions in `rims` at which these
-        // rows begin. From one edge to the next, these positions never decrease, because the edges are visited in the
-        // order of their cells.
+        // The cells around an edge form nine rows of three cells. `begins` contains the index in `rims` at which each
+        // row begins. The indices in `begins` never decrease, because the edges are visited in the order of their
+        // cells.
         let mut begins = [0; 9];
         for (i, rim) in rims.iter().enumerate() {
             matches[rim.number] = matches_of(&rims, rim, &mut begins, distance);
@@ -79,8 +79,8 @@ fn sorted_rims(
     let midpoints = || outer.iter().map(|h| midpoint(ends(h)));
     let least = midpoints().reduce(DVec3::min).unwrap_or_default();
     let most = midpoints().reduce(DVec3::max).unwrap_or_default();
-    // The side of a cell is twice the distance, which leaves a margin for rounding. The second argument of `max` bounds
-    // the number of cells along an axis, even if the distance is tiny.
+    // The side of a cell is twice the distance, which leaves a margin for rounding. The argument of `max` limits the
+    // number of cells along an axis to about 1e9, even if the distance is tiny.
     let size = (2.0 * distance).max(1e-9 * (most - least).max_element());
     let size = if size > 0.0 { size } else { 1.0 };
     let rim = |(number, h)| Rim {
@@ -89,8 +89,8 @@ fn sorted_rims(
         ends: ends(h),
     };
     let mut rims: Vec<Rim> = outer.iter().enumerate().map(rim).collect();
-    // Short parts are sorted first and then merged. In between, progress is reported and the run can be canceled. Two
-    // sorted parts are merged by sorting their concatenation.
+    // Short parts are sorted first and then merged. After each part, progress is reported and the run can be canceled.
+    // Two sorted parts are merged by sorting their concatenation.
     let mut width = 1 << 16;
     loop {
         for (i, part) in rims.chunks_mut(width).enumerate() {
@@ -108,16 +108,17 @@ fn sorted_rims(
     }
 }
 
-/// Returns the cell that contains a point. The unit of the coordinates is the size of a cell.
+/// Returns the indices of the cell that contains a point. In the coordinates of `place`, every cell has the side
+/// length 1.
 #[expect(clippy::cast_possible_truncation, reason = "at most 1e12")]
 fn cell(place: DVec3) -> [i64; 3] {
-    // The limit of 1e12 applies only if the division by the size overflows. If the division overflows, the point is in
-    // the last cell.
+    // The limit of 1e12 applies only if the extent of the mesh overflows. The coordinate `x` is then NaN, and `min`
+    // returns 1e12.
     place.to_array().map(|x| x.floor().min(1e12) as i64)
 }
 
-/// Returns the boundary half-edges that coincide with `rim`, by their indices. For each of the nine rows of cells
-/// around the previous edge, `begins` contains the index in `rims` at which the row begins.
+/// Returns the index of the boundary half-edge that coincides with `rim`, if there is exactly one. For each of the nine
+/// rows of cells around the previous edge, `begins` contains the index in `rims` at which the row begins.
 fn matches_of(rims: &[Rim], rim: &Rim, begins: &mut [usize; 9], distance: f64) -> Matches {
     let mut matches = Matches::None;
     let [x, y, z] = rim.cell;

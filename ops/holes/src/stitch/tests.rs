@@ -53,7 +53,7 @@ fn stitching_restores_a_mesh_that_was_cut_apart() {
 #[test]
 fn only_edges_within_the_distance_are_joined() {
     let mut mesh = cut_apart(shapes::grid(3, 3));
-    // Each face is moved by a different offset, at most 0.001 in each coordinate.
+    // Each face is moved by a different offset, whose coordinates are at most 0.001.
     let faces: Vec<_> = mesh.faces().collect();
     for (i, f) in faces.into_iter().enumerate() {
         let shift = DVec3::new((i % 3) as f64, (i / 3) as f64, (i % 2) as f64) * 0.0005;
@@ -72,7 +72,7 @@ fn only_edges_within_the_distance_are_joined() {
 
 #[test]
 fn vertices_without_coinciding_edges_are_not_merged() {
-    // Two squares that meet at a corner. `Weld` would merge the two vertices at this corner.
+    // Two squares touch at a corner, where each square has its own vertex. `Weld` would merge these two vertices.
     let at = |x: f64, y: f64| DVec3::new(x, y, 0.0);
     let positions = [0.0, 1.0]
         .iter()
@@ -84,7 +84,7 @@ fn vertices_without_coinciding_edges_are_not_merged() {
 
 #[test]
 fn an_edge_that_coincides_with_several_edges_is_refused_or_counted() {
-    // Three rectangles that meet along a line, without common vertices.
+    // Three rectangles that meet along a line but have no common vertices.
     let page = |x: f64, y: f64| {
         [
             DVec3::ZERO,
@@ -94,7 +94,8 @@ fn an_edge_that_coincides_with_several_edges_is_refused_or_counted() {
         ]
     };
     let positions = [page(1., 0.), page(0., 1.), page(-1., 0.)].concat();
-    // The second rectangle has the opposite orientation, so its edge matches the edges of the two others.
+    // The second rectangle has the opposite orientation, so its edge on the common line coincides with the edges of
+    // both other rectangles.
     let polygons = [[0, 1, 2, 3], [7, 6, 5, 4], [8, 9, 10, 11]];
     let (mesh, _) = Mesh::from_polygons(positions, &polygons).unwrap();
     let refused = try_applied(&parse("(distance: 0)"), mesh.clone());

@@ -4,14 +4,14 @@ use mesh::{DVec3, FaceId, Mesh, VertexId, angle_between, area_vector, parallel};
 
 use crate::vertex_normals::Weight;
 
-/// A sum of face vectors counts as zero if it is shorter than this fraction of the sum of the magnitudes of the added
-/// vectors. Such a short sum is only rounding error.
+/// A sum of face vectors counts as zero if its largest coordinate is at most this fraction of the sum of the magnitudes
+/// of the added coordinates. A sum below this limit is only rounding error.
 const CANCELLED: f64 = 1e-14;
 
 /// Returns the unit normal of every vertex of a dense mesh, and the number of vertices without a normal. Vertices
 /// without a normal get the zero vector.
 ///
-/// The faces are added in their order around the vertex, so the result is the same for any number of threads. Lengths
+/// The faces are added in their order around the vertex, so the result is the same for any number of threads. Positions
 /// are scaled by a power of two, so the result does not depend on the size of the mesh.
 pub fn normals(mesh: &Mesh, weight: Weight) -> (Vec<DVec3>, usize) {
     let scale = scale(mesh);
@@ -34,8 +34,8 @@ pub fn normals(mesh: &Mesh, weight: Weight) -> (Vec<DVec3>, usize) {
     (normals, without)
 }
 
-/// A sum of vectors, and the sum of the magnitudes of their coordinates. The second sum limits the rounding error of
-/// the first.
+/// A sum of vectors, and the sum of the magnitudes of their coordinates. The sum of the magnitudes gives a bound for
+/// the rounding error of the sum of the vectors.
 #[derive(Clone, Copy, Default)]
 struct Sum {
     sum: DVec3,
@@ -84,8 +84,9 @@ fn summed_by_angle(mesh: &Mesh, v: VertexId, face_vectors: &[DVec3], scale: f64)
     sum.direction()
 }
 
-/// Returns a power of two that scales the extent of the mesh to about 1. Multiplying by a power of two is exact, so the
-/// normals do not change, and products of lengths neither overflow nor underflow.
+/// Returns a power of two that scales the extent of the mesh to about 1. Multiplying by a power of two causes no
+/// rounding error, so the normals do not change. In the scaled mesh, products of lengths neither overflow nor
+/// underflow.
 fn scale(mesh: &Mesh) -> f64 {
     let [min, max] = geometry::bounds(mesh).unwrap_or_default();
     // The coordinates are halved before the subtraction, because the difference of two finite numbers can be infinite.

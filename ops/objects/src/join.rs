@@ -83,7 +83,7 @@ impl Operation for Join {
             return problems;
         }
         if parts.len() != self.objects.len() {
-            // The missing objects are possibly created by an earlier step that could not be planned.
+            // If an earlier step could not be planned, this step possibly creates the missing objects.
             plan.incomplete = true;
             return problems;
         }
@@ -149,7 +149,7 @@ impl Operation for Join {
             &mut report,
         );
 
-        // After all checks, the result replaces the first part, and the other parts are removed.
+        // All checks have passed. The result now replaces the first part, and the other parts are removed.
         let (first, others) = self.objects.split_first().expect("at least one");
         let (geometry, materials) = scene.parts_mut(first).expect("found above");
         (*geometry, *materials) = (joined.geometry, joined.materials);
@@ -184,9 +184,9 @@ impl Join {
         problems
     }
 
-    /// Replaces the nodes of all parts with one node, which is the node of the part whose skin is kept. If no skin is
-    /// kept, the result has no node. `label` has the names and default weights of the morph targets, if the parts share
-    /// them.
+    /// Removes the nodes of all parts except the node of the part `kept`, whose skin is kept. This node then places the
+    /// result. If `kept` is `None`, the result has no node. `label` has the names and default weights of the morph
+    /// targets, if the parts share them.
     fn join_nodes(&self, graph: &mut Graph, kept: Option<&str>, label: Option<MeshLabel>) {
         let first = &self.objects[0];
         if kept != Some(first) {
@@ -211,7 +211,7 @@ impl Join {
         }
     }
 
-    /// Joins parts. Requires that all parts are meshes.
+    /// Joins the parts into one object. All parts must be meshes.
     fn joined(&self, parts: &[&Object], cx: &Context) -> Result<(Object, Report), OpError> {
         let meshes = parts.iter().filter_map(|o| o.as_mesh());
         let meshes: Vec<&Mesh> = meshes.map(Arc::as_ref).collect();
@@ -239,8 +239,8 @@ impl Join {
         Ok((object, report))
     }
 
-    /// Returns the plan of the result, which predicts its counts and attributes. Each part is given with the number of
-    /// its instances, that is, how often nodes place it in the scene.
+    /// Returns the plan of the result, which predicts its counts and attributes. Each entry of `parts` has the number
+    /// of instances of the part, that is, how often nodes place the part in the scene.
     fn joined_plan(&self, parts: &[(MeshPlan, u64)]) -> MeshPlan {
         let mut joined = parts[0].0.clone();
         let none = Range::exactly(0);
@@ -266,7 +266,7 @@ impl Join {
                 }
             }
         }
-        // Normals are dropped unless all parts have them.
+        // An attribute that some parts lack is not certain. If it holds normals, the step drops it.
         let certain =
             |a: &PlannedAttribute| parts.iter().all(|(part, _)| part.attributes.contains(a));
         for attribute in &mut joined.attributes {

@@ -20,7 +20,8 @@ fn insert(mesh: &mut Mesh, name: String, values: Values) {
     mesh.insert_column(Domain::Vertex, Column { name, rule, values });
 }
 
-/// A cube bound to the joints `hip` and `knee`, with a morph target and an animation of the hip.
+/// Returns a scene with a tetrahedron, and a cube that is bound to the joints `hip` and `knee`. The cube has a morph
+/// target. The hip and the weight of the morph target are animated.
 fn scene() -> Scene {
     let mut cube = shapes::cube();
     let weights: Vec<f64> = (0..8).map(|v| f64::from(v) / 8.0).collect();
@@ -90,7 +91,7 @@ fn scene() -> Scene {
     scene
 }
 
-/// The points of an object in scene space.
+/// Returns the points of an object in scene space.
 fn points(scene: &Scene, name: &str) -> Vec<DVec3> {
     let placed = scene.placed();
     placed
@@ -133,7 +134,7 @@ fn a_skinned_object_is_moved_with_its_joints_and_keeps_its_animation() {
         &points(&scene, "hat")[..1],
         &[points(&self::scene(), "hat")[0]],
     );
-    // The animated hip keeps its placement below a new parent.
+    // The animated hip gets a new parent and keeps its own placement.
     assert_eq!(report.notes, ["nodes inserted above animated nodes: 1"]);
     let graph = scene.graph();
     assert_eq!(graph.nodes()[1].name.as_deref(), Some("hip"));
@@ -188,13 +189,14 @@ fn a_part_without_a_skin_stays_where_it_is_and_follows_the_first_joint() {
     }
 }
 
-/// Names and default weights of morph targets are kept if all parts share them, with a skin and without one.
+/// The names and default weights of morph targets are kept if they are the same in all parts, both with and without a
+/// skin.
 #[test]
 fn a_morphed_object_joined_with_its_copy_keeps_names_and_weights_of_targets() {
     for has_skin in [true, false] {
         let mut scene = scene();
         if !has_skin {
-            // All nodes that place the body have a skin, so all of them are removed.
+            // Each node that places the body has a skin, so the test removes all these nodes.
             scene.graph_mut().remove_object("body");
         }
         let label = MeshLabel {
@@ -308,7 +310,7 @@ fn a_deleted_object_keeps_joints_and_drops_channels() {
     let files = op::Files::default();
     let mut cx = op::Context::new(&op::NoProgress, &files);
     let report = step.apply(&mut scene, &mut cx).unwrap();
-    // A loss of the whole scene has no object.
+    // A loss that concerns the whole scene has an empty object name.
     assert_eq!(report.losses[0].object, "");
     let losses: Vec<String> = report.losses.iter().map(ToString::to_string).collect();
     assert_eq!(
@@ -317,7 +319,7 @@ fn a_deleted_object_keeps_joints_and_drops_channels() {
     );
     assert_eq!(scene.graph().nodes().len(), 3);
     assert_eq!(scene.graph().skins[0].joints, [0, 1]);
-    // A selection of one object keeps only the joints of its skin.
+    // `Scene::only` with one object keeps the joints of the skin of this object, and no other joints.
     let only = self::scene().only(|name| name == "body");
     assert_eq!(only.graph().nodes().len(), 3);
     assert_eq!(only.graph().n_channels(), 2);
@@ -330,7 +332,7 @@ fn a_deleted_object_keeps_joints_and_drops_channels() {
     assert_eq!(back, only);
 }
 
-/// The plan of a step has the nodes, skins, animations and lost channels of the run.
+/// The plan of a step predicts the same nodes, skins, animations and lost channels as the run of the step has.
 #[test]
 fn the_plan_has_the_nodes_of_the_run() {
     fn check<T: op::Operation>(text: &str, scene: &mut Scene) {
@@ -371,7 +373,7 @@ fn the_plan_has_the_nodes_of_the_run() {
         let text = format!(r#"(objects: {parts}, name: "all")"#);
         check::<Join>(&text, &mut scene());
     }
-    // One step after another.
+    // The following steps change the same scene, one after the other.
     let mut scene = scene();
     check::<Copy>(r#"(from: "body", to: "twin")"#, &mut scene);
     check::<Copy>(r#"(from: "hat", to: "cap")"#, &mut scene);
@@ -418,7 +420,8 @@ fn the_plan_names_a_shear() {
         assert_eq!(planned, actual, "{text}");
         assert_eq!(planned.len(), usize::from(is_refused), "{text}");
     }
-    // If the plan is incomplete, its nodes may differ from the nodes of the run, so no problem is reported.
+    // If the plan is incomplete, the nodes of the plan may differ from the nodes of the run, so the plan reports no
+    // problem.
     let step: Transform = op::test::read(uneven).unwrap();
     let mut plan = op::Plan::of(&turned());
     plan.incomplete = true;

@@ -79,8 +79,8 @@ impl Operation for Scatter {
         }
         let object = plan.objects_mut().iter_mut().find(|o| o.name == *name);
         if let Some(object) = object {
-            // If no node places the object, the scene shows the object once. This instance is not counted, because the
-            // step removes it.
+            // If no node places the object, the scene shows the object once. The step removes this single instance, so
+            // it is not counted.
             object.unplaced_nodes = object.unplaced_nodes.saturating_add(n);
         }
         Vec::new()

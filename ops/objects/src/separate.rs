@@ -76,7 +76,7 @@ impl Operation for Separate {
         }
         let part = self.part_of(mesh);
         let Some(count) = self.count.map(Count::get) else {
-            // The number of parts is unknown, so the names of the parts are unknown.
+            // Without `count`, the number and the names of the parts are unknown before the run.
             plan.objects_mut().remove(place);
             plan.edit_graph(|graph| graph.rename_object(&self.object, &self.name(1)));
             plan.incomplete = true;
@@ -138,7 +138,7 @@ impl Operation for Separate {
 }
 
 impl SeparateBy {
-    /// Returns the parts, each with at least one face.
+    /// Returns the meshes of the parts. Each mesh has at least one face.
     fn parts(&self, mesh: &Mesh) -> Result<Vec<Mesh>, OpError> {
         let part_of_face: Vec<usize> = match self {
             Self::Components => return Ok(geometry::separated(mesh)),
@@ -175,7 +175,7 @@ impl Separate {
         format!("\"{}\" has no faces to separate", self.object)
     }
 
-    /// Returns a plan that is valid for every part: its counts are upper limits.
+    /// Returns a plan that is valid for every part. The counts in the plan are upper limits.
     fn part_of(&self, whole: &MeshPlan) -> MeshPlan {
         let mut part = whole.clone();
         // If several fans of faces meet at a vertex, each fan gets its own copy of the vertex. Each fan has at least
@@ -204,7 +204,7 @@ impl Separate {
             .collect()
     }
 
-    /// Replaces the object with the parts. Requires that no other object has the name of a part.
+    /// Replaces the object with the parts. No other object may have the name of a part.
     fn replace(&self, scene: &mut Scene, names: &[String], parts: Vec<Mesh>) {
         let (_, materials) = scene.parts_mut(&self.object).expect("it was found");
         let materials = materials.clone();

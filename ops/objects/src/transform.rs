@@ -9,7 +9,8 @@
 //!             scale: (2, 1, 1)   rotate: [(axis: Z, angle: 90)]   move: (3, 1, 0)
 //! ```
 //!
-//! A point p moves to R S (p - c) + c + m, where S scales, R rotates, m is the move, and c is the point of `about`.
+//! A point p moves to R S (p - c) + c + m, where S scales, R rotates, m is the parameter `move`, and c is the point
+//! that `about` defines.
 
 mod map;
 mod nodes;
@@ -99,7 +100,7 @@ impl Transform {
         Map::new(self.scale.get(), &self.rotate, self.translate.into())
     }
 
-    /// Returns the pivot of the transform. `points` are the points of the object.
+    /// Returns the fixed point of scaling and rotation. `points` are the points of the object.
     fn center(&self, points: impl Iterator<Item = DVec3>) -> DVec3 {
         match self.about {
             About::Origin => DVec3::ZERO,
@@ -116,7 +117,7 @@ impl Transform {
         }
     }
 
-    /// Changes one object. The report counts its points.
+    /// Transforms the geometry of the object `name`. The report counts the points of the object.
     fn change(&self, name: &str, geometry: &mut Geometry, map: &Map) -> Result<Report, OpError> {
         let too_large =
             || OpError::overflow(&format!("Transform of `{name}`"), "scale, rotate and move");
@@ -191,7 +192,8 @@ impl Transform {
     fn curve_problem(&self, name: &str) -> Option<Problem> {
         let center = match self.about {
             About::Point(x, y, z) => DVec3::new(x, y, z),
-            // The center of a curve is in the plane z = 0, like the origin.
+            // The center of a curve and the origin are both in the plane z = 0. The other coordinates of the center do
+            // not change the result.
             About::Origin | About::Center => DVec3::ZERO,
         };
         match self.map().height_of_plane(center) {

@@ -24,7 +24,8 @@ pub(crate) fn merged_materials(parts: &[&Object]) -> (Vec<Material>, Vec<Vec<i32
 }
 
 /// Returns the attribute columns of the joined mesh: the concatenated columns of all parts. `numbers` comes from
-/// [`merged_materials`]. Adds dropped columns to `report.losses`, and parts that get zero values to `report.notes`.
+/// [`merged_materials`]. Adds a loss to the report for each dropped column, and a note for each part that gets zero
+/// values.
 pub(crate) fn appended(parts: &[&Object], numbers: &[Vec<i32>], report: &mut Report) -> Attributes {
     let meshes = || {
         let parts = parts.iter();
@@ -97,8 +98,8 @@ fn leave_out_normals(columns: &mut [Attributes], parts: &[&Object], report: &mut
     }
 }
 
-/// Adds a note for each part that gets zero values for an attribute. Tags and materials need no note, because elements
-/// of a part without them are not tagged and have no material.
+/// Adds a note for each part that gets zero values for an attribute. Tags need no note: the elements of a part without
+/// the tag are not tagged. Materials need no note: the faces of a part without materials have no material.
 fn note_zeros(columns: &[Attributes], parts: &[&Object], report: &mut Report) {
     for (domain, name) in names(columns, |c| !matches!(c.values, Values::Tag(_))) {
         for (i, object) in parts.iter().enumerate() {

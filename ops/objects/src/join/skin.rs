@@ -1,9 +1,9 @@
 //! Joining skinned meshes.
 //!
-//! If all skinned parts have the same skin and a single node each, the joined mesh keeps this skin. The parts without a
-//! skin follow the first joint of this skin. The points of the parts without a skin are mapped by the inverse of the
-//! map of the first joint, so that they do not move in the scene. In all other cases, the parts are joined in the pose
-//! of their joints, and the skins are lost.
+//! If all skinned parts have the same skin, and each of them has exactly one node, the joined mesh keeps this skin. The
+//! parts without a skin follow the first joint of this skin. The points of the parts without a skin are mapped by the
+//! inverse of the map of the first joint, so that they do not move in the scene. In all other cases, the parts are
+//! joined in the pose of their joints, and the skins are lost.
 
 use std::sync::Arc;
 
@@ -23,7 +23,7 @@ pub(super) enum LostSkin {
     NoWeights,
 }
 
-/// The skin of a joined mesh.
+/// The skin that a joined mesh keeps.
 pub(super) struct KeptSkin {
     /// The name of the first skinned part. The node and the morph weights of this part are kept.
     pub(super) part: String,
@@ -70,7 +70,8 @@ impl KeptSkin {
         }
     }
 
-    /// Returns the object of an instance with points in the space in which the skin binds points.
+    /// Returns the object of an instance, with its points transformed to the space in which the skin binds points. If
+    /// the instance has no skin, all its points are bound to the first joint.
     pub(super) fn bound(&self, instance: &Instance) -> Object {
         if instance.pose.joints.is_some() {
             return instance.object.clone();
@@ -101,8 +102,8 @@ fn remove_joints(mesh: &mut Mesh) {
     }
 }
 
-/// Returns the first skinned part if all skinned parts have the same skin and one instance each; `None` if no part has
-/// a skin.
+/// Returns the first skinned part if all skinned parts have the same skin and each of them has one instance. Returns
+/// `None` if no part has a skin.
 pub(super) fn planned(plan: &Plan, parts: &[String]) -> Result<Option<String>, LostSkin> {
     let mut kept: Option<(Option<usize>, &String)> = None;
     for part in parts {
@@ -167,7 +168,8 @@ pub(super) fn shared_label(graph: &Graph, morphed: &[&str]) -> Option<MeshLabel>
     Some(shared.unwrap_or_default())
 }
 
-/// Reports the changes of skins and morph targets. If the joined mesh has no skin, it loses the joint weights.
+/// Adds the changes of skins and morph targets to the report. Removes the weights of joints from the joined mesh if the
+/// skins of the parts are lost.
 pub(super) fn report(
     scene: &Scene,
     parts: &[&Object],

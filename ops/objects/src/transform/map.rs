@@ -3,7 +3,8 @@
 use glam::{DAffine3, DMat3, DVec3};
 use op::Turn;
 
-/// The map p -> L (p - center) + center + shift, where L scales and then rotates.
+/// The map p -> L (p - center) + center + shift, where L scales and then rotates. The methods take `center` as an
+/// argument.
 pub(crate) struct Map {
     linear: DMat3,
     turns: DMat3,
@@ -26,7 +27,7 @@ impl Map {
     /// Returns the image of a point.
     pub(crate) fn point(&self, p: DVec3, center: DVec3) -> DVec3 {
         if self.only_moves() {
-            // If points are only moved, p + shift avoids the rounding error of p - center + center.
+            // If the map neither scales nor rotates, p + shift avoids the rounding error of p - center + center.
             return p + self.shift;
         }
         self.linear * (p - center) + center + self.shift
@@ -64,7 +65,7 @@ impl Map {
         }
     }
 
-    /// Returns the map without its translation.
+    /// Returns the linear part of the map.
     pub(crate) fn linear(&self) -> &DMat3 {
         &self.linear
     }

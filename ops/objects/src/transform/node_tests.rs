@@ -15,7 +15,8 @@ fn moved(translation: [f64; 3], scale: [f64; 3]) -> Placement {
     }
 }
 
-/// A car with a body and two wheels (one is mirrored), a separate cube, and a camera at the top level.
+/// Returns a scene with a car, a separate cube, and a camera without a parent node. The car has a body and two wheels,
+/// one of which is mirrored.
 fn car() -> Scene {
     let mut scene = Scene::new();
     for name in ["body", "wheel", "plain"] {
@@ -99,7 +100,7 @@ fn placed_points_move_as_points_do() {
                 .collect();
             assert_near(&points(&scene, name), &before);
         }
-        // The meshes of placed objects do not change, and the camera also moves.
+        // The meshes of objects that nodes place do not change. The camera moves with the objects.
         let mesh = |scene: &Scene| scene.object("wheel").unwrap().as_mesh().unwrap().clone();
         assert_eq!(mesh(&scene), mesh(&car()));
         let camera = |scene: &Scene| scene.graph().to_scene()[4];

@@ -6,8 +6,8 @@
 //! ```
 //!
 //! L places the node in its parent, and P places the parent in the scene. A map M in scene space moves a point p of the
-//! object from P L p to M P L p. So the new placement of the node is P'^-1 M P L, where P' places the parent after the
-//! move. If M also moves the parent, P' = M P, and the placement of the node does not change.
+//! object from P L p to M P L p. The new placement of the node is therefore P'^-1 M P L, where P' places the parent
+//! after the move. If M also moves the parent, P' = M P, and the placement of the node does not change.
 
 use glam::{DAffine3, DVec3};
 use op::{Context, OpError, Plan, PlanContext, Problem, Report};
@@ -111,14 +111,14 @@ impl Transform {
             result = move_by(graph, &maps, map.only_moves());
         });
         let error = result.err()?;
-        // With `About::Center`, the translations of the run differ from those of the plan. Therefore an overflow in the
-        // plan does not prove that the run overflows.
+        // With `About::Center`, the translations of the run differ from those of the plan. An overflow in the plan
+        // therefore does not prove that a coordinate overflows in the run.
         let is_certain = self.about != About::Center || matches!(error, OpError::Object(_));
         (is_certain && !may_be_skinned).then(|| Problem::error(error.to_string()))
     }
 }
 
-/// Gives the roots of the graph (the nodes without a parent) the map `affine`.
+/// Sets the map of each root of the graph (a node without a parent) to `affine`.
 fn move_roots(graph: &Graph, maps: &mut [Option<DAffine3>], affine: &DAffine3) {
     for (map, node) in maps.iter_mut().zip(graph.nodes()) {
         if node.parent.is_none() {
@@ -127,8 +127,8 @@ fn move_roots(graph: &Graph, maps: &mut [Option<DAffine3>], affine: &DAffine3) {
     }
 }
 
-/// Inserts a parent above each animated node that the step moves. The animation replaces the placement of the node, so
-/// the parent is moved instead. Returns the number of new nodes.
+/// Inserts a parent above each animated node that the step moves. The animation overwrites the placement of the node,
+/// so the step moves the new parent instead of the node. Returns the number of new nodes.
 fn insert_parents(graph: &mut Graph, maps: &mut Vec<Option<DAffine3>>) -> usize {
     let mut animated = graph.animated_flags();
     if !animated.contains(&true) {

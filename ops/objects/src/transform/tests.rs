@@ -186,7 +186,7 @@ fn a_curve_rotates_and_moves_in_its_plane() {
         scene.objects()[0].geometry,
         Geometry::Curve(Curve::new(points).unwrap())
     );
-    // A half turn around x also keeps the curve in the plane.
+    // A half turn around the x axis also keeps the curve in the plane z = 0.
     assert!(op::test::run(&step("(rotate: [(axis: X, angle: 180)])"), &mut scene).is_ok());
 }
 

@@ -104,7 +104,7 @@ impl Operation for CurveFigure {
 }
 
 impl CurveFigure {
-    /// Returns the problems of the objects and of the number of panels and points.
+    /// Returns the problems with the drawn objects, and with the numbers of panels and points.
     fn plan_curves(&self, plan: &Plan, cx: &PlanContext) -> Vec<Problem> {
         let mut problems = Vec::new();
         let before = self.before.as_deref();
@@ -146,7 +146,7 @@ impl CurveFigure {
                     n_points += points_per_panel * if self.t.is_empty() { 0 } else { n_new };
                 }
                 PlannedGeometry::Curve(_) => {}
-                // Without `on`, all curves are drawn, and other objects are ignored.
+                // A step without `on` draws all curves and ignores all other objects.
                 _ if is_chosen && cx.on.is_none() => {}
                 _ => {
                     let message = not_a_curve(&object.name, object.geometry.kind());
@@ -177,7 +177,7 @@ impl CurveFigure {
         self.by_level && !self.t.is_empty()
     }
 
-    /// Draws the figure of the chosen curves.
+    /// Draws the figure of the curves that `on` names, or of all curves without `on`.
     fn figure(&self, scene: &Scene, cx: &Context) -> Result<Svg, OpError> {
         let chosen: Vec<&Object> = if let Some(on) = cx.on {
             let objects = on.iter().map(|name| named_object(scene, name));
@@ -273,7 +273,8 @@ mod tests {
         op::test::read(parameters).unwrap()
     }
 
-    /// Runs a step with a provenance to store in the file, and returns the bytes of the file.
+    /// Runs a step, and returns the bytes of the file. The run has a provenance line, which the step stores in the
+    /// file.
     fn written(step: &CurveFigure, on: Option<&[String]>, budget: u64) -> Result<Vec<u8>, OpError> {
         let folder = tempfile::tempdir().unwrap();
         let files = Files {

@@ -25,7 +25,7 @@ impl Format {
     }
 }
 
-/// Plans a figure file. Returns the problems of the path of the file.
+/// Adds the file of a figure to the plan. Returns the problems with the path of the file.
 pub(crate) fn plan(path: &str, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
     plan.write(cx, path, |target| {
         let unknown = Problem::error(unknown_format(path)).at(["path"]);

@@ -143,7 +143,7 @@ impl Format {
 }
 
 impl Picture {
-    /// Creates a picture with this path, and defaults for all other parameters.
+    /// Creates the step with the file `path`, and defaults for all other parameters.
     pub fn new(path: impl Into<String>) -> Self {
         Self {
             path: path.into(),
@@ -161,7 +161,7 @@ impl Picture {
         }
     }
 
-    /// Returns the problems of the parameters that can be found without the scene.
+    /// Returns those problems with the parameters that can be found without the scene.
     fn problems(&self) -> Vec<Problem> {
         let mut problems = Vec::new();
         match Format::of(Path::new(&self.path)) {
@@ -248,7 +248,7 @@ impl Picture {
     pub fn extent(&self, scene: &Scene, cx: &mut Context) -> Result<Extent, OpError> {
         self.check()?;
         let scene = target_scene(scene, cx);
-        // The images of materials do not change the extent, so they are not needed here.
+        // The images of materials do not change the extent, so `extent` does not read them.
         let placed = placed(&scene, cx)?;
         let (subject, _) = self.subject(&scene, &placed, "", self.color_by.as_ref(), false, cx)?;
         self.shot(cx.budget).extent(subject).map_err(op_error)
@@ -267,7 +267,7 @@ impl Picture {
 
     /// Prepares a scene with its highlights and quantities. Also returns notes about parts of the scene that are not
     /// drawn. `placed` is the scene in which every instance is a separate object: an object that several nodes show
-    /// becomes several objects. Elements are selected in the space of each object.
+    /// becomes several objects. Selections of elements are evaluated in the own space of each object.
     fn subject<'s>(
         &self,
         scene: &Scene,
@@ -435,8 +435,8 @@ impl Operation for Picture {
     }
 }
 
-/// An instance is an object at the place where one node shows it. Returns the scene with a separate object, in scene
-/// space, for every instance.
+/// Returns a scene in which every instance is a separate object in scene space. An instance is an object at the place
+/// where one node shows it.
 fn placed<'s>(scene: &'s Scene, cx: &Context) -> Result<Cow<'s, Scene>, OpError> {
     let bytes = scene.placed_bytes();
     if !scene.graph().is_empty() && bytes > cx.budget {
@@ -450,7 +450,8 @@ fn placed<'s>(scene: &'s Scene, cx: &Context) -> Result<Cow<'s, Scene>, OpError>
     Ok(scene.placed())
 }
 
-/// Reads the image file of a material. Returns `None` if the file does not exist, or if `path` leads out of `folder`.
+/// Reads the image file of a material. Returns `None` if the file cannot be read, if `path` is a URL, or if `path`
+/// leads out of `folder`.
 fn read_image(files: &Files, folder: Option<&str>, path: &str) -> Option<Vec<u8>> {
     let is_inside = |c: Component| matches!(c, Component::Normal(_) | Component::CurDir);
     if path.contains("://") || !Path::new(path).components().all(is_inside) {

@@ -10,9 +10,9 @@
 //! ```
 //!
 //! The id of a vertex is (x > center) + 2 (y > center) + 4 (z > center), where a true comparison counts as 1. The
-//! squares are listed with their vertices, counter-clockwise seen from outside: -z (0, 2, 3, 1), +z (4, 5, 7, 6), -y
-//! (0, 1, 5, 4), +x (1, 3, 7, 5), +y (3, 2, 6, 7) and -x (2, 0, 4, 6). With `triangles: true`, the diagonals of the
-//! squares are therefore 0-3, 4-7, 0-5, 1-7, 3-6 and 2-4.
+//! following list gives the vertices of each square, counter-clockwise seen from outside: -z (0, 2, 3, 1), +z (4, 5, 7,
+//! 6), -y (0, 1, 5, 4), +x (1, 3, 7, 5), +y (3, 2, 6, 7) and -x (2, 0, 4, 6). With `triangles: true`, the diagonals of
+//! the squares are therefore 0-3, 4-7, 0-5, 1-7, 3-6 and 2-4.
 
 use geometry::shapes;
 use op::Operation;
@@ -80,7 +80,7 @@ impl Operation for Cube {
     }
 }
 
-/// Returns the cube with each square cut from its first to its third corner.
+/// Cuts each square of the cube along the diagonal from its first to its third corner.
 fn cut(cube: &Mesh) -> Mesh {
     let mut triangles = Vec::with_capacity(12);
     for f in cube.faces() {

@@ -65,7 +65,7 @@ mod tests {
     use op::Operation;
     use op::prelude::*;
 
-    /// Runs an operation with default parameters twice in the same scene.
+    /// Runs an operation with default parameters twice in the same scene. Returns the names of the two objects.
     fn twice<O: Operation + serde::de::DeserializeOwned>() -> Vec<String> {
         let mut scene = Scene::new();
         let mut plan = Plan::default();

@@ -37,7 +37,8 @@ pub struct Polygons {
 }
 
 impl Polygons {
-    /// Returns the mesh and the report of the changes that made the mesh manifold, or the first problem.
+    /// Returns the mesh and the report of the changes that made the mesh manifold. Returns the first problem if the
+    /// points and faces are not valid.
     fn build(&self) -> Result<(Mesh, BuildReport), Problem> {
         let points: Vec<DVec3> = self.points.iter().map(|&p| p.into()).collect();
         for (f, face) in self.faces.iter().enumerate() {
@@ -55,8 +56,8 @@ impl Polygons {
             );
             return Err(Problem::error(message).at(["faces", &at_face]));
         }
-        // The corners of the face, sorted by their points. The sort is stable, so corners with the same point keep
-        // their order.
+        // The corners of the face, sorted by the indices of their points. The sort is stable, so corners with the same
+        // point keep their order.
         let mut sorted: Vec<usize> = (0..face.len()).collect();
         sorted.sort_by_key(|&i| face[i]);
         let n = self.points.len();
@@ -72,7 +73,7 @@ impl Polygons {
         Err(Problem::error(message).at(["faces", &at_face, &i.to_string()]))
     }
 
-    /// Returns the source, the mesh, and the report of the changes that made the mesh manifold.
+    /// Returns the `Source` of the new object, its mesh, and the report of the changes that made the mesh manifold.
     fn source(&self) -> (Source<'_>, Mesh, BuildReport) {
         match self.build() {
             Ok((mesh, changes)) => {
@@ -96,7 +97,7 @@ impl Polygons {
     }
 }
 
-/// Changes the plan: a new mesh has no materials.
+/// Returns the plan with an empty list of materials, because a new mesh has no materials.
 fn without_materials(plan: MeshPlan) -> MeshPlan {
     MeshPlan {
         materials: Some(Vec::new()),
@@ -141,7 +142,7 @@ mod tests {
         op::test::read(text).unwrap()
     }
 
-    /// Returns the path and the message of the only problem.
+    /// Plans the step. Returns the path and the message of the problem, which must be the only problem.
     fn problem(text: &str) -> (String, String) {
         let step = step(text);
         assert!(matches!(

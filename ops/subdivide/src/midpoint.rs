@@ -13,7 +13,8 @@
 //! ```
 //!
 //! The connectivity is the same as in Loop and Catmull-Clark subdivision. The parts of a flat face stay in its plane,
-//! so a surface of flat faces keeps its shape. The surface only gets more faces, and a later step can deform them.
+//! so a surface of flat faces keeps its shape. Only the number of faces increases, so that a later step can deform the
+//! surface in more detail.
 //!
 //! The crate `subdivision` implements all subdivision schemes.
 

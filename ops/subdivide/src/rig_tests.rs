@@ -9,8 +9,8 @@ use op::test::{applied, read};
 
 use crate::{CatmullClark, LoopSubdivide, Midpoint};
 
-/// A sphere with weights of three joints and the deltas of a morph target. If `is_rigid`, each face and its neighbors
-/// follow all joints with the same weights.
+/// Returns a subdivided octahedron with weights of three joints and the deltas of a morph target. If `is_rigid` is
+/// true, all vertices have the same weights.
 fn character(is_rigid: bool) -> Mesh {
     let mut mesh = applied(
         &read::<Midpoint>("(levels: 2)").unwrap(),
@@ -76,7 +76,7 @@ fn largest_distance(a: &Mesh, b: &Mesh) -> f64 {
         .fold(0.0, |a: f64, b| if a > b { a } else { b })
 }
 
-/// The rotations, scales and translations of three joints.
+/// Returns the transforms of three joints. If `turns` is false, the joints are only translated.
 fn joints(turns: bool) -> [(DMat3, DVec3); 3] {
     let turn = DMat3::from_cols(DVec3::Y, DVec3::NEG_X, 2.0 * DVec3::Z);
     let linear = |turn| if turns { turn } else { DMat3::IDENTITY };
@@ -89,8 +89,8 @@ fn joints(turns: bool) -> [(DMat3, DVec3); 3] {
 
 /// Both the weights and the point of a new vertex depend linearly on the weights and points of the old vertices, and a
 /// pose multiplies weights by points. Therefore, subdivision and the pose commute if the joints are only translated, or
-/// if the weights are the same at both ends of an edge. Otherwise the difference along an edge from p to q is 1/4 of
-/// the sum of (w(q) - w(p)) M (q - p), where M is the linear part of each joint.
+/// if the weights are the same at both ends of an edge. Otherwise, the two new vertices on an edge from p to q differ
+/// by 1/4 of the sum of (w(q) - w(p)) M (q - p) over all joints, where M is the linear part of the joint.
 #[test]
 fn posing_and_midpoint_subdivision_commute() {
     for (is_rigid, turns) in [(false, false), (true, true)] {
@@ -126,8 +126,8 @@ fn weights_of_new_vertices_are_means_and_add_up_to_1() {
     }
 }
 
-/// Returns texture coordinates of corners with a seam: the corners of the upper faces have other values than those of
-/// the lower faces.
+/// Returns texture coordinates with a seam: at the seam, the corners of the upper faces have other values than the
+/// corners of the lower faces.
 fn with_seam(mesh: &Mesh, value: impl Fn(DVec3, bool) -> DVec2) -> Vec<DVec2> {
     let corner = |h: mesh::HalfEdgeId| {
         let face = mesh.face(h)?;
@@ -138,8 +138,8 @@ fn with_seam(mesh: &Mesh, value: impl Fn(DVec3, bool) -> DVec2) -> Vec<DVec2> {
     corners.map(|h| corner(h).unwrap_or_default()).collect()
 }
 
-/// Morph targets add changes to texture coordinates. Subdivision handles the changes like the texture coordinates, so
-/// subdividing and adding changes commute.
+/// A morph target adds changes to texture coordinates. Subdivision treats these changes like texture coordinates, so it
+/// does not matter whether the changes are added before or after the subdivision.
 #[test]
 fn changes_of_texture_coordinates_are_subdivided_like_texture_coordinates() {
     let name = morph_value_name(UV.name, 0);

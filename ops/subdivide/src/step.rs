@@ -42,7 +42,7 @@ pub(crate) struct Step<'a> {
 }
 
 impl Step<'_> {
-    /// One level of the whole mesh, with default options.
+    /// Creates the parameters for one level of the whole mesh, with default options.
     pub(crate) const fn new(rules: Rules) -> Self {
         Self {
             rules,
@@ -115,8 +115,8 @@ impl Step<'_> {
                     .at(["levels"])
                     .help(too_large.help()),
             );
-            // The problem is already reported. For the rest of the plan, the step has the largest possible number of
-            // levels, so that later steps do not report the same problem again.
+            // The plan continues with the largest number of levels that fits, so that later steps do not report the
+            // same problem again.
             levels = too_large.fits.unwrap_or(0);
         }
         let end = (0..levels).fold(start, |size, level| size.after(scheme, level));
@@ -128,7 +128,7 @@ impl Step<'_> {
         change(&mut plan.edges, end.edges.0);
         change(&mut plan.faces, end.faces.0);
         if self.faces.is_some() && !scheme.needs_triangles() {
-            // Faces next to refined faces get more corners.
+            // Faces next to refined faces get the new vertices on common edges as additional corners.
             plan.degrees.min = plan.degrees.min.min(4);
             plan.degrees.max = plan.degrees.max.saturating_mul(1 << levels);
         } else {
@@ -227,7 +227,7 @@ impl Step<'_> {
     }
 }
 
-/// Returns what users can do if a scheme needs triangles and a face is not a triangle.
+/// Returns the advice for a scheme that needs triangles if a face is not a triangle.
 fn help_for_polygons(scheme: Scheme) -> &'static str {
     match scheme {
         Scheme::Midpoint(_) => "write `into: Quads`, or triangulate the faces first",
@@ -254,7 +254,7 @@ fn to_op_error(error: SubdivisionError) -> OpError {
     }
 }
 
-/// A planned count of elements, for the arithmetic of [`Size`].
+/// A range of a count of elements, with the operations that [`Size`] needs.
 #[derive(Clone, Copy)]
 struct Planned(Range);
 
@@ -276,7 +276,7 @@ impl Count for Planned {
     }
 }
 
-/// Returns the size of a planned mesh. Attributes are counted as in [`MeshPlan::bytes`].
+/// Returns the size of a planned mesh. Each attribute counts as 16 bytes for each element.
 fn planned_size(plan: &MeshPlan) -> Size<Planned> {
     let attributes = Domain::ALL.map(|domain| {
         let columns = plan.attributes.iter().filter(|a| a.domain == domain);
@@ -293,7 +293,7 @@ fn planned_size(plan: &MeshPlan) -> Size<Planned> {
     }
 }
 
-/// Returns the range of face degrees after a level, given the range before it.
+/// Returns the range of the face degrees after one level. `degrees` is the range before the level.
 fn degrees_after(scheme: Scheme, degrees: Range) -> Range {
     match scheme {
         Scheme::CatmullClark | Scheme::Midpoint(Split::Quads) => Range::exactly(4),
@@ -303,7 +303,8 @@ fn degrees_after(scheme: Scheme, degrees: Range) -> Range {
     }
 }
 
-/// Returns notes about attribute values that are mixed or lost, because new faces of the scheme lie across old edges.
+/// Returns notes about attribute values that a level mixes or loses, because the scheme creates faces that lie across
+/// old edges.
 fn loss_notes(mesh: &Mesh, scheme: Scheme) -> Vec<String> {
     let mut notes = Vec::new();
     if matches!(scheme, Scheme::Sqrt3 | Scheme::DooSabin) {
@@ -356,8 +357,8 @@ fn push_to_limit(mesh: &mut Mesh, rules: Rules, cx: &Context) -> Result<(), OpEr
     Ok(())
 }
 
-/// Adds the attributes of the limit surface to the plan. The normals are on vertices if no inner edge is sharp,
-/// and otherwise on corners.
+/// Adds the attributes of the limit surface to the plan. If no inner edge is sharp, the step stores the normals as
+/// vertex normals, and otherwise as corner normals.
 fn provide_limit(plan: &mut MeshPlan) {
     for (domain, name) in [
         (Domain::Vertex, VERTEX_NORMAL.name),

@@ -102,7 +102,7 @@ fn sqrt3_cuts_a_boundary_on_every_second_level() {
     assert_eq!([1, 2, 3, 4].map(n_outer), [10, 30, 30, 90]);
 }
 
-/// Computes one level by the operation.
+/// Applies one level of Loop subdivision.
 fn once(mesh: &Mesh) -> Mesh {
     applied(&LoopSubdivide::default(), mesh.clone())
 }
@@ -208,7 +208,7 @@ fn the_plan_and_the_operation_keep_the_memory_budget() {
     );
 }
 
-/// A progress listener that cancels after `limit` calls and records the progress made.
+/// A receiver of progress that cancels the run after `limit` calls, and records the largest progress.
 struct StopAfter {
     calls: AtomicU64,
     furthest: AtomicU64,

@@ -43,7 +43,7 @@ pub struct Lods {
 }
 
 impl Lods {
-    /// Returns the name of a copy, where the first copy has the number 1.
+    /// Returns the name of the copy with this number. The first copy has the number 1.
     fn name(&self, number: usize) -> String {
         match &self.to {
             Some(to) => format!("{to}{number}"),

@@ -101,7 +101,8 @@ fn ten() -> Count<1, 1000> {
 }
 
 impl Remesh {
-    /// Returns the target length, or an error message.
+    /// Returns the target length that `length` or `curvature` defines. Returns an error message if the combination of
+    /// the two parameters is invalid.
     fn target(&self) -> Result<Length, &'static str> {
         match (self.length, self.curvature) {
             (Some(length), None) => Ok(Length::Uniform(length.get())),
@@ -123,8 +124,8 @@ impl Remesh {
 /// and one and a half edges for each face.
 const BYTES: u64 = 54;
 
-/// Returns the largest number of faces whose arrays fit the memory budget. The arrays of the result and the arrays of
-/// the copy that the step changes are counted.
+/// Returns the largest number of faces that fits the memory budget. Both the result and the copy that the step changes
+/// must fit.
 fn max_faces(mesh: &Mesh, budget: u64) -> usize {
     let per_face = BYTES + mesh.bytes() as u64 / (mesh.n_faces() as u64).max(1);
     usize::try_from(budget / per_face).unwrap_or(usize::MAX)
@@ -161,7 +162,7 @@ impl MeshOperation for Remesh {
             Problem::error(message).help("write, for example, `Remesh(length: 0.02)`")
         }));
         // Before the run, the area of the mesh is not known, so only the memory budget limits the predicted number of
-        // faces. A mesh without faces gets no faces. Isolated vertices stay.
+        // faces. If the mesh has no faces, the result has no faces. Isolated vertices are kept.
         let most = match plan.faces.max {
             0 => 0,
             _ => (cx.budget / BYTES).min(MAX_FACES as u64),

@@ -90,7 +90,7 @@ pub enum Intersections {
 }
 
 impl Simplify {
-    /// Returns the number of faces to reach, for a mesh with `n_faces`.
+    /// Returns the number of faces that the step must reach in a mesh with `n_faces` faces.
     fn goal(&self, n_faces: u64) -> u64 {
         match (self.faces, self.ratio) {
             (Some(faces), _) => u64::from(faces.get()),
@@ -100,7 +100,7 @@ impl Simplify {
     }
 }
 
-/// Returns a fraction of a number of faces, rounded up.
+/// Returns `n_faces` times `ratio`, rounded up.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -289,8 +289,8 @@ mod tests {
 
     #[test]
     fn intersections_are_refused_on_request() {
-        // One sphere closely surrounds another sphere. If the triangles of one sphere are coarse, they pass through the
-        // other sphere.
+        // One sphere closely surrounds another sphere. If a sphere is simplified to few large triangles, the triangles
+        // pass through the other sphere.
         let sphere = shapes::fans(&shapes::uv_sphere(40, 20));
         let n = u32::try_from(sphere.n_vertices()).unwrap();
         let number = |v: mesh::VertexId| u32::try_from(v.index()).unwrap();
@@ -380,8 +380,8 @@ mod tests {
 
     #[test]
     fn new_overlaps_in_the_texture_are_counted() {
-        // The texture of half a ring closely surrounds the texture of a smaller half ring. If the larger ring has few
-        // vertices, its inner border cuts through the smaller ring.
+        // The texture of half a ring closely surrounds the texture of a smaller half ring. If the larger half ring
+        // keeps only few vertices, its inner border cuts through the smaller half ring in the texture.
         let (mut positions, mut faces) = (Vec::new(), Vec::<[u32; 3]>::new());
         for (inner, outer, n) in [(0.5, 1.0, 32), (1.005, 2.0, 27)] {
             let first = u32::try_from(positions.len()).unwrap();

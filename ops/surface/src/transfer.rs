@@ -93,8 +93,8 @@ impl MeshOperation for Transfer {
     }
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        // The attributes come from another object, which is not known here. So their domains (vertices, corners or
-        // faces) are not known either.
+        // The attributes come from another object, which this method does not know. It therefore does not know whether
+        // they are attributes of vertices, corners or faces.
         plan.has_unlisted_attributes = true;
         let problem = |message| Problem::error(message).at(["attributes"]);
         self.problem().map(problem).into_iter().collect()
@@ -135,7 +135,7 @@ impl MeshOperation for Transfer {
                 Domain::Face => faces.iter().map(|hit| source.of_face(hit)).collect(),
                 _ => source.of_corners(mesh, &column.values, &vertices, &faces, cx)?,
             };
-            // Half-edges without a face have no corner, and therefore no values.
+            // A half-edge without a face is not a corner, so it is not counted.
             let is_element =
                 |i: usize| *domain != Domain::Corner || mesh.face(HalfEdgeId::new(i)).is_some();
             let elements = (0..origins.len()).filter(|&i| is_element(i));
@@ -162,7 +162,7 @@ impl MeshOperation for Transfer {
 }
 
 impl Transfer {
-    /// Returns the attribute columns of the other mesh whose names the step lists.
+    /// Returns the attribute columns of the mesh `other` that the step copies.
     fn columns(&self, other: &Mesh, mesh: &Mesh) -> Result<Vec<(Domain, Column)>, OpError> {
         let mut columns = Vec::new();
         for name in &self.attributes {

@@ -38,7 +38,7 @@ pub(crate) fn padding_problem(page: Page) -> Option<Problem> {
     })
 }
 
-/// Adds the attribute `uv` to the plan, and removes the attributes that depend on its old values.
+/// Adds the attribute `uv` to the plan, and removes the attributes that depend on the old values of `uv`.
 pub(crate) fn plan(plan: &mut MeshPlan, uv: &str) {
     plan.provide(Domain::Corner, uv);
     plan.drop_attribute(Domain::Corner, CORNER_TANGENT.name);
@@ -82,7 +82,7 @@ pub(crate) fn set(mesh: &mut Mesh, uv: &str, uvs: Vec<DVec2>, report: &mut Repor
     }
 }
 
-/// Returns the texture coordinates of a mesh.
+/// Returns the texture coordinates of a mesh that the attribute `uv` stores.
 pub(crate) fn get<'m>(mesh: &'m Mesh, uv: &str) -> Result<&'m [DVec2], OpError> {
     let column = mesh.attributes().column(Domain::Corner, uv);
     let uvs = column.and_then(|column| DVec2::of(&column.values));
@@ -106,7 +106,7 @@ pub(crate) fn error(error: &UvError) -> OpError {
     }
 }
 
-/// Returns a message with the percentage of the page that charts cover.
+/// Returns a note with the percentage of the page that charts cover. `part` is the covered fraction.
 pub(crate) fn coverage(part: f64) -> String {
     format!("the charts cover {:.1} % of the page", 100.0 * part)
 }

@@ -1,4 +1,4 @@
-//! Checks the parameter `color_by` and reads its inputs.
+//! Checks the parameter `color_by`, and reads the file that it names.
 
 use mesh::Mesh;
 use mesh_io::ReadOptions;
@@ -6,7 +6,8 @@ use op::{Context, OpError, Plan, PlanContext, PlannedGeometry, Problem};
 use scene::Scene;
 use view::{ColorBy, Quantity, existing_attributes, missing_attribute};
 
-/// Returns the problems of the parameter `color_by`, and adds the file that this parameter reads to the plan.
+/// Returns the problems with the parameter `color_by`. If `color_by` names a file, adds this file to the input files of
+/// the plan.
 pub(crate) fn plan(by: &ColorBy, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
     let mut problems = Vec::new();
     if let Some([low, high]) = by.range

@@ -1,4 +1,4 @@
-//! Tests of the operation, from its text to the bytes of its file.
+//! Tests of the whole operation: each test reads a step from text, runs it, and checks the bytes of the written file.
 
 use geometry::shapes;
 use op::{Context, Files, NoProgress, OpError, Operation, Plan, PlanContext, PlannedGeometry};
@@ -20,7 +20,7 @@ fn scene() -> Scene {
     scene
 }
 
-/// Runs a step and returns the bytes of its file.
+/// Runs a step, and returns the bytes of the file that it writes.
 fn written(fields: &str, on: Option<&[String]>) -> Result<Vec<u8>, OpError> {
     let folder = tempfile::tempdir().unwrap();
     let files = Files {
@@ -226,7 +226,7 @@ fn highlights_in_a_scene_without_meshes_give_a_note() {
     assert_eq!(notes(highlighted, &scene), [""; 0]);
 }
 
-/// Cancels when the work with this name is half done.
+/// A receiver of progress that cancels the run when the task with this name is half done.
 struct Halfway(&'static str);
 
 impl op::Progress for Halfway {
@@ -278,7 +278,8 @@ fn scenes_drawn_separately_within_an_extent_look_as_if_drawn_together() {
             .draw(&[(&cube, "")], Some(&extent), &mut cx())
             .unwrap()
             .0;
-        // With the camera `Fit`, the cube is drawn smaller within the extent of the torus than alone.
+        // With the camera `Fit`, the cube appears smaller if the picture shows the extent of both objects than if it
+        // shows only the cube.
         let alone = picture.draw(&[(&cube, "")], None, &mut cx()).unwrap().0;
         assert_eq!(one != alone, !fields.contains("LookAt"), "{fields}");
         if picture.views.is_empty() && picture.color_by.is_none() {
@@ -287,7 +288,8 @@ fn scenes_drawn_separately_within_an_extent_look_as_if_drawn_together() {
             let left: Vec<[u8; 4]> = (0..24)
                 .flat_map(|y| both.pixels[y * 64..y * 64 + 32].to_vec())
                 .collect();
-            // The extent contains only the extreme points, so the view can differ in its last digits.
+            // The extent stores only the extreme points of the scenes, so the cameras of the two pictures can differ by
+            // rounding errors.
             let pairs = left.iter().zip(&one[0].pixels);
             let differences = pairs.flat_map(|(a, b)| (0..3).map(|i| a[i].abs_diff(b[i])));
             assert!(differences.max() <= Some(2), "{fields}");

@@ -23,7 +23,8 @@ const SCHEMES: [Scheme; 7] = [
     Scheme::Sqrt3,
 ];
 
-/// Returns triangle meshes of every kind, with their names.
+/// Returns triangle meshes of different kinds, such as closed meshes and meshes with isolated vertices. Each mesh has a
+/// name.
 fn fixtures() -> Vec<(&'static str, Mesh)> {
     let of = |n: u32, triangles: &[[u32; 3]]| {
         let positions = (0..n).map(|i| {
@@ -242,7 +243,8 @@ fn planned_counts_are_exact_for_every_scheme_on_every_fixture() {
                 }
                 let exactly = MeshPlan::of(&new);
                 if scheme == Scheme::DooSabin && levels > 0 {
-                    // Some vertices do not become faces. A plan does not know their number.
+                    // Doo-Sabin subdivision replaces only some of the vertices with faces. The plan does not know how
+                    // many.
                     for (planned, exactly) in [
                         (&mut plan.vertices, exactly.vertices),
                         (&mut plan.edges, exactly.edges),
@@ -262,7 +264,7 @@ fn planned_counts_are_exact_for_every_scheme_on_every_fixture() {
 
 #[test]
 fn the_memory_budget_is_checked_at_every_level_until_a_condition_is_met() {
-    // The sheet has a boundary, where even and odd levels of Sqrt3 differ.
+    // The sheet has a boundary, and Sqrt3 subdivision cuts boundary edges only at even levels.
     let mesh = sheet();
     let files = Files::default();
     for scheme in SCHEMES {

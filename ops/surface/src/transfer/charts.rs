@@ -1,4 +1,4 @@
-//! The charts of the source mesh, which are its parts between seams.
+//! The charts of the source mesh. A chart is a part of the mesh between seams.
 //!
 //! A chart can have seams inside it, such as the single seam of a cylinder. Near a seam inside a chart, a face of the
 //! target takes its values from one side of the seam:
@@ -16,8 +16,8 @@ use geometry::surface_index::{SurfaceIndex, nearest_on_triangle, triangle_distan
 use mesh::{DVec3, Domain, FaceId, HalfEdgeId, Mesh, Values};
 use op::{Cancelled, Progress};
 
-/// Corners are moved toward the center of their face by this fraction of the distance. After this move, the face of the
-/// source that is nearest to a corner at a seam is on the same side of the seam as the face of the corner.
+/// Corners are moved toward the center of their face by this fraction of the distance. If a corner lies at a seam, the
+/// nearest face of the source is then on the same side of the seam as the face of the corner.
 const INSET: f64 = 1e-6;
 
 /// The largest number of pairs of triangles for which the distance between two polygons is computed. With more pairs,
@@ -35,7 +35,7 @@ pub(super) struct Charts<'a> {
     faces: Vec<Vec<FaceId>>,
     /// The spatial index of each chart. An index is built when it is first needed.
     indices: Vec<Option<SurfaceIndex>>,
-    /// The faces beside seams inside a chart.
+    /// A spatial index of the faces beside seams that lie inside a chart.
     seams: Option<SurfaceIndex>,
 }
 
@@ -76,7 +76,7 @@ impl<'a> Charts<'a> {
         Ok(charts)
     }
 
-    /// Adds the chart of a face.
+    /// Adds the chart that contains the face `first`.
     fn add(&mut self, first: FaceId) {
         let number = self.faces.len();
         self.of_face[first.index()] = number;
@@ -98,7 +98,7 @@ impl<'a> Charts<'a> {
         self.indices.push(None);
     }
 
-    /// Whether values differ between the sides of the edge of `h`, which has two faces.
+    /// Whether the values differ between the two sides of the edge of `h`. The edge must have two faces.
     fn is_seam(&self, h: HalfEdgeId) -> bool {
         let twin = h.twin();
         let differ = |a: HalfEdgeId, b: HalfEdgeId| !self.values.are_equal(a.index(), b.index());
@@ -207,9 +207,9 @@ impl<'a> Charts<'a> {
         Ok(index.map(|index| Side { faces, index }))
     }
 
-    /// Returns the faces that are connected with `start` and lie within a distance from `triangles`. Connections can
-    /// cross seams. The distance is the smallest distance at which the faces include all `goals`, but at most `limit`.
-    /// If `limit` is reached, some goals can be missing.
+    /// Returns the faces that are connected with `start` and are at most a distance d away from `triangles`.
+    /// Connections can cross seams. Here, d is the smallest distance at which the faces include all `goals`, but at
+    /// most `limit`. If d is `limit`, some goals can be missing.
     fn connecting(
         &self,
         start: FaceId,
@@ -218,7 +218,8 @@ impl<'a> Charts<'a> {
         limit: f64,
         progress: &dyn Progress,
     ) -> Result<BTreeSet<FaceId>, Cancelled> {
-        // A face whose center is within `reached_distance` will be reached in any case.
+        // If the center of a face is within `reached_distance`, the face is reached in any case, so its exact distance
+        // is not needed.
         let distance = |f: FaceId, reached_distance: f64| {
             let center = self.mesh.face_center(f);
             let to_center = |t: &[DVec3; 3]| center.distance(nearest_on_triangle(center, t));

@@ -6,15 +6,15 @@ use op::prelude::*;
 
 use super::charts::Charts;
 
-/// The elements of the source from which an element of the target takes its value, each with its weight. `None` if the
-/// source is too far away.
+/// The elements of the source from which an element of the target takes its value, and the weight of each of these
+/// elements. `None` if the source is too far away.
 pub(super) type Origin = Option<[(usize, f64); 3]>;
 
-/// The mesh with the attributes.
+/// The mesh from which attributes are copied, and its spatial index.
 pub(super) struct Source<'a> {
     pub(super) mesh: &'a Mesh,
     pub(super) index: &'a SurfaceIndex,
-    /// The largest distance from the source at which an element has an origin.
+    /// The largest distance from the source at which an element of the target takes a value.
     pub(super) within: f64,
 }
 
@@ -34,8 +34,8 @@ impl Source<'_> {
         Some([(face, 1.0), (face, 0.0), (face, 0.0)])
     }
 
-    /// Returns the origins of all corners. `vertices` and `faces` contain the points of the source that are nearest to
-    /// the vertices and to the face centers of the target.
+    /// Returns the origin of each corner of the target, at the index of its half-edge. `vertices` and `faces` contain
+    /// the points of the source that are nearest to the vertices and to the face centers of the target.
     pub(super) fn of_corners(
         &self,
         target: &Mesh,

@@ -9,12 +9,13 @@ fn step(text: &str) -> Transfer {
     op::test::read(text).unwrap()
 }
 
-/// The coordinates of a chart: (x, y), or (x + 5, y) for faces with x > 0.
+/// Returns the texture coordinates of the point `p`: (x, y) in the left chart, and (x + 5, y) in the right chart.
 fn uv(p: DVec3, right: bool) -> DVec2 {
     DVec2::new(p.x + if right { 5.0 } else { 0.0 }, p.y)
 }
 
-/// A square of 8 x 8 faces from -4 to 4, with two charts and a color that is linear in x.
+/// Returns a square of 8 x 8 faces with coordinates from -4 to 4. The square has two charts, a color that is linear in
+/// x, and a group number for each face.
 fn source() -> Mesh {
     let mut mesh = shapes::grid(8, 8);
     let scale = 4.0 / mesh.positions().iter().fold(0.0, |m, p| p.x.max(m));
@@ -54,7 +55,7 @@ fn low(scene: &Scene) -> &Mesh {
     scene.object("low").unwrap().as_mesh().unwrap()
 }
 
-/// A target with other faces, 0.01 above the source.
+/// Returns a sheet that lies 0.01 above the source and is divided into faces differently.
 fn target() -> Mesh {
     let mut mesh = shapes::grid(5, 7);
     let largest = mesh
@@ -83,7 +84,8 @@ fn affine_values_are_exact_and_no_face_lies_in_two_charts() {
         let right = mesh.face_center(f).x > 0.0;
         for h in mesh.face_half_edges(f) {
             let p = mesh.position(mesh.origin(h));
-            // A corner beyond the seam gets the coordinates of the seam.
+            // A corner that lies beyond the seam, as seen from the center of its face, gets the texture coordinates at
+            // the seam.
             let clamped = DVec3::new(if right { p.x.max(0.0) } else { p.x.min(0.0) }, p.y, 0.0);
             crossing += usize::from(clamped.x != p.x);
             assert!(uvs[h.index()].distance(uv(clamped, right)) < 1e-12);
@@ -96,7 +98,7 @@ fn affine_values_are_exact_and_no_face_lies_in_two_charts() {
 
 #[test]
 fn a_face_over_a_crossing_sheet_takes_the_chart_of_its_corners() {
-    // The center of the target lies on the upright sheet.
+    // The source consists of a horizontal and an upright sheet. The center of the target lies on the upright sheet.
     let points = [
         [-1.0, -1.0, 0.0],
         [1.0, -1.0, 0.0],
@@ -220,8 +222,8 @@ fn missing_and_unsuitable_attributes_are_refused() {
     refused(r#"(from: "scam", attributes: ["uv"])"#, target());
 }
 
-/// A tube of `n` faces around and 3 faces high, with texture coordinates (angle / 2π, z) that have one seam. The first
-/// vertices are turned by `turn` faces.
+/// Returns a tube of `n` faces around and 3 faces high. The texture coordinates (angle / 2π, z) have one seam. All
+/// vertices are rotated by `turn` times the width of a face.
 fn tube(n: u32, turn: f64) -> Mesh {
     let mut points = Vec::new();
     let mut faces = Vec::new();
@@ -275,7 +277,7 @@ fn no_face_is_stretched_across_a_seam_inside_a_chart() {
 fn seams_inside_a_chart_come_back_unchanged() {
     let tube = tube(9, 0.0);
     assert_eq!(transferred_uv(&tube, tube.clone()).get(UV), tube.get(UV));
-    // At the poles of a sphere, every face has its own coordinates.
+    // At the poles of a sphere, each corner has the texture coordinate u of the center of its face.
     let mut sphere = shapes::uv_sphere(12, 6);
     let mut uvs = vec![DVec2::ZERO; sphere.domain_len(Domain::Corner)];
     for f in sphere.faces() {

@@ -11,7 +11,7 @@ fn step(text: &str) -> PackUvs {
     op::test::read(text).unwrap()
 }
 
-/// A cube on which each face covers the whole texture.
+/// Returns a cube whose charts overlap: face i covers the square from 0 to i + 1 in the texture.
 fn stacked() -> Mesh {
     let mut mesh = shapes::cube();
     let square = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];

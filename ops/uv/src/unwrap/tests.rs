@@ -65,7 +65,8 @@ fn tangents_are_removed() {
 
 #[test]
 fn a_polygon_that_overlaps_itself_is_refused() {
-    // A strip that winds around the z axis twice: one face that cannot be flattened.
+    // The mesh is a strip that winds around the z axis about twice. The strip is a single face, which cannot be
+    // flattened without overlaps.
     let n = 16;
     let turn = |k: usize, radius: f64| {
         let (sin, cos) = geometry::sin_cos_degrees(k as f64 * 45.0);

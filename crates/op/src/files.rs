@@ -168,8 +168,8 @@ impl Files {
     pub fn to_write(&self, path: &str) -> Result<PathBuf, FileError> {
         let filled = self.fill(path)?;
         let relative = Path::new(&filled);
-        // Drive letters (`C:`) and backslashes have a special meaning only on some systems. They are refused on all
-        // systems, so that a recipe works in the same way everywhere.
+        // Drive letters (`C:`) and backslashes have a special meaning only on some systems. Paths with drive letters or
+        // backslashes are refused on all systems, so that a recipe works in the same way everywhere.
         let plain = relative
             .components()
             .all(|c| matches!(c, Component::Normal(_)));

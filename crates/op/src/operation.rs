@@ -19,7 +19,7 @@ use crate::{
 pub trait MeshOperation:
     Debug + Send + Sync + Serialize + DeserializeOwned + JsonSchema + 'static
 {
-    /// The name of the operation in recipes. It is the same as the name of the struct.
+    /// The name of the operation in recipes. The struct has the same name.
     const NAME: &'static str;
     /// The version of the results. Increase it if a new version of the program can give a different result for the same
     /// parameters and input.
@@ -57,7 +57,7 @@ pub trait MeshOperation:
     }
 
     /// Changes `plan` in the same way as [`apply`](Self::apply) will change the mesh. Returns the problems of the step.
-    /// This method runs before any geometry exists and must be fast.
+    /// `plan` runs before any geometry exists, and must be fast.
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem>;
 
     /// Changes the mesh. The mesh [is dense](Mesh::is_dense): no element is dead, so ids are indices into its arrays,
@@ -75,7 +75,7 @@ pub trait MeshOperation:
 pub trait Operation:
     Debug + Send + Sync + Serialize + DeserializeOwned + JsonSchema + 'static
 {
-    /// The name of the operation in recipes. It is the same as the name of the struct.
+    /// The name of the operation in recipes. The struct has the same name.
     const NAME: &'static str;
     /// The version of the results. Increase it if a new version of the program can give a different result for the same
     /// parameters and input.

@@ -64,7 +64,7 @@ pub struct Plan {
     /// [`insert`](Self::insert) or [`free_name`](Self::free_name) fills it again.
     index_by_name: HashMap<String, usize>,
     /// Maps each name that was passed to [`free_name`](Self::free_name) to the last number that `free_name` chose for
-    /// it. All lower numbers are taken. This map and `index_by_name` are always cleared together.
+    /// it. All lower numbers are taken. Every method that clears `index_by_name` also clears `taken_numbers`.
     taken_numbers: HashMap<String, u64>,
     is_edited: bool,
     /// The files that are read by the steps planned so far.
@@ -283,7 +283,8 @@ impl Plan {
 pub struct PlanContext<'a> {
     /// The input and output files of the run.
     pub files: &'a Files,
-    /// The names of the objects in the step's `on:`. All of these objects exist. `None` if the step has no `on:`.
+    /// The names of the objects in the step's `on:`. All objects in `on` exist in the plan. `None` if the step has no
+    /// `on:`.
     pub on: Option<&'a [String]>,
     /// The memory budget of meshes, in bytes.
     pub budget: u64,

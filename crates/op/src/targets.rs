@@ -80,7 +80,7 @@ impl TargetKind {
 }
 
 /// Returns the names of the objects that a step acts on, in the order of the scene. If the step has `on:`, it acts on
-/// the objects named there. Otherwise, it acts on all objects whose geometry `is_wanted` accepts.
+/// the objects named there. A step without `on:` acts on all objects whose geometry `is_wanted` accepts.
 ///
 /// # Errors
 ///
@@ -102,7 +102,7 @@ pub fn target_names(
 }
 
 /// Returns a scene with the objects that a step acts on. If the step has `on:`, the scene has the objects named there
-/// and the nodes that reference them. Otherwise, the scene has all objects.
+/// and the nodes that reference them. Without `on:`, the scene has all objects.
 pub fn target_scene<'s>(scene: &'s Scene, cx: &Context) -> Cow<'s, Scene> {
     let Some(on) = cx.on else {
         return Cow::Borrowed(scene);
@@ -110,8 +110,8 @@ pub fn target_scene<'s>(scene: &'s Scene, cx: &Context) -> Cow<'s, Scene> {
     Cow::Owned(scene.only(|name| on.iter().any(|wanted| wanted == name)))
 }
 
-/// Plans an operation on curves. `change` receives the possible number of control points of a curve. It returns the
-/// planned geometry that replaces the curve, and the problems of the step.
+/// Plans an operation on curves. `change` receives the possible number of control points of a curve. `change` returns
+/// the planned geometry that replaces the curve, and the problems of the step.
 pub fn plan_curves(
     operation: &'static str,
     plan: &mut Plan,

@@ -101,7 +101,8 @@ impl MeshOperation for Triangulate {
         let duplicates = duplicates::avoid(mesh, &mut cuts);
         cx.advance("triangulate", 2, 3)?;
         // For each half-edge, the arrays of the new mesh store three ids, and `assemble` stores the half-edge from
-        // which the attribute values are copied. Each of these arrays is extended once, which needs additional memory.
+        // which the attribute values are copied. Each of these four arrays is extended once, which needs additional
+        // memory.
         let n_half_edges = mesh.n_half_edges() + 2 * diagonals;
         mesh::require_memory(24 * n_half_edges + 24 * mesh.n_vertices());
         mesh.replace(assemble::assemble(mesh, &cuts, diagonals));

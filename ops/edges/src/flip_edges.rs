@@ -8,8 +8,8 @@
 //!        d                   d
 //! ```
 //!
-//! Either each edge is flipped once, or edges are flipped as long as flips improve the mesh (module `until`). The
-//! module `goal` defines which flips improve the mesh.
+//! With `until: Once`, each edge is flipped once. Otherwise, the module `until` flips edges until no flip improves the
+//! mesh. The module `goal` defines which flips improve the mesh.
 
 mod goal;
 mod until;

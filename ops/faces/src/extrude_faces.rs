@@ -102,7 +102,8 @@ impl MeshOperation for ExtrudeFaces {
     const WORDS: &'static [&'static str] = &["offset", "thicken"];
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        // All rims together have at most as many edges as the selected faces have sides. No edge is on two rims.
+        // The total number of edges of all rims is at most the total number of sides of the selected faces. No edge is
+        // on two rims.
         let sides = self.faces.count(plan).times(plan.degrees);
         let rim = sides.capped(plan.edges.max).or_less();
         plan.grow(rim, rim.by(2), rim);

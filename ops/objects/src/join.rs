@@ -184,9 +184,9 @@ impl Join {
         problems
     }
 
-    /// Removes the nodes of all parts except the node of the part `kept`, whose skin is kept. This node then places the
-    /// result. If `kept` is `None`, the result has no node. `label` has the names and default weights of the morph
-    /// targets, if the parts share them.
+    /// Removes the nodes of all parts except the node of the part `kept`, whose skin is kept. The node of `kept` then
+    /// places the result. If `kept` is `None`, the result has no node. `label` has the names and default weights of the
+    /// morph targets, if the parts share them.
     fn join_nodes(&self, graph: &mut Graph, kept: Option<&str>, label: Option<MeshLabel>) {
         let first = &self.objects[0];
         if kept != Some(first) {

@@ -179,7 +179,7 @@ impl Separate {
     fn part_of(&self, whole: &MeshPlan) -> MeshPlan {
         let mut part = whole.clone();
         // If several fans of faces meet at a vertex, each fan gets its own copy of the vertex. Each fan has at least
-        // two of the edges at the vertex, so there are at most as many copies as edges.
+        // two of the edges at the vertex, so the number of copies is at most the number of edges.
         part.vertices = whole.vertices.plus(whole.edges).or_less();
         part.edges = whole.edges.or_less();
         part.faces = whole.faces.or_less();

@@ -161,7 +161,7 @@ impl Picture {
         }
     }
 
-    /// Returns those problems with the parameters that can be found without the scene.
+    /// Returns the problems with the parameters. Only problems that can be found without the scene are returned.
     fn problems(&self) -> Vec<Problem> {
         let mut problems = Vec::new();
         match Format::of(Path::new(&self.path)) {

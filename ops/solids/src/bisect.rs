@@ -74,7 +74,7 @@ impl MeshOperation for Bisect {
         plan.degrees = Range::between(3, plan.degrees.max.saturating_add(per_face));
         if self.keep != Keep::Both {
             // If several fans of faces meet at a vertex, each fan gets its own copy of the vertex. Each fan has at
-            // least two of the edges at the vertex, so there are at most as many copies as edges.
+            // least two of the edges at the vertex, so the number of copies is at most the number of edges.
             plan.vertices = plan.vertices.plus(plan.edges).or_less();
             plan.edges = plan.edges.or_less();
             plan.faces = plan.faces.or_less();

@@ -18,9 +18,9 @@
 //! (1/4 + cos(2πj/n) + cos(4πj/n)/2)/n. For valence 3 and valence 4, other weights are used. If both ends of an edge
 //! are extraordinary, the mask of each end is applied, and the new vertex is the mean of the two results. The scheme is
 //! the modified butterfly scheme of Zorin, Schröder and Sweldens, "Interpolating Subdivision for Meshes with Arbitrary
-//! Topology", 1996. It extends the scheme of Dyn, Levin and Gregory, "A Butterfly Subdivision Scheme for Surface
-//! Interpolation with Tension Control", 1990. The limit surface has a continuous tangent plane. The surface can ripple
-//! where a coarse mesh bends sharply, and it can leave the convex hull of the mesh.
+//! Topology", 1996. The modified scheme extends the scheme of Dyn, Levin and Gregory, "A Butterfly Subdivision Scheme
+//! for Surface Interpolation with Tension Control", 1990. The limit surface has a continuous tangent plane. The surface
+//! can ripple where a coarse mesh bends sharply, and it can leave the convex hull of the mesh.
 //!
 //! The crate `subdivision` implements all subdivision schemes.
 

@@ -297,7 +297,8 @@ fn planned_size(plan: &MeshPlan) -> Size<Planned> {
 fn degrees_after(scheme: Scheme, degrees: Range) -> Range {
     match scheme {
         Scheme::CatmullClark | Scheme::Midpoint(Split::Quads) => Range::exactly(4),
-        // The new face at an old vertex has as many corners as the vertex has edges.
+        // The number of corners of the new face at an old vertex is the number of edges of the vertex, which can be any
+        // number.
         Scheme::DooSabin => Range::between(3, u64::MAX),
         _ => degrees,
     }

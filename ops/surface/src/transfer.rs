@@ -93,8 +93,8 @@ impl MeshOperation for Transfer {
     }
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        // The attributes come from another object, which this method does not know. It therefore does not know whether
-        // they are attributes of vertices, corners or faces.
+        // The attributes come from another object, which this method does not know. This method therefore does not know
+        // whether the attributes belong to vertices, corners or faces.
         plan.has_unlisted_attributes = true;
         let problem = |message| Problem::error(message).at(["attributes"]);
         self.problem().map(problem).into_iter().collect()

@@ -53,8 +53,8 @@ impl MeshOperation for BevelVertices {
         if done.max > 0 {
             // An edge can be cut near one end, near both ends or not at all. A beveled vertex has at least three edges.
             let cuts = Range::between(done.by(3).min, plan.edges.by(2).max);
-            // A new face has as many corners as its vertex had edges. An old face gains at most one corner for each of
-            // its corners.
+            // The number of corners of a new face is the number of edges of its old vertex. An old face gains at most
+            // one corner for each of its corners.
             let gained = plan.degrees.by(2).max;
             plan.degrees = Range::between(3, gained.max(plan.edges.max));
             let new = Range::between(done.by(2).min, cuts.max.saturating_sub(done.min));

@@ -32,7 +32,7 @@ impl Turn {
         DMat3::from_cols(x, y, z)
     }
 
-    /// Returns the matrix of several rotations that are applied one after the other.
+    /// Returns the matrix of several rotations that are applied in the order of the list.
     pub fn all(turns: &[Self]) -> DMat3 {
         turns
             .iter()

@@ -357,7 +357,7 @@ proptest! {
         let grid = shapes::grid(5, 4);
         let not = |s: &EdgeSelection| EdgeSelection::Not(Box::new(s.clone()));
         let boxed = |s: &EdgeSelection| Box::new(s.clone());
-        // These are De Morgan's laws.
+        // The following checks are De Morgan's laws.
         let both = EdgeSelection::And(vec![a.clone(), b.clone()]);
         let neither = EdgeSelection::Or(vec![not(&a), not(&b)]);
         prop_assert_eq!(edges(&not(&both), &grid), edges(&neither, &grid));

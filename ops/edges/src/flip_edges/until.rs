@@ -1,4 +1,4 @@
-//! Flips edges as long as flips improve the mesh.
+//! Flips edges until no flip improves the mesh, or until the limit of passes is reached.
 //!
 //! A pass checks edges in order of their ids. The first pass checks all edges. Each later pass checks the edges near
 //! vertices whose edges changed, and the edges whose flip the previous pass refused. At all other edges, the check

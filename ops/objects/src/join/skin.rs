@@ -27,7 +27,7 @@ pub(super) enum LostSkin {
 pub(super) struct KeptSkin {
     /// The name of the first skinned part. The node and the morph weights of this part are kept.
     pub(super) part: String,
-    /// The map of the first joint. It maps points from the space in which the skin binds points to scene space.
+    /// The map of the first joint. The map takes points from the space in which the skin binds points to scene space.
     first_joint: DAffine3,
 }
 

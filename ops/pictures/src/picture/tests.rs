@@ -1,4 +1,4 @@
-//! Tests of the whole operation: each test reads a step from text, runs it, and checks the bytes of the written file.
+//! Tests of the whole operation. Most tests read a step from text, run it, and check the bytes of the written file.
 
 use geometry::shapes;
 use op::{Context, Files, NoProgress, OpError, Operation, Plan, PlanContext, PlannedGeometry};

@@ -91,8 +91,8 @@ fn store_bytes(folder: &Folder, blob: BlobRef, bytes: &[u8]) -> bool {
         })
 }
 
-/// Whether a blob is already stored. If so, also marks the blob as used. Its content is checked only when the blob is
-/// read.
+/// Whether a blob is already stored. If it is stored, also marks the blob as used. The content of a blob is checked
+/// only when the blob is read.
 fn is_stored(folder: &Folder, blob: &BlobRef) -> bool {
     let exists = exists(folder, blob);
     if exists {
@@ -137,9 +137,9 @@ pub(crate) fn restore_file(folder: &Folder, blob: &BlobRef, to: &Path) -> Result
     let written = |error: io::Error| Unusable::Damaged(format!("{}: {error}", to.display()));
     let mut out = File::create(to).map_err(written)?;
     let mut failed = None;
-    // At most the recorded length of the blob is copied, even if another process extends the file.
+    // Copies no more bytes than the recorded length of the blob, even if another process appends to the file.
     let copied = copy_hashed(&mut (&mut file).take(blob.len), |piece| {
-        // A failure to write the output file must not count as a damaged blob.
+        // If the output file cannot be written, the blob must not be treated as damaged.
         let done = out.write_all(piece);
         done.inspect_err(|error| failed = Some(error.to_string()))
     });

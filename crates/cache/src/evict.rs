@@ -10,8 +10,8 @@ use crate::folder::{Folder, Kind, Unusable, write_all};
 
 /// The maximum age of temporary files. Older temporary files were left by killed processes and are removed.
 const MAX_TEMPORARY_AGE: Duration = Duration::from_secs(3600);
-/// The maximum length of the file `sizes`, in bytes. The file lists how many bytes each run has stored. If the file is
-/// longer, the total size of the cache is measured again and replaces the list.
+/// The maximum length of the file `sizes`, in bytes. The file lists how many bytes each run has stored. If the file
+/// `sizes` is longer, the total size of the cache is measured again, and this size replaces the list.
 const MAX_SIZES_LEN: u64 = 1 << 16;
 
 struct Entry {
@@ -21,7 +21,7 @@ struct Entry {
     used: SystemTime,
 }
 
-/// Lists the files of the cache that hold steps, blobs and recipes, without the files that are still being written.
+/// Lists the files of the cache that hold steps, blobs and recipes. Files that are still being written are not listed.
 fn entries(folder: &Folder) -> io::Result<Vec<Entry>> {
     let mut entries = Vec::new();
     for kind in Kind::ALL {
@@ -110,7 +110,7 @@ fn sizes(folder: &Folder) -> PathBuf {
 }
 
 /// If something was stored since the last call, keeps the cache below its size limit. Errors are ignored, because the
-/// next run tries again to keep the limit.
+/// next run that stores something tries again to keep the limit.
 pub(crate) fn after_run(folder: &Folder, limit: u64) {
     let added = folder.take_written();
     if added > 0 {
@@ -132,7 +132,7 @@ fn add_to_total(folder: &Folder, added: u64, limit: u64) -> io::Result<()> {
         runs.fold(added, u64::saturating_add)
     });
     if total.is_some_and(|total| total <= limit) {
-        // An append of 8 bytes is atomic, so concurrent runs do not damage each other's numbers.
+        // Appending 8 bytes to a file is atomic, so concurrent runs do not damage each other's numbers.
         let mut file = OpenOptions::new().append(true).create(true).open(&path)?;
         file.write_all(&added.to_le_bytes())?;
     } else {
@@ -223,7 +223,7 @@ mod tests {
         let (_temporary, folder) = filled(3);
         after_run(&folder, 10_000);
         assert_eq!(fs::read(sizes(&folder)).unwrap(), 3000_u64.to_le_bytes());
-        // The files were added without a run of the program, so the recorded total size does not include them.
+        // The test created the files directly, without a run, so the recorded total size does not include these files.
         for i in 100..120 {
             let path = folder.path(Kind::Blob, &[i; 32]);
             fs::create_dir_all(path.parent().unwrap()).unwrap();

@@ -1,5 +1,5 @@
-//! Expectations (statements in a recipe about the scene) that are known to hold for a scene, so that they need not be
-//! checked again.
+//! Records which expectations (statements in a recipe about the scene) hold for a scene, so that these expectations
+//! need not be checked again.
 
 use op::{FileUse, Files};
 use serde::{Deserialize, Serialize};

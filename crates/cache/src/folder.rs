@@ -104,7 +104,7 @@ impl Folder {
             file.persist(path)?;
             Ok(n)
         };
-        // Another process may have cleared the folder in the meantime, so writing is tried again.
+        // Another process may have cleared the cache folder in the meantime, so the file is written a second time.
         let retry = |error: io::Error| match error.kind() {
             io::ErrorKind::NotFound => try_write(),
             _ => Err(error),
@@ -115,8 +115,8 @@ impl Folder {
                 true
             }
             Err(error) => {
-                // The error message ends with the path of the temporary file. The path of the temporary file does not
-                // help the user, so it is removed from the message.
+                // The error message ends with the path of the temporary file. This path does not help the user, so the
+                // path is removed from the message.
                 let error = error.to_string();
                 let error = error.split(" at path ").next().unwrap_or_default();
                 let root = self.root.display();
@@ -133,8 +133,8 @@ impl Folder {
     }
 
     /// Returns the key of this cache: random bytes that only the user can read. The digest of every record depends
-    /// on the key. A person who edits a record without knowing the key cannot compute the new digest, so the record
-    /// is rejected. The key is read each time, because another process may have cleared the folder.
+    /// on the key. A person who edits a record without knowing the key cannot compute the new digest, so the record is
+    /// rejected. Every call reads the key file again, because another process may have cleared the cache folder.
     pub(crate) fn key(&self) -> Result<Hash, Unusable> {
         let path = self.key_file();
         let key = Self::read(&path, size_of::<Hash>() as u64).and_then(|key| {
@@ -171,7 +171,7 @@ impl Folder {
     }
 
     /// Removes a file. Errors are ignored: if a damaged file cannot be removed, the damage is detected again when the
-    /// file is read the next time.
+    /// file is next read.
     pub(crate) fn discard(path: &Path) {
         let _ = fs::remove_file(path);
     }
@@ -221,8 +221,8 @@ pub(crate) fn unreadable(error: io::Error) -> Unusable {
     }
 }
 
-/// Returns random bytes. The random bytes are derived from the random keys that the standard library uses for hash
-/// maps. The operating system generates these keys.
+/// Returns random bytes, derived from the random keys with which the standard library seeds hash maps. The operating
+/// system generates these keys.
 fn random() -> Hash {
     let mut hasher = blake3::Hasher::new();
     for i in 0..4 {

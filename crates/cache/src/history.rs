@@ -53,8 +53,8 @@ impl History {
         });
     }
 
-    /// Stores the steps of this run. If the last run had more steps than this run, the steps of the last run that this
-    /// run did not reach are kept.
+    /// Stores the steps of this run. If this run reached only the first n steps, the steps of the last run after its
+    /// first n steps are kept.
     pub(crate) fn store(&mut self, folder: &Folder) {
         let Some(id) = self.id else { return };
         let n = self.this_run.len();
@@ -69,8 +69,8 @@ impl History {
         }
     }
 
-    /// Returns the reason why the cache has no record for the key of a step. If an earlier step of this run made later
-    /// steps run again, `rerun` is the number and the label of that earlier step.
+    /// Returns the reason why the cache has no record for the key of the current step. If an earlier step of this run
+    /// made later steps run again, `rerun` is the number and the label of that earlier step.
     pub(crate) fn why(&self, now: &Ingredients, rerun: Option<(usize, String)>) -> RerunReason {
         let index = self.this_run.len();
         let is_same_step = |past: &&PastStep| {
@@ -78,8 +78,8 @@ impl History {
         };
         let past = self.last_run.get(index).filter(is_same_step);
         let past = past.or_else(|| self.last_run.iter().find(is_same_step));
-        // The label of the step can differ between the runs, so a step with the same operation at the same index also
-        // counts as the earlier run of this step.
+        // The label of a step can differ between two runs. If no step of the last run has the same operation and label,
+        // a step with the same operation at the same index counts as the same step.
         let is_same_operation = |past: &&PastStep| past.ingredients.operation == now.operation;
         let past = past.or_else(|| self.last_run.get(index).filter(is_same_operation));
         let Some(past) = past else {
@@ -134,7 +134,7 @@ fn parameter_changes(from: &str, to: &str) -> String {
         }
     }
     let text = |value: Option<&ron_tree::Value>| {
-        // Values are written as in recipes, without `Some`.
+        // Optional values are written as in recipes, without `Some`.
         let value = value.map(|value| value.some().unwrap_or(value));
         value.map_or_else(|| "nothing".to_owned(), ToString::to_string)
     };
@@ -144,8 +144,7 @@ fn parameter_changes(from: &str, to: &str) -> String {
         if from == to {
             None
         } else if from_short == to_short {
-            // The old and the new value of the parameter are equal after they are shortened, so only the name of the
-            // parameter is given.
+            // Both values are long and begin with the same characters, so only the name of the parameter is given.
             Some(name.clone())
         } else {
             Some(format!("{name} {from_short} -> {to_short}"))

@@ -32,21 +32,21 @@ pub(crate) struct FileState {
 #[derive(Clone, Debug, Default, Deserialize, PartialEq, Eq, Serialize)]
 pub(crate) struct Inputs {
     /// The requested paths: each path as written in the recipe, and the path to which it was resolved. The resolved
-    /// path is needed because the same written path refers to different files in different input folders.
+    /// path is stored because a relative path in a recipe refers to different files for different input folders.
     requested: Vec<(String, PathBuf)>,
     /// The files that the step or the expectation read or looked for.
     pub(crate) files: Vec<FileState>,
 }
 
 impl Inputs {
-    /// Whether each requested path is still resolved to the same file.
+    /// Whether each requested path still leads to the same full path as before.
     pub(crate) fn resolve_as_before(&self, files: &Files) -> bool {
         let mut requested = self.requested.iter();
         requested.all(|(path, full)| files.input.join(path) == *full)
     }
 }
 
-/// Checks files for changes. The checker keeps the digests of the files, so most files are read only once per run.
+/// Checks files for changes. The checker remembers the digest of each file, so most files are read only once per run.
 #[derive(Debug)]
 pub(crate) struct FileChecker {
     run_start: SystemTime,
@@ -139,8 +139,8 @@ impl FileChecker {
         Ok(Inputs { requested, files })
     }
 
-    /// Whether a file was modified after the run started. If so, it is not known which version of the file the step has
-    /// read.
+    /// Whether a file was modified after the run started. In this case, it is unknown which version of the file the
+    /// step has read.
     fn is_new(&self, path: &Path) -> bool {
         let modified = std::fs::metadata(path).and_then(|meta| meta.modified());
         modified.is_ok_and(|at| at > self.run_start)

@@ -20,7 +20,7 @@ pub(crate) struct Ingredients {
     /// The parameters in canonical form, with all defaults written out.
     pub(crate) parameters: String,
     pub(crate) on: Option<Vec<String>>,
-    /// The label of the step. It seeds random choices.
+    /// The label of the step, which seeds the random choices of the step.
     pub(crate) stream: String,
     pub(crate) refused: Option<Refusal>,
     pub(crate) budget: u64,
@@ -37,7 +37,8 @@ pub(crate) struct Key(pub(crate) Hash);
 pub(crate) struct State(pub(crate) Hash);
 
 impl Ingredients {
-    /// Returns the ingredients of a step, from which its key is computed. Returns `None` if the step could not be read.
+    /// Returns the ingredients of a step, from which the key of the step is computed. Returns `None` if the recipe
+    /// contains an error in this step, so that the step could not be read.
     pub(crate) fn of(step: &RecipeStep, program: &str, budget: u64, before: State) -> Option<Self> {
         let operation = step.step.as_ref()?;
         Some(Self {
@@ -76,7 +77,8 @@ impl State {
         Self(digest("start", &()))
     }
 
-    /// Returns the state of a scene, computed from the content of the scene. Used if the inputs of a step are unknown.
+    /// Returns the state of a scene, computed from the content of the scene. This function is used if the input files
+    /// of the step that produced the scene are unknown.
     pub(crate) fn of_scene(digest_of_scene: scene::Digest) -> Self {
         Self(digest("scene", &digest_of_scene.to_bytes()))
     }
@@ -140,7 +142,8 @@ mod tests {
             })
             .collect();
         assert_eq!(keys.len(), changes.len());
-        // Here, the same characters are divided differently between two fields. The keys must differ.
+        // Two different ways of dividing the same characters between the fields `program` and `operation` must give
+        // different keys.
         let (mut a, mut b) = (ingredients(), ingredients());
         (a.program, a.operation) = ("pO".into(), "p".into());
         (b.program, b.operation) = ("p".into(), "Op".into());

@@ -10,35 +10,38 @@
 //! ```
 //!
 //! **Keys.** The key of a step is the digest of the data that determine its result and that are known before the step
-//! runs. The key depends on the program, the operation with its version and parameters, and the objects in `on`. The
-//! key also depends on the label that seeds random choices, the memory budget, and the state of the scene before the
-//! step. If the recipe expects that the step is refused, the key depends on the expected reason, too. The state of the
-//! scene after a step is a digest. It is computed from the key of the step and the files that the step read or looked
-//! for. The files that a step reads are known only after the step has run. Before a cached result is used, the digests
-//! of the current contents of these files are compared with the recorded digests. Modification times are not compared.
+//! runs. The key depends on the program, the operation with its version and parameters, and the objects in the field
+//! `on` of the step. The key also depends on the label of the step (which seeds random choices), the memory budget, and
+//! the state of the scene before the step. If the recipe expects that the step is refused, the key depends on the
+//! expected reason, too. The state of the scene after a step is a digest of the key of the step and of the files that
+//! the step read or looked for. The files that a step reads are known only after the step has run. Before the cached
+//! result of a step is used, the current digest of each file that the step read is compared with the recorded digest.
+//! The modification times of the files are not compared.
 //!
-//! **Integrity.** Only regular files are read, not links, and only up to a maximum length. Every blob must match the
-//! digest in its name. Every record must match its digest, which depends on the secret key of the cache. Only the user
-//! can read the secret key. So an edited record is rejected even if its digest was computed again. The arrays of a
-//! scene are validated when they are loaded. A damaged file is removed and treated as missing. Files are written under
-//! a temporary name and then renamed. So neither concurrent nor killed processes leave incomplete files, and no locks
-//! are needed. If the folder cannot be written, the problem is reported once, and the run continues without storing
-//! anything.
+//! **Integrity.** In its folder, the cache reads only regular files, no links, and reads each file only up to a maximum
+//! length. Every blob must match the digest in its name. Every record must match its digest, which depends on the
+//! secret key of the cache. Only the user can read the secret key. Other people cannot compute the correct digest of an
+//! edited record, so the record is rejected. The arrays of a scene are validated when they are loaded. A damaged file
+//! is removed and treated as missing. Each file is written under a temporary name and then renamed. Therefore, neither
+//! concurrent nor killed processes leave incomplete files, and the cache needs no locks. If the folder cannot be
+//! written, the problem is reported once, and the run continues without storing anything.
 //!
-//! **What is stored.** The record of each completed step is stored, unless the state of an input file is unknown.
-//! Removed elements leave gaps in the arrays of a mesh. Storing would close these gaps and renumber the elements, so
-//! scenes with gaps are not stored. All other scenes, and all output files, are stored if they have fewer than
-//! [`ALWAYS_STORED`] bytes. A larger scene is stored if storing it takes at most as long as the computation since the
-//! last stored scene. The time for storing is estimated from [`BYTES_PER_SECOND`]. Therefore, even a run that stores
-//! all of its results takes at most about twice as long as a run without the cache. If a scene is not stored, computing
-//! it again in a later run takes at most as long as storing it would have taken. Larger output files are stored if
-//! storing them takes at most as long as running the step and loading its scene. Equal long arrays are stored only
-//! once. Therefore, if a step changes one attribute of a large mesh, only this attribute is added to the cache.
+//! **What is stored.** The record of each completed step is stored, unless the state of an input file of the step, or
+//! of the scene before the step, is unknown. Removed elements leave gaps in the arrays of a mesh. Storing a mesh would
+//! close its gaps and renumber its elements, so scenes with such meshes are not stored. All other scenes, and all
+//! output files, are stored if they have fewer than [`ALWAYS_STORED`] bytes. A larger scene is stored if storing it
+//! takes at most as long as the steps that ran since a scene was last stored or loaded. The time for storing is
+//! estimated from [`BYTES_PER_SECOND`]. Therefore, even a run that stores all of its results takes at most about twice
+//! as long as a run without the cache. If a scene without gaps is not stored, computing the scene again in a later run
+//! takes at most as long as storing it would have taken. Larger output files are stored if storing them takes at most
+//! as long as running the step and loading its scene. If several scenes contain the same long array, the array is
+//! stored only once. Therefore, if a step changes one attribute of a large mesh, only this attribute is added to the
+//! cache.
 //!
-//! **Size.** If a run has stored something, the cache adds up at its end how many bytes all runs have stored. If this
-//! sum exceeds the size limit of the cache, or is not known, all files of the cache are listed. If the listed files
-//! exceed the size limit, the least recently used files are removed until the remaining files take at most nine tenths
-//! of the limit.
+//! **Size.** At the end of a run that has stored something, the cache adds the number of stored bytes to its recorded
+//! size. If the new size exceeds the size limit, or if the recorded size is unknown, all files of the cache are listed.
+//! If the listed files exceed the size limit, the least recently used files are removed until the remaining files take
+//! at most nine tenths of the limit.
 
 mod blob;
 mod evict;
@@ -78,8 +81,8 @@ pub struct Cache {
 pub struct Caching<'a> {
     /// The cache.
     pub cache: &'a Cache,
-    /// The file of the recipe, if it has one. The data from which the keys of the steps are computed is stored for this
-    /// file, so that the next run can report which data has changed.
+    /// The file of the recipe, if the recipe was read from a file. For this file, the cache stores the data from which
+    /// the keys of the steps are computed. The next run of the file can then report which data have changed.
     pub recipe: Option<&'a Path>,
     /// Whether the final scene, [`Outcome::scene`](recipe::Outcome::scene), must be available after the run even if no
     /// step needs it.

@@ -17,8 +17,8 @@ use crate::key::Key;
 const MAGIC: &[u8] = b"meshwright cache\n";
 /// The maximum size of a file with records or with a history, in bytes.
 const MAX_BYTES: u64 = 1 << 26;
-/// The maximum number of records for one key. Two records for the same key differ in their input files or in their
-/// outputs.
+/// The maximum number of records for one key. Two records for the same key differ in their input files, in their
+/// requested output paths, or in their provenance.
 const MAX_RECORDS: usize = 4;
 
 /// The record of a step.
@@ -58,7 +58,8 @@ pub(crate) struct OutputFile {
 }
 
 impl Record {
-    /// Whether both records are for the same input files and outputs. If so, the newer record replaces the older one.
+    /// Whether both records have the same input files, the same requested output paths and the same provenance. If they
+    /// do, the newer record replaces the older one.
     fn is_replaced_by(&self, other: &Self) -> bool {
         let provenance = |r: &Self| {
             r.outputs
@@ -105,8 +106,8 @@ pub(crate) fn load_data<T: DeserializeOwned>(
         let (digest, data) = rest
             .and_then(|rest| rest.split_at_checked(size_of::<Hash>()))
             .ok_or_else(|| damaged("it is not a cache file"))?;
-        // The digest also depends on `id`, from which the path of the file is derived. Therefore, a file that was
-        // renamed is rejected, too.
+        // The digest also depends on `id`, from which the path of the file is derived. Therefore, the cache also
+        // rejects a file that was renamed.
         if digest != keyed_digest(&folder.key()?, id, data) {
             return Err(damaged("the content of the file does not match its digest"));
         }
@@ -120,7 +121,7 @@ pub(crate) fn load_data<T: DeserializeOwned>(
 
 /// Stores serialized data.
 pub(crate) fn store_data(folder: &Folder, kind: Kind, id: &Hash, data: &impl Serialize) {
-    // Serialization fails for paths that are not valid Unicode. Such data is not stored.
+    // If the data contain a path that is not valid Unicode, serialization fails and nothing is stored.
     if let Ok(data) = postcard::to_stdvec(data)
         && (data.len() as u64) < MAX_BYTES / 2
         && let Some(key) = folder.key_or_new()

@@ -37,15 +37,15 @@ pub(crate) struct Session<'a> {
     caching: Caching<'a>,
     checker: FileChecker,
     history: History,
-    /// One entry for the start of the run, and one entry for each step that is done.
+    /// One entry for the start of the run, and one entry for each completed step.
     positions: Vec<Position>,
     /// The ingredients (the data from which the key is computed) of the step that was looked up last, if that step must
     /// run.
     ingredients: Option<Ingredients>,
-    /// The computing time since the last stored scene.
+    /// The time that steps have taken since a scene was last stored or loaded.
     unstored_time: Duration,
-    /// The last step that ran because something changed. If a step runs again, it is possible that later steps must run
-    /// again, too. The tuple consists of the number of the step, counted from 1, and its label.
+    /// The last step that ran because something changed, so that later steps possibly must run again, too. The tuple
+    /// consists of the number of the step, counted from 1, and its label.
     last_changed: Option<(usize, String)>,
     notes: Vec<String>,
 }
@@ -138,9 +138,9 @@ impl CachedRun for Session<'_> {
                     "the result of step {number} {label} is not stored in the cache, because the input files of the step cannot be determined ({}: {why})",
                     path.display()
                 ));
-                // Usually, the key and the input files of a step identify the scene after the step. Here, the input
-                // files are unknown, so the identity of the scene is computed from the content of the scene. With this
-                // identity, later steps can still be cached.
+                // Usually, the key and the input files of a step identify the scene after the step. Because the input
+                // files of this step are unknown, the state of the scene is computed from the content of the scene.
+                // With this state, later steps can still be cached.
                 if is_dense(done.scene) {
                     let digest = position.digest.unwrap_or_else(|| done.scene.digest());
                     position.digest = Some(digest);
@@ -323,8 +323,8 @@ impl<'a> Session<'a> {
         let Some(outputs) = &record.outputs else {
             return Ok(());
         };
-        // Without a stage (a folder that collects the output files), the run does not need the output files. A
-        // different provenance (the text about the origin of the files) in the cached files then does not matter.
+        // Without a stage (a folder that collects the output files), the run writes no output files. In this case, the
+        // provenance (a text about the origin of the files) in the cached files does not matter.
         if stage.is_some() && outputs.provenance != files.provenance {
             return Err(RerunReason::Provenance);
         }
@@ -338,8 +338,8 @@ impl<'a> Session<'a> {
         }
         let Some(stage) = stage else { return Ok(()) };
         let written = outputs.files.as_ref().ok_or(RerunReason::NotKept)?;
-        // All files are first restored under temporary names. If one of the cached files is damaged, the files in the
-        // stage (the folder that collects output files) stay unchanged.
+        // All output files are first restored under temporary names. Therefore, if a cached file is damaged, the
+        // existing files in the stage (the folder that collects output files) stay unchanged.
         let part = |i: usize| stage.join(format!(".part-{i}"));
         let mut restored = written.iter().enumerate().try_for_each(|(i, file)| {
             if !is_below(&file.path) {
@@ -396,8 +396,8 @@ impl<'a> Session<'a> {
             return None;
         }
         let stored = done.stage.and_then(|stage| {
-            // `done.written` detects writes by modification time. It misses a file that was written twice within the
-            // resolution of these times, so the requested paths are added.
+            // `done.written` lists the files whose length or modification time has changed. A file can be written twice
+            // within the resolution of modification times and keep its length, so the requested paths are added.
             let requested = requested.iter().map(|(_, path)| path);
             let requested = requested.filter(|path| stage.join(path).is_file());
             let written: BTreeSet<&PathBuf> = done.written.iter().chain(requested).collect();
@@ -452,8 +452,8 @@ fn is_worth_storing(bytes: u64, time: Duration) -> bool {
     bytes < ALWAYS_STORED || bytes as f64 / BYTES_PER_SECOND <= time.as_secs_f64()
 }
 
-/// Whether all meshes are dense. Removed elements leave gaps in the arrays of a mesh, and a mesh without gaps is dense.
-/// A mesh with gaps would change if it were stored and loaded, because its elements would be renumbered.
+/// Whether all meshes of a scene are dense: no removed element has left a gap in the arrays of a mesh. If a mesh with
+/// gaps were stored and loaded again, its elements would be renumbered.
 fn is_dense(scene: &Scene) -> bool {
     let mut meshes = scene.objects().iter().filter_map(|o| o.as_mesh());
     meshes.all(|mesh| mesh.is_dense())

@@ -230,7 +230,7 @@ fn only_the_changed_step_and_later_steps_run_again() {
     let ninth = ten(|i| if i == 9 { 2.5 } else { 1.5 });
     let after = "the earlier step 9 lift9 ran again".to_owned();
     assert_eq!(place.ran(&ninth), [(9, why), (10, after)]);
-    // Now the cache contains the results of both versions of the recipe.
+    // After both runs, the cache contains the results of both versions of the recipe.
     place.runs_nothing(&ten(|_| 1.5));
     place.runs_nothing(&ninth);
 }
@@ -332,7 +332,7 @@ fn an_input_file_that_changes_disappears_or_appears_is_named() {
         assert_eq!(ran[0], (1, why));
         place.runs_nothing(&text);
     }
-    // The files have the same contents as in an earlier run, and the result of that run is still in the cache.
+    // After these changes, both files are as in an earlier run, and the result of that run is still in the cache.
     fs::remove_file(place.path("n.beside")).unwrap();
     place.write("n.txt", "4");
     place.runs_nothing(&text);

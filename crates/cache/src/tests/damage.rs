@@ -53,11 +53,12 @@ fn damage_to_any_file_is_noticed() {
         },
         |path, _| fs::write(path, "").unwrap(),
         |path, _| fs::remove_file(path).unwrap(),
-        // Replaces the content by that of another file, which is intact but belongs to a different name.
+        // Replaces the content of the file by the content of another file, which is intact but belongs to a different
+        // name.
         |path, others| fs::write(path, &others[0]).unwrap(),
         |path, others| fs::write(path, others.last().unwrap()).unwrap(),
     ];
-    // After the last step is edited, a run needs the scene before this step.
+    // The recipe with an edited last step needs the scene before this step, which can be damaged.
     let edited = text.replace("Lift(by: 2)", "Lift(by: 3)");
     let plain = [&text, &edited].map(|text| place.run_with(text, None, "plain"));
     for damage in damages {
@@ -72,7 +73,7 @@ fn damage_to_any_file_is_noticed() {
             }
         }
     }
-    // The cache is complete again.
+    // The previous runs have stored all damaged files again.
     place.run(&text);
     place.runs_nothing(&text);
 }

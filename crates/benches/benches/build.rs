@@ -1,8 +1,8 @@
-//! How many triangles per second does the library build into a mesh, and how does the time compare with copying
-//! the bytes of the mesh?
+//! Measures how many triangles per second are built into a mesh. For comparison, also measures the time to copy the
+//! bytes of the mesh.
 //!
 //! The input is a torus of a million triangles and half a million vertices. Vertices are numbered row by row, so that
-//! neighbors are close in memory. The input is in memory before the timing starts; the output is written to newly
+//! neighbors are close in memory. The input is in memory before the measured time starts. The mesh is written to newly
 //! allocated memory.
 //!
 //! - `build`: builds the mesh from an array of the vertices of all corners, and an array of offsets: for each face, the
@@ -75,7 +75,7 @@ fn torus() -> (Vec<DVec3>, Vec<[u32; 3]>) {
     (quads.positions().to_vec(), triangles.collect())
 }
 
-/// The same mesh with its triangles and its vertices in random order.
+/// Returns the positions and the triangles of the same mesh, with vertices and triangles in random order.
 fn shuffled(positions: &[DVec3], triangles: &[[u32; 3]]) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     let mut order: Vec<u32> = (0..).take(positions.len()).collect();
     shuffle(&mut order);

@@ -40,7 +40,7 @@ fn every_edge_once(c: &mut Criterion) {
     group.finish();
 }
 
-/// Flips every edge. The mesh refuses flips that are not legal.
+/// Tries to flip every edge. The mesh refuses flips that are not legal.
 fn flip(mesh: Mesh, edges: &[EdgeId]) -> Mesh {
     edit_every(mesh, edges, |mesh, e| mesh.flip_edge(e).map(drop))
 }

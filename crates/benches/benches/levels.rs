@@ -1,5 +1,4 @@
-//! How many faces per second does subdivision produce, and how does the speed compare with the memory
-//! bandwidth?
+//! Measures how many faces per second subdivision produces.
 //!
 //! The cage is the coarse mesh that is subdivided. At the start of the measured time, the cage is in memory. At the end
 //! of the measured time, the refined mesh is in memory, with full connectivity. `tests/oracle` measures `OpenSubdiv` on

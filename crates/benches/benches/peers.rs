@@ -2,7 +2,8 @@
 //!
 //! Each library edits the same torus of a million triangles. Each library flips every edge whose flip is legal, and
 //! splits every edge. Each library except tri-mesh also collapses every edge whose collapse is legal. The edges are in
-//! the same random order for all libraries. The time of an edit includes the checks that the library makes.
+//! the same random order for all libraries. The measured time of an edit includes the checks that the library makes
+//! before the edit.
 //!
 //! The far corners of an edge are the corners opposite to the edge in the two triangles beside it. A flip is illegal if
 //!
@@ -22,9 +23,9 @@
 //!
 //! A split adds a vertex on the edge and connects the vertex to the far corners. alum does not have this edit. The
 //! function `split_edge` of alum leaves two quadrilaterals, which the benchmark splits by two calls of `insert_edge`.
-//! In alum, a collapse moves one end of the edge to the other end. In Meshwright, a collapse moves both ends to the
-//! midpoint. A collapse is legal if the topology of the surface stays the same (the link condition). tri-mesh makes no
-//! checks before a collapse, so its collapses are not measured. All positions are `f64`.
+//! In alum, a collapse moves one end of the edge to the other end. In Meshwright, a collapse moves both ends of the
+//! edge to its midpoint. A collapse is legal if the topology of the surface stays the same (the link condition).
+//! tri-mesh makes no checks before a collapse, so the collapses of tri-mesh are not measured. All positions are `f64`.
 //!
 //! In this benchmark, Meshwright prefetches the memory of the next edits. Meshwright also checks in each edit whether
 //! the mesh has an open journal (a record for undoing edits), attribute columns, or dead elements (deleted elements
@@ -107,7 +108,7 @@ fn alum_edits(group: &mut Group, start: &Start<Alum, alum::EH>) -> usize {
     )
 }
 
-/// Returns the number of accepted flips.
+/// Measures the edits of tri-mesh. Returns the number of flips that tri-mesh accepts.
 fn tri_mesh_edits(group: &mut Group, start: &Start<tri_mesh::Mesh, tri_mesh::HalfEdgeID>) -> usize {
     start.measure(group, "split, tri-mesh", |mesh, edges, i| {
         let h = edges[i];

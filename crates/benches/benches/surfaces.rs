@@ -12,7 +12,7 @@ use geometry::{geodesic_distances, remesh, shapes, simplify, smooth, uv};
 use mesh::{DVec3, Mesh, UV};
 use progress::NoProgress;
 
-/// A torus of 20,000 triangles with smooth bumps.
+/// Returns a torus of 20,000 triangles with smooth bumps.
 fn bumpy() -> Mesh {
     let mut mesh = shapes::fans(&shapes::torus(200, 50, 2.0, 1.0));
     for p in mesh.positions_mut() {
@@ -22,7 +22,7 @@ fn bumpy() -> Mesh {
     mesh
 }
 
-/// Texture coordinates for a mesh: the x and y coordinates of the positions, so that there are no seams.
+/// Adds texture coordinates without seams to a mesh: the x and y coordinates of the positions.
 fn with_uvs(mut mesh: Mesh) -> Mesh {
     let at = |h| mesh.position(mesh.origin(h)).truncate();
     let uvs = mesh.half_edges().map(at).collect();

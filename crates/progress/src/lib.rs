@@ -38,7 +38,8 @@ pub trait Progress: Sync {
     }
 }
 
-/// Counts the parts of one computation that its threads have finished, and reports this number.
+/// Counts the finished parts of a computation, which can run on several threads, and reports their number to a
+/// listener.
 pub struct Meter<'a> {
     listener: &'a dyn Progress,
     task: &'static str,
@@ -95,7 +96,7 @@ impl<'a> Meter<'a> {
     }
 }
 
-/// Ignores progress and never cancels.
+/// A listener that ignores all progress reports and never cancels a computation.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NoProgress;
 

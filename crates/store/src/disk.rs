@@ -86,8 +86,8 @@ impl Store for Disk {
     }
 
     fn remove_folder(&self, folder: &Path) -> Result<(), StoreError> {
-        // If the removal fails, for example because too many files are open, a second way is tried, which needs fewer
-        // file descriptors.
+        // `remove_dir_all` fails, for example, if too many files are open. After a failure, `remove_all` is tried,
+        // which needs fewer file descriptors.
         fs::remove_dir_all(folder)
             .or_else(|_| remove_all(folder))
             .map_err(|error| StoreError::new("remove the folder", folder, error))
@@ -132,7 +132,7 @@ fn remove_all(folder: &Path) -> io::Result<()> {
 ///
 /// # Errors
 ///
-/// Returns [`StoreError`] if the file does not exist or cannot be written. The file is then unchanged.
+/// Returns [`StoreError`] if the file does not exist or cannot be written. After an error, the file is unchanged.
 pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
     let replaced = || -> io::Result<()> {
         let real = path.canonicalize()?;
@@ -186,8 +186,8 @@ impl NewFile for UnfinishedFile {
 fn beside(path: &Path) -> io::Result<NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".meshwright-");
-    // Temporary files are private to the user by default. This temporary file becomes a normal file, so it gets
-    // normal permissions.
+    // By default, only the user can access a temporary file. This temporary file is later renamed to a normal file, so
+    // it gets the permissions of a normal file.
     #[cfg(unix)]
     let open: fs::Permissions = std::os::unix::fs::PermissionsExt::from_mode(0o666);
     #[cfg(unix)]
@@ -197,7 +197,8 @@ fn beside(path: &Path) -> io::Result<NamedTempFile> {
         .map_err(without_temporary_name)
 }
 
-/// Removes the path that `tempfile` appends to an error, because the temporary file no longer exists.
+/// Removes the path of the temporary file, which `tempfile` appends to the message of an error. The path does not help
+/// the user, because the temporary file no longer exists.
 fn without_temporary_name(error: io::Error) -> io::Error {
     match error.to_string().split_once(" at path ") {
         Some((what, _)) => io::Error::new(error.kind(), what),
@@ -205,8 +206,7 @@ fn without_temporary_name(error: io::Error) -> io::Error {
     }
 }
 
-/// Reads at most `limit` bytes of a regular file. Other files are refused, because reading a pipe or a device might
-/// never end.
+/// Reads at most `limit` bytes of a regular file. Pipes and devices are refused, because reading them might never end.
 fn read_plain(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
     let meta = fs::metadata(path)?;
     if meta.is_dir() {
@@ -230,8 +230,8 @@ fn read_plain(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
         bytes = read_at_once(&file, expected)?;
         io::Seek::seek(&mut &file, io::SeekFrom::Start(expected as u64))?;
     }
-    // Reads the rest of the file. For a small file, the rest is the whole file. For a large file, the rest is only the
-    // bytes that were added after the size was determined.
+    // Reads the rest of the file: the whole file if it is small, otherwise only the bytes that were appended after the
+    // size of the file was determined.
     let rest = limit - bytes.len() as u64;
     file.take(rest).read_to_end(&mut bytes)?;
     Ok(bytes)

@@ -59,8 +59,8 @@ pub trait Store: Debug + Send + Sync {
     /// Whether the path itself is a link.
     fn is_link(&self, path: &Path) -> bool;
 
-    /// Resolves the links in the path of an existing file or folder, so that all paths of the same file become
-    /// equal.
+    /// Resolves the links in the path of an existing file or folder, so that different paths of the same file give the
+    /// same result.
     ///
     /// # Errors
     ///
@@ -110,12 +110,12 @@ pub trait Store: Debug + Send + Sync {
         Err(StoreError::new("remove the folder", folder, error))
     }
 
-    /// Begins to write a file in an existing folder. An existing file with this name stays unchanged until
-    /// [`NewFile::commit`]. An existing link with this name is replaced, not followed.
+    /// Begins to write the file at `path`, whose folder must exist. Until [`NewFile::commit`] is called, an existing
+    /// file at `path` stays unchanged. If `path` is a link, the link is replaced, not followed.
     ///
     /// # Errors
     ///
-    /// Returns [`StoreError`] if the file cannot be written, or if a folder has this name.
+    /// Returns [`StoreError`] if the file cannot be written, or if there is a folder at `path`.
     fn create(&self, path: &Path) -> Result<Box<dyn NewFile + '_>, StoreError>;
 
     /// Renames a file. An existing file with the new name is replaced.
@@ -196,7 +196,7 @@ pub trait NewFile: Write + Send {
         Ok(())
     }
 
-    /// Moves the file to its path, and replaces an existing file.
+    /// Moves the temporary file to the path of the new file. An existing file at this path is replaced.
     ///
     /// # Errors
     ///
@@ -211,7 +211,7 @@ pub struct Entry {
     pub kind: Kind,
     /// The length of a file in bytes.
     pub len: u64,
-    /// The time of the last change, if known. For files in memory, this is not a real time, but the value still
+    /// The time of the last change, if known. For files in memory, this value is a counter instead of a real time, and
     /// increases with each change.
     pub modified: Option<SystemTime>,
 }
@@ -228,7 +228,7 @@ pub enum Kind {
 }
 
 impl Entry {
-    /// Whether this is a regular file.
+    /// Whether the entry is a regular file.
     pub fn is_file(&self) -> bool {
         self.kind == Kind::File
     }

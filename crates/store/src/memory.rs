@@ -8,8 +8,8 @@ use std::time::{Duration, SystemTime};
 
 use crate::{Entry, Kind, NewFile, Store, StoreError, check_target};
 
-/// Files that exist until this value is dropped. The working directory is the root. A `..` in a path removes the
-/// folder name before it. There are no links.
+/// Files that exist until this value is dropped. The working directory is the root. A `..` in a path removes the folder
+/// name before it. The store contains no links.
 #[derive(Debug, Default)]
 pub struct Memory(Mutex<Content>);
 
@@ -28,8 +28,8 @@ impl Memory {
     }
 
     fn content(&self) -> MutexGuard<'_, Content> {
-        // A panic of another thread while it held the lock does no harm: every entry is valid by itself, so the map can
-        // still be used.
+        // If another thread has panicked while it held the lock, the map can still be used, because every entry is
+        // valid by itself.
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

@@ -25,8 +25,8 @@ impl<'s> TemporaryFolder<'s> {
         let missing =
             missing.take_while(|folder| !folder.as_os_str().is_empty() && !store.exists(folder));
         let parents = missing.map(Path::to_path_buf).collect();
-        // While the folder `inside` is empty, another process can remove it. In this case, creating the temporary
-        // folder fails, and the second attempt also creates the folder `inside` again.
+        // Another process can remove the folder `inside` while this folder is empty. If this makes the first attempt
+        // fail, the second attempt also creates the folder `inside` again.
         let path = store
             .make_temporary(inside)
             .or_else(|_| store.make_temporary(inside))?;
@@ -74,7 +74,7 @@ mod tests {
             // An empty folder that existed before is kept.
             drop(TemporaryFolder::new(store, Some(&old)).unwrap());
             assert!(store.is_folder(&old));
-            // A folder with a file is kept.
+            // A parent folder that contains a file is kept.
             let temporary = TemporaryFolder::new(store, Some(&inner)).unwrap();
             store.write(&root.join("old/a/file"), b"").unwrap();
             drop(temporary);

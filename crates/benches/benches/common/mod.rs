@@ -8,8 +8,8 @@ pub(crate) fn torus() -> Mesh {
     shapes::fans(&shapes::torus(1000, 500, 2.0, 1.0))
 }
 
-/// Shuffles the edges, in the same order in every run: Fisher-Yates with a 64-bit linear congruential
-/// generator (Knuth, "The Art of Computer Programming", volume 2, 1997, 3.3.4).
+/// Returns the edges in a random order, which is the same in every run. Uses the Fisher-Yates shuffle with a 64-bit
+/// linear congruential generator (Knuth, "The Art of Computer Programming", volume 2, 1997, 3.3.4).
 pub(crate) fn shuffled(mut edges: Vec<EdgeId>) -> Vec<EdgeId> {
     let mut state = 1_u64;
     for i in (1..edges.len()).rev() {

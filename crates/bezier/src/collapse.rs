@@ -31,8 +31,8 @@ const TOLERANCE: f64 = 1e-12;
 pub(crate) struct Sides {
     /// Whether each side is collapsed. The sides are numbered as in the picture at the top of the file.
     pub(crate) collapsed: [bool; 4],
-    /// Whether all rows of control points are the same within the tolerance, or all columns are. If so, the patch is a
-    /// curve or a point.
+    /// Whether all rows of control points are the same within the tolerance, or all columns are. In both cases, the
+    /// patch is a curve or a point.
     has_no_area: bool,
 }
 
@@ -82,7 +82,7 @@ impl Sides {
     /// Returns the exact number of elements of the tessellation of a patch with these collapsed sides. All counts are
     /// zero if the tessellation has no face.
     ///
-    /// A number that exceeds 64 bits is replaced by the largest 64-bit number.
+    /// A count that exceeds 64 bits is replaced by the largest 64-bit number.
     pub(crate) fn counts(self, segments: u32, faces: Faces) -> Counts {
         let n = u64::from(segments);
         let square = |x: u64| x.saturating_mul(x);
@@ -154,8 +154,8 @@ mod tests {
         points[0][3] = points[0][0];
         assert!(Sides::of(&Patch::new(points).unwrap(), 1).collapsed[0]);
         assert!(!Sides::of(&Patch::new(points).unwrap(), 2).collapsed[0]);
-        // The side becomes a figure eight: at t = 0.5, it passes through the point at which it starts and ends. So with
-        // two segments, all its samples coincide.
+        // The side becomes a figure eight, whose start, middle (t = 0.5) and end are the same point. Therefore, the
+        // samples of the side for two segments coincide.
         points[0][2] = points[0][0] * 2.0 - points[0][1];
         assert!(Sides::of(&Patch::new(points).unwrap(), 2).collapsed[0]);
         assert!(!Sides::of(&Patch::new(points).unwrap(), 3).collapsed[0]);

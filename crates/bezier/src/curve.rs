@@ -18,9 +18,9 @@ use crate::{BezierError, Point};
 
 /// The largest number of control points of a [`Curve`].
 ///
-/// De Casteljau's algorithm computes n (n + 1) / 2 points for n control points. With at most `MAX_POINTS` control
-/// points, one evaluation takes at most about 8 million steps, and [`Curve::levels`] takes at most about 200 MB of
-/// memory.
+/// For n control points, the levels of de Casteljau's algorithm have n (n + 1) / 2 points. With at most `MAX_POINTS`
+/// control points, one evaluation takes at most about 8 million steps, and [`Curve::levels`] takes at most about 200 MB
+/// of memory.
 pub const MAX_POINTS: usize = 4096;
 
 /// A Bezier curve of degree n, given by n + 1 control points.
@@ -88,8 +88,8 @@ impl<P: Point> Curve<P> {
 
     /// Returns all degree + 1 levels of de Casteljau's algorithm at `t`.
     ///
-    /// The first level consists of the control points. Each level has one point fewer than the previous level.
-    /// The only point of the last level is the point of the curve.
+    /// The first level consists of the control points. Each level has one point fewer than the previous level. The last
+    /// level has one point: the point of the curve at `t`.
     pub fn levels(&self, t: f64) -> Vec<Vec<P>> {
         let mut levels = vec![self.points.clone()];
         for k in 0..self.degree() {
@@ -141,7 +141,8 @@ pub fn one_step<P: Point>(points: &[P], t: f64) -> Vec<P> {
         .collect()
 }
 
-/// Returns the only point of the last level of de Casteljau's algorithm. `points` must not be empty.
+/// Returns a point of the curve with the control points `points`: the only point of the last level of de Casteljau's
+/// algorithm. `points` must not be empty.
 fn casteljau<P: Point>(mut points: Vec<P>, weights: Weights) -> P {
     if let Some(end) = weights.end() {
         return points[end * (points.len() - 1)];

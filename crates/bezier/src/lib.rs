@@ -1,7 +1,7 @@
 //! Bezier curves and patches: de Casteljau's algorithm, derivatives, exact normals, and tessellation of
 //! patches into polygons.
 //!
-//! The crate works only on points and numbers. The crate does not depend on the crates for meshes, files or operations.
+//! The crate works only on points and numbers, and does not depend on the crates for meshes, files or operations.
 //!
 //! - A **Bezier curve** c(t) of degree n has n + 1 *control points* `p_i`. The point c(t) is a weighted mean of the
 //!   control points: the sum of `p_i B(n, i)(t)`, where B(n, i) are the Bernstein polynomials. See [`Curve`], in 2D and
@@ -15,9 +15,9 @@
 //!   quads. See [`tessellate()`] and [`counts`].
 //!
 //! The corners of a face are in counter-clockwise order when seen from the side to which the normal ds/du x ds/dv
-//! points. If two patches share a boundary, both tessellations have the same vertex positions on this boundary, bit for
-//! bit. A side of a patch is collapsed if all of its points coincide. A collapsed side becomes one vertex of the
-//! tessellation, with an exact normal.
+//! points. If two patches share a boundary, their tessellations into the same number of segments have the same vertex
+//! positions on this boundary, bit for bit. A side of a patch is collapsed if all of its points coincide. A collapsed
+//! side becomes one vertex of the tessellation, with an exact normal.
 //!
 //! # Examples
 //!

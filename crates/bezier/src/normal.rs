@@ -18,16 +18,16 @@
 //! ```
 //!
 //! where Nk is the first nonzero coefficient of the polynomial. At a regular point, this coefficient is N0 = du x dv.
-//! On a collapsed edge v = 0, where du = 0 along the edge, the first nonzero coefficient is N1 = duv x dv, with the
-//! mixed derivative duv. On the edge v = 1, the line into the patch has b = -1, and N1 = -duv x dv. At a collapsed
+//! Along a collapsed edge v = 0, du is zero, and the first nonzero coefficient is N1 = duv x dv, where duv is the mixed
+//! derivative. Along a collapsed edge v = 1, the line into the patch has b = -1, and N1 = -duv x dv. At a collapsed
 //! corner, and on an edge along which N0 and N1 are zero, the first nonzero coefficient is N2 or a later one. N has
 //! degree 5 in u and in v, so N10 is the last coefficient.
 //!
-//! From a point on an edge, the line runs straight across the patch; from a corner, it runs along the diagonal. If the
-//! normals have the same limit along every line, the result is this limit. Otherwise, for example at a cusp or at a
-//! corner of the patch that is the tip of a cone, the result is the limit along the chosen line. If N is zero along the
-//! whole line, two more lines from the same point are tried, one on each side of the first line. If N is zero along all
-//! three lines, the point has no normal.
+//! From a point on an edge, the line runs straight across the patch. From a corner or from a point inside the patch,
+//! the line runs diagonally. If the normals have the same limit along all lines from the point, this limit is the
+//! result. If the limits differ, for example at a cusp or at the tip of a cone, the result is the limit along the
+//! chosen line. If N is zero along the whole line, two more lines from the same point are tried, one on each side of
+//! the first line. If N is zero along all three lines, the point has no normal.
 //!
 //! Before the coefficients are compared with zero, the derivatives are scaled. The derivatives along u are divided by
 //! the largest difference of control points that are neighbors along u. The derivatives along v are divided by the
@@ -45,8 +45,8 @@ use glam::{DVec2, DVec3};
 /// below this value and inaccurate. In this case, the next coefficient gives a more accurate normal.
 pub const VANISHING: f64 = 1e-10;
 
-/// Returns the limit of the normals along a line into the patch from `uv`; `None` if the normals are zero along all
-/// three lines that are tried.
+/// Returns the limit of the normals along a line from `uv` into the patch. Up to three lines are tried. Returns `None`
+/// if the normals are zero along all of them.
 ///
 /// `c` has the Taylor coefficients of the patch at `uv`: c\[i\]\[j\] is the coefficient of x^i y^j.
 /// `max_steps` is the result of [`Patch::max_steps`](crate::Patch), which must not be zero.
@@ -62,7 +62,7 @@ pub(crate) fn unit(n: DVec3) -> Option<DVec3> {
     (size > VANISHING && n.is_finite()).then(|| (n / size).normalize())
 }
 
-/// Returns three directions in (u, v) that lead from `uv` into the patch; the first is the preferred one.
+/// Returns three directions in (u, v) that lead from `uv` into the patch, with the preferred direction first.
 fn inward_directions(uv: DVec2) -> [DVec2; 3] {
     let on_edge = |t: f64| t <= 0.0 || t >= 1.0;
     let inward = |t: f64| if t > 0.5 { -1.0 } else { 1.0 };
@@ -78,8 +78,8 @@ fn inward_directions(uv: DVec2) -> [DVec2; 3] {
 /// Returns the first nonzero coefficient of N along `direction`, scaled to length 1. Returns `None` if all coefficients
 /// are zero.
 fn limit_along(c: &[[DVec3; 4]; 4], max_steps: DVec2, direction: DVec2) -> Option<DVec3> {
-    // Along the line in this direction, du and dv are polynomials in the distance e. These arrays hold their
-    // coefficients, starting with the power 0.
+    // Along the line in this direction, the derivatives of the patch are polynomials in the distance e. The arrays `du`
+    // and `dv` hold the coefficients of these polynomials, starting with the power 0.
     let mut du = [DVec3::ZERO; 6];
     let mut dv = [DVec3::ZERO; 6];
     let (a, b) = (powers(direction.x), powers(direction.y));
@@ -162,8 +162,9 @@ mod tests {
 
     #[test]
     fn normals_of_a_collapsed_edge_are_limits() {
-        // All points in the first row of `lid` coincide, and all points in its third row coincide, as in the lid of the
-        // teapot. All points in the first row of `bottom` coincide, as in the bottom of the teapot.
+        // As in the lid of the teapot, all control points in the first row of `lid` coincide, and all control points in
+        // the third row of `lid` coincide. As in the bottom of the teapot, all control points in the first row of
+        // `bottom` coincide.
         let lid = quarter_turn([[0.0, 3.15], [0.8, 3.15], [0.0, 2.85], [0.2, 2.7]]);
         let bottom = quarter_turn([[0.0, 0.0], [1.4, 0.0], [1.5, 0.1], [1.5, 0.2]]);
         for patch in [octant(), lid, bottom] {
@@ -175,7 +176,8 @@ mod tests {
 
     #[test]
     fn a_pole_with_two_collapsed_rows_has_a_normal() {
-        // All points of the first two rows coincide, so du and dv are both zero on the edge.
+        // All control points of the first two rows coincide, so both derivatives, du and dv, are zero on the edge v =
+        // 0.
         let patch = quarter_turn([[0.0, 1.0], [0.0, 1.0], [1.0, 1.0], [2.0, 0.5]]);
         for patch in all_orientations(&patch) {
             assert_normals_are_limits(&patch);

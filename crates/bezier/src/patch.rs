@@ -76,8 +76,9 @@ impl Patch {
     /// Returns the point at (`u`, `v`). Evaluates each row of control points at u. The four resulting points are the
     /// control points of a cubic, which is evaluated at v.
     ///
-    /// On the boundary, the result is equal bit for bit to the point of the boundary curve. The control points of this
-    /// curve are the control points of the patch on the boundary. At a corner, the result is the control point.
+    /// On the boundary of the patch, the result is equal bit for bit to the point of the boundary curve, whose control
+    /// points are the first or last row or column of the patch. At a corner of the patch, the result is a control
+    /// point.
     pub fn point(&self, u: f64, v: f64) -> DVec3 {
         self.point_at(Weights::at(u), Weights::at(v))
     }
@@ -115,7 +116,7 @@ impl Patch {
 
     /// Returns the largest coordinate difference between neighboring control points, along u and along v.
     ///
-    /// Derivatives are divided by these values before the code decides whether a normal is treated as zero.
+    /// To decide whether a normal is treated as zero, the derivatives are first divided by these differences.
     pub(crate) fn max_steps(&self) -> DVec2 {
         let along = |patch: &Self| {
             let pairs = patch.points.iter().flat_map(|row| row.windows(2));

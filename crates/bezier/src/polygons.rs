@@ -129,7 +129,8 @@ pub struct Counts {
 }
 
 impl Counts {
-    /// Adds the counts. A sum that exceeds 64 bits is replaced by the largest 64-bit number.
+    /// Returns the sums of the counts of `self` and `other`. A sum that exceeds 64 bits is replaced by the largest
+    /// 64-bit number.
     pub(crate) fn plus(&self, other: &Self) -> Self {
         Self {
             vertices: self.vertices.saturating_add(other.vertices),

@@ -11,9 +11,10 @@
 //!                                 +-> u   that du x dv points to
 //! ```
 //!
-//! Vertex ids increase along u first, then along v, then from patch to patch. Patches share no vertices; to join the
-//! patches, weld the vertices of the result. If two patches have the same control points on a common boundary, in the
-//! same or in reverse order, their vertices on this boundary have positions that are equal bit for bit.
+//! Vertex ids increase along u first, then along v, then from patch to patch. Different patches share no vertices. To
+//! join neighboring patches, weld the vertices of the result. If two patches have the same control points on a common
+//! boundary, in the same or in reverse order, their vertices on this boundary have positions that are equal bit for
+//! bit.
 //!
 //! A side of a patch is collapsed if its points coincide, as at the pole of a teapot's lid. A collapsed side becomes
 //! one vertex. Adjacent collapsed sides together become one vertex. A cell with one collapsed side becomes a triangle.
@@ -21,13 +22,13 @@
 //! sampled at i/m for i from 0 to m. The number m is n or 3, whichever is smaller, where n is the number of segments. A
 //! side is collapsed if the coordinates of every sample differ from the coordinates of the first sample by at most the
 //! tolerance. The tolerance is 1e-12 times the longest side of the bounding box of the control points of the patch. The
-//! sides have the order v = 0, u = 1, v = 1, u = 0. If adjacent sides are collapsed, their common vertex is at the
-//! start of the first of these sides in this order. The UV and the normal of this vertex are the values at the middle
-//! of that side.
+//! sides have the order v = 0, u = 1, v = 1, u = 0, and run counter-clockwise around the patch. Adjacent collapsed
+//! sides become a vertex at the start of the first of these sides. The UV and the normal of this vertex are the values
+//! at the middle of the first side.
 //!
 //! A patch is a curve or a point if all rows of its control points are the same, or all columns, within the tolerance
-//! for collapsed sides. A patch gives no vertices and no faces if it is a curve or a point, or if none of its cells
-//! becomes a face. The result lists the patches without vertices and faces.
+//! for collapsed sides. If a patch is a curve or a point, or if none of its cells becomes a face, its tessellation has
+//! no vertices and no faces. The result lists these patches.
 //!
 //! The tessellation detects collapsed sides, and patches that are a curve or a point. It detects no other degeneracies.
 //! Faces can have zero area if a patch folds onto itself. With too few segments, the corners of a cell can be
@@ -67,8 +68,8 @@ pub fn tessellate(
 ///
 /// # Errors
 ///
-/// Returns the errors of [`counts`] for the size that `out` would have afterwards. Returns [`BezierError::OutOfMemory`]
-/// if there is not enough memory. If an error is returned, `out` is unchanged.
+/// Returns the errors of [`counts`] for the number of elements that `out` would have after the call. Returns
+/// [`BezierError::OutOfMemory`] if there is not enough memory. If an error is returned, `out` is unchanged.
 pub fn tessellate_patch(
     patch: &Patch,
     segments: u32,
@@ -385,7 +386,7 @@ mod tests {
             (Counts::default(), vec![0, 1])
         );
 
-        // The patch is a tube. With one segment around the tube, only a line would remain.
+        // The patch is a tube. With one segment around the tube, each cell would become a line.
         let mut points = *random.patch().points();
         for row in &mut points {
             row[3] = row[0];

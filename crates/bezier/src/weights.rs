@@ -7,8 +7,8 @@ use crate::Point;
 /// Both weights of a parameter t are stored. If only one weight were stored, the result would depend on the direction
 /// of the curve, because 1 - t is rounded. With [`Weights::ratio`], evaluating a curve at i/n and the reversed curve at
 /// (n - i)/n gives the same products. The products are added in the opposite order, which does not change any bit of
-/// the sum. So if two patches share a boundary, they have the same samples on this boundary, even if its direction
-/// differs between the patches.
+/// the sum. Therefore, two patches that share a boundary have the same samples on this boundary, even if the direction
+/// of the boundary differs between the patches.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Weights {
     /// 1 - t.
@@ -37,7 +37,7 @@ impl Weights {
         a * self.s + b * self.t
     }
 
-    /// Returns 0 at the start of the curve, 1 at its end, `None` elsewhere.
+    /// Returns 0 at the start of a curve (t = 0), 1 at its end (t = 1), and `None` for any other t.
     ///
     /// At an end of the curve, the point is a control point, which is returned without arithmetic. Arithmetic could
     /// turn a coordinate -0 into 0, depending on the other control points.

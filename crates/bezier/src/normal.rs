@@ -176,8 +176,7 @@ mod tests {
 
     #[test]
     fn a_pole_with_two_collapsed_rows_has_a_normal() {
-        // All control points of the first two rows coincide, so both derivatives, du and dv, are zero on the edge v =
-        // 0.
+        // All control points of the first two rows coincide, so du and dv are both zero along the first row.
         let patch = quarter_turn([[0.0, 1.0], [0.0, 1.0], [1.0, 1.0], [2.0, 0.5]]);
         for patch in all_orientations(&patch) {
             assert_normals_are_limits(&patch);

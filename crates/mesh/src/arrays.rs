@@ -153,7 +153,7 @@ impl Mesh {
         }
     }
 
-    /// Whether no element was deleted (is dead), so that ids run from 0 without gaps.
+    /// Whether the mesh has no deleted (dead) elements. If it has none, the ids run from 0 without gaps.
     #[inline]
     pub fn is_dense(&self) -> bool {
         self.dead.iter().all(|marks| marks.count() == 0)
@@ -221,7 +221,7 @@ impl Mesh {
 
     // ---- Reading the arrays --------------------------------------------------------------------
 
-    /// Returns the half-edge after `h` around its face, or around its hole.
+    /// Returns the half-edge that follows `h` around the face of `h`, or around a hole if `h` has no face.
     #[inline]
     pub fn next(&self, h: HalfEdgeId) -> HalfEdgeId {
         self.connectivity.next[h.index()]

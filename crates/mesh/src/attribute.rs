@@ -1,9 +1,9 @@
 //! Attributes: named, typed columns of values on vertices, corners, edges and faces.
 //!
 //! The domain of a column is one of these four kinds of elements. A column has one value for each element of its
-//! domain, and a [`Rule`] that defines what edits do with the values. The value of a corner is stored at its half-edge,
-//! which leaves the vertex of the corner and belongs to the face of the corner. A half-edge without a face also has a
-//! value, but this value has no meaning.
+//! domain, and a [`Rule`] that defines what edits do with the values. The value of a corner is stored at the half-edge
+//! that leaves the vertex of the corner and belongs to the face of the corner. A corner column also has values at
+//! half-edges without a face, but these values have no meaning.
 //!
 //! Well-known attributes have constants ([`UV`], [`VERTEX_NORMAL`], ...). Programs can also use any other name.
 
@@ -54,7 +54,7 @@ pub const VERTEX_SHARPNESS: Attribute<VertexId, f64> = Attribute::new("corner", 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rule {
     /// A new element gets the weighted mean of the values of its source elements. Whole numbers and tags (named
-    /// selections) are not averaged: the new element gets the value with the largest weight.
+    /// selections) are not averaged: the new element gets the value of the source element with the largest weight.
     Interpolate,
     /// The values are unit vectors. New values are interpolated, then scaled to length 1. Transforms treat the vectors
     /// as normals of the surface. Subdivision drops the column, because the vectors would be wrong. Many other

@@ -13,9 +13,9 @@
 //! entries: an undo truncates the arrays to their old lengths. An undo in turn records the values that it
 //! overwrites; this record is the change that redoes the edits.
 //!
-//! A long journal is shortened before the next edit starts: if the entries (without copies of whole arrays) take at
-//! least as much memory as the mesh plus 64 KiB, one copy of the mesh replaces the entries. If a level of the journal
-//! has a copy of the mesh, no further entries are recorded for this level.
+//! Before an edit starts, a long journal with only one level is shortened: if its entries (without copies of whole
+//! arrays) take at least as much memory as the mesh plus 64 KiB, one copy of the old mesh replaces the entries. If a
+//! level of the journal has a copy of the mesh, no further entries are recorded for this level.
 
 use bytemuck::cast_slice_mut;
 use glam::DVec3;
@@ -84,8 +84,8 @@ pub(crate) enum Entry {
     Values(Domain, usize),
     /// The dead mark of an element, which an undo toggles.
     Mark(Domain, usize),
-    /// A column that was overwritten or removed. An undo puts it in the place of the current column of the same name,
-    /// if there is one.
+    /// A column that was overwritten or removed. An undo restores this column, and removes the current column of the
+    /// same name if there is one.
     Column(Domain, Box<Column>),
     /// The name of a column that did not exist before. An undo removes the column.
     NoColumn(Domain, Box<str>),
@@ -95,7 +95,7 @@ pub(crate) enum Entry {
     Whole(Box<Mesh>),
     /// The lengths of the arrays at the start of a level. An undo truncates the arrays to these lengths.
     Level(Box<Lengths>),
-    /// The last entries of the arrays, which an undo cut off. A redo appends them again.
+    /// The last entries of the arrays, which an undo has removed. A redo appends these entries to the arrays again.
     Tail(Box<Tail>),
 }
 
@@ -126,7 +126,7 @@ impl Connectivity {
 /// The number of elements of each domain, including dead ones.
 type Lengths = [usize; 4];
 
-/// The last entries of all arrays: of each array, the entries from a given index on.
+/// The ends of all arrays: for each array, the entries from a given index to the end of the array.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Tail {
     connectivity: Connectivity,
@@ -144,7 +144,7 @@ impl Journal {
         }
     }
 
-    /// Records the whole mesh as it was before a change.
+    /// Records a copy of the whole mesh, which must be in the state before a change.
     fn record_whole(&mut self, mesh: Mesh) {
         self.record(|| Entry::Whole(Box::new(mesh)));
         if let Some(level) = self.levels.last_mut() {
@@ -184,7 +184,7 @@ impl Journal {
         element.index() < self.lengths[I::DOMAIN as usize]
     }
 
-    /// Records the id that an element had in an array.
+    /// Records the old id at the index of `element` in an array, unless the element is newer than the innermost level.
     #[inline]
     pub(crate) fn record_link<I: Id>(&mut self, array: Array, element: I, old: u32) {
         if self.needs_entry(element) {
@@ -193,14 +193,15 @@ impl Journal {
         }
     }
 
-    /// Records the position that a vertex had.
+    /// Records the old position of a vertex, unless the vertex is newer than the innermost level.
     pub(crate) fn record_position(&mut self, v: VertexId, old: DVec3) {
         if self.needs_entry(v) {
             self.recorded.push_position(v, old);
         }
     }
 
-    /// Records the values of `element` in all columns of its domain, given as `columns`.
+    /// Records the values of `element` in `columns`, which must be all columns of the domain of the element. Records
+    /// nothing if the element is newer than the innermost level.
     pub(crate) fn record_values<I: Id>(&mut self, element: I, columns: &[Column]) {
         if self.needs_entry(element) {
             self.recorded
@@ -332,7 +333,7 @@ impl Mesh {
         result
     }
 
-    /// Replaces the mesh by `other`. An open journal records the replacement, whereas `*mesh = other` would
+    /// Replaces the mesh by `other`. An open journal records the replacement. In contrast, `*mesh = other` would
     /// discard the journal.
     pub fn replace(&mut self, other: Self) {
         let journal = self.journal.take();
@@ -372,8 +373,8 @@ impl Mesh {
         inverse
     }
 
-    /// Undoes one entry. Returns the entry that redoes it, or `None` if that entry was pushed to `inverse`
-    /// together with its values.
+    /// Undoes one entry. Returns the entry that redoes the change. Returns `None` if this function has already added
+    /// that entry and its values to `inverse`, or if there was nothing to undo.
     fn undo_entry(
         &mut self,
         entry: Entry,

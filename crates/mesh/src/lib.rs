@@ -26,8 +26,8 @@
 //! 2. Every stored id belongs to an element that was not removed.
 //! 3. `next` is a permutation of the half-edges. The half-edge `next(h)` lies on the same face as `h` (or around the
 //!    same hole), and starts where `h` ends: `origin(next(h)) == target(h)`.
-//! 4. The two ends of an edge are different vertices, and each edge has a face on at least one side. Both half-edges of
-//!    an edge always exist; on the boundary `face(h)` is `None`.
+//! 4. The two ends of an edge are different vertices, and each edge has a face on at least one side. Every edge has two
+//!    half-edges. At a boundary edge, one half-edge h has no face: `face(h)` is `None`.
 //! 5. A face has at least three corners. Its half-edges form one loop, which contains the
 //!    [`face_half_edge`](Mesh::face_half_edge) of the face.
 //! 6. The [`vertex_half_edge`](Mesh::vertex_half_edge) of a vertex is an outgoing half-edge of that vertex. At a
@@ -60,7 +60,7 @@
 //!
 //! # Read in this order
 //!
-//! These 19 files explain the data structure and the way in which edits change it. The edits in other files follow the
+//! The following 19 files explain the data structure, and how edits change a mesh. The edits in other files follow the
 //! pattern of `flip.rs` and `split.rs`. Of the other files in `build`, `polygons.rs`, `buckets.rs` and `star.rs` are
 //! used for all input; `orient.rs`, `split.rs` and `report.rs` handle polygons that do not form a manifold.
 //!
@@ -94,7 +94,8 @@
 #[cfg(test)]
 extern crate self as mesh;
 
-/// The `geometry` crate depends on this crate. The tests therefore compile the files of `geometry` that they need.
+/// In unit tests of this crate, functions of the `geometry` crate would need a different `Mesh` type, because
+/// `geometry` depends on this crate. Therefore, the unit tests compile the files of `geometry` that they need.
 #[cfg(test)]
 #[path = "../../geometry/src"]
 pub mod geometry {

@@ -209,7 +209,7 @@ mod tests {
         for mesh in [shapes::icosahedron(), shapes::torus(5, 4, 3.0, 1.0)] {
             let angles: f64 = mesh.half_edges().map(|h| mesh.corner_angle(h)).sum();
             let n = mesh.n_vertices() as f64;
-            // The quads of the torus are planar, so their angles sum to 2 pi, like those of two triangles.
+            // Each quad of the torus is planar, so its four angles sum to 2 pi, like the angles of two triangles.
             let defect = 2.0 * std::f64::consts::PI * n - angles;
             let expected = 2.0 * std::f64::consts::PI * mesh.euler_characteristic() as f64;
             assert!((defect - expected).abs() < 1e-9, "{defect} {expected}");

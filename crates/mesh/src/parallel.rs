@@ -11,8 +11,8 @@ use rayon::prelude::*;
 
 use crate::zeroed::reserved;
 
-/// The number of elements in a block. Blocks are so large that the cost of scheduling is negligible. This number must
-/// not depend on the number of threads: sums are computed block by block, and the order of the additions determines the
+/// The number of elements in a block. With this size, the cost of scheduling a block is negligible. The size must not
+/// depend on the number of threads: sums are computed block by block, and the order of the additions determines the
 /// last bits of a sum.
 pub const BLOCK: usize = 4096;
 
@@ -45,14 +45,14 @@ pub fn consume<P: Send, R: Send>(
     })
 }
 
-/// Returns the result of `make` for each number below `n`. Each call is scheduled separately; see [`collect`] for short
-/// calls.
+/// Returns the result of `make` for each number below `n`. Each call is scheduled separately. If a call takes less than
+/// a few microseconds, use [`collect`] instead.
 pub fn map<R: Send>(n: usize, make: impl Fn(usize) -> R + Sync) -> Vec<R> {
     results(n, &make)
 }
 
-// A function that takes a `dyn` closure is compiled once for each type of results or elements, and not once for each
-// closure.
+// The functions `results` and `fill_blocks` take `dyn` closures, so they are compiled once for each type of results or
+// elements, and not once for each closure.
 
 fn results<R: Send>(n: usize, make: &(dyn Fn(usize) -> R + Sync)) -> Vec<R> {
     let mut results: Vec<Mutex<Option<R>>> = Vec::with_capacity(n);

@@ -9,9 +9,10 @@
 //! ```
 //!
 //! When a face is reversed, its half-edge h that leaves a vertex v becomes the half-edge that ends at v. The half-edge
-//! before h, prev(h), becomes the one that leaves v. So prev(h) replaces h in three roles: as the half-edge of v, as
-//! the half-edge of the face, and as the half-edge that stores the values of the corner at v. This also works at holes:
-//! if h has no face, prev(h) has no face either. Reversing twice restores the connectivity of all living elements.
+//! before h, prev(h), becomes the half-edge that leaves v. Therefore, prev(h) replaces h as the stored half-edge of v,
+//! as the stored half-edge of the face, and as the half-edge that stores the values of the corner at v. At a boundary
+//! vertex, the new stored half-edge has no face, as required: if h has no face, prev(h) has no face either. Reversing
+//! twice restores the connectivity of all living elements.
 
 use crate::attribute::Attributes;
 use crate::{Connectivity, Domain, HalfEdgeId, Mesh};
@@ -78,7 +79,8 @@ impl Mesh {
         reversed
     }
 
-    /// Reverses the orientation of every face in place. The result is that of [`reversed`](Self::reversed).
+    /// Reverses the orientation of every face in place. Afterwards, the mesh is equal to the result of
+    /// [`reversed`](Self::reversed).
     pub fn reverse(&mut self) {
         self.replace(self.reversed());
     }

@@ -117,8 +117,8 @@ impl Mesh {
         }
     }
 
-    /// Returns the same half-edge as [`prev`](Self::prev), but does not walk around the origin of `h` if `h` has a face.
-    /// So an edit can call this function while the links around the origin are incomplete.
+    /// Returns the same half-edge as [`prev`](Self::prev), but does not walk around the origin of `h` if `h` has a
+    /// face. Therefore, an edit can call this function while the links around the origin of `h` are incomplete.
     pub(crate) fn prev_in_face(&self, h: HalfEdgeId) -> HalfEdgeId {
         let prev = if self.face(h).is_some() {
             self.orbit(Some(h), false).last()

@@ -9,7 +9,7 @@ use crate::{Connectivity, Domain, EdgeId, Element, FaceId, HalfEdgeId, Id, Mesh,
 /// A broken invariant. The variants are in the order of the list of invariants in the crate's documentation.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Defect {
-    /// The length of an array does not match the number of elements.
+    /// The length of an array does not match the number of elements of its kind.
     #[error("the array `{0}` has the wrong length")]
     Length(&'static str),
     /// The mesh has more elements than there are ids.
@@ -149,9 +149,9 @@ impl Mesh {
                 is_permutation && is_linked
             }
             // `next` is a permutation of the half-edges, and it leads to a half-edge of the same face. Therefore a walk
-            // around a face returns to its start, and the walks around different faces are disjoint. All these walks
-            // together visit all corners only if the half-edges of each face form a single loop. The walks around
-            // vertices are checked in the same way.
+            // around a face returns to its start, and the walks around different faces are disjoint. Together, the
+            // walks around all faces visit all corners only if the half-edges of each face form a single loop. The
+            // walks around vertices are checked in the same way.
             && {
                 let faces = |e| self.edge_faces(e).into_iter().flatten().count();
                 self.sum(|f| self.loop_of_face(f, usize::MAX)) == self.sum(|e| Ok(faces(e)))
@@ -488,7 +488,7 @@ mod tests {
 
     #[test]
     fn a_face_of_two_corners_is_found() {
-        // A face with only two half-edges lies between two edges with the same ends.
+        // The mesh has a face with only two half-edges, which lies between two edges with the same ends.
         let mut mesh = Mesh::default();
         let (a, b) = (mesh.push_vertex(DVec3::ZERO), mesh.push_vertex(DVec3::X));
         let e = mesh.push_edge(a, b);

@@ -113,9 +113,9 @@ impl Mesh {
         self.edit_values(to, |column| column.average(from, to));
     }
 
-    /// Merges the attribute values of edge `from` into edge `to`, when the two become one edge. For a floating-point
-    /// number, the larger of the two values is kept. A tag is set if either edge has it. Values of
-    /// other types are not changed.
+    /// Merges the attribute values of edge `from` into edge `to`, when the two edges become one edge. Of two
+    /// floating-point numbers, the larger is kept. A tag is set on `to` if it is set on either edge. Values of other
+    /// types are not changed.
     pub(crate) fn merge_values(&mut self, from: EdgeId, to: EdgeId) {
         let (source, target) = (from.index(), to.index());
         self.edit_values(to, |column| match &mut column.values {

@@ -1,7 +1,8 @@
 //! Allocates large arrays in large pages of memory.
 //!
-//! The system maps each page of memory when it is first touched. If an array is written only once, mapping its memory
-//! in pages of 4 KiB takes as long as writing it. With pages of 2 MiB, mapping takes a third of this time.
+//! The operating system maps each page of memory when the page is first read or written. If an array is written only
+//! once, mapping its memory in pages of 4 KiB takes as long as writing it. With pages of 2 MiB, mapping the memory
+//! takes a third of the time.
 
 use bytemuck::Zeroable;
 
@@ -19,8 +20,8 @@ pub struct OutOfMemory {
     pub bytes: usize,
 }
 
-/// Returns `n` zero values. The memory of the array is not touched before it is written. The threads that fill the
-/// array therefore share the work of mapping its pages. Large arrays request large pages from the system.
+/// Returns `n` zero values. This function does not touch the memory of the array. Therefore, the threads that later
+/// fill the array share the work of mapping its pages. Large arrays request large pages from the system.
 ///
 /// # Panics
 ///
@@ -63,7 +64,8 @@ pub fn require_memory(bytes: usize) {
 }
 
 fn unwind(bytes: usize) -> ! {
-    // The panic hook is not called: it would print a backtrace, for which there may be no memory either.
+    // `resume_unwind` does not call the panic hook, because the hook would print a backtrace, for which there may be no
+    // memory either.
     std::panic::resume_unwind(Box::new(OutOfMemory { bytes }))
 }
 

@@ -228,7 +228,7 @@ impl Column {
         }
     }
 
-    /// Returns the values, if they are normals.
+    /// Returns the values of the column mutably; `None` if the column does not store normals.
     fn normals_mut(&mut self) -> Option<&mut [DVec3]> {
         match (self.rule, &mut self.values) {
             (Rule::Normal, Values::Vec3(normals)) => Some(normals),
@@ -236,14 +236,14 @@ impl Column {
         }
     }
 
-    /// Scales the value at `i` to length 1, if the values are normals.
+    /// If the column stores normals, scales the normal at `i` to length 1.
     fn normalize(&mut self, i: usize) {
         if let Some(normals) = self.normals_mut() {
             normals[i] = normals[i].normalize_or_zero();
         }
     }
 
-    /// Negates the values of a range of elements, if they are normals.
+    /// If the column stores normals, negates the normals of a range of elements.
     pub(crate) fn negate_normals(&mut self, range: Range<usize>) {
         let normals = self.normals_mut().map(|normals| &mut normals[range]);
         for normal in normals.into_iter().flatten() {

@@ -9,7 +9,8 @@ use crate::parallel;
 /// the function calls the callback with the index and the weight of the old value.
 type Weights<'a> = dyn Fn(usize, &mut dyn FnMut(usize, f64)) + Sync + 'a;
 
-/// In a list with the source of each new value, this entry marks a new value without a source. Such a value is zero.
+/// In a list with the source of each new value, this entry marks a new value without a source. A new value without a
+/// source is zero.
 const NO_SOURCE: usize = usize::MAX;
 
 /// The values of a column, one for each element of its domain.

@@ -32,7 +32,7 @@ impl Edges {
         let blocks = (0..twin.len().div_ceil(BLOCK)).into_par_iter();
         let count = |block| corners(block, twin).filter(|&c| is_first(c, twin)).count();
         let counts: Vec<usize> = blocks.map(count).collect();
-        // Each entry is written once, by the first side of its edge.
+        // The loop visits the first side of each edge, and writes the entries of both sides of the edge.
         let half_edges: Vec<AtomicU32> = crate::zeroed(twin.len());
         let firsts = sums_before(&counts).into_par_iter().enumerate();
         firsts.for_each(|(block, first)| {

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::polygons::{pieces, to_id};
 
-/// The maximum number of tasks. Every task reads all corners, so with more tasks, reading would take longer
+/// The maximum number of tasks. Every task reads all corners. With more tasks, reading the corners would take longer
 /// than filling the buckets.
 const MAX_TASKS: usize = 8;
 
@@ -19,8 +19,9 @@ impl Buckets {
     /// Sorts corners into buckets. `vertices` contains the vertex of each corner. All of these indices must be below
     /// `n_vertices`.
     ///
-    /// Each task owns a range of vertices, and selects the corners of these vertices from all corners. So no two tasks
-    /// write to the same entry, and the order of the corners at a vertex does not depend on the number of tasks.
+    /// Each task owns a range of vertices, and selects the corners of these vertices from all corners. Therefore, no
+    /// two tasks write to the same entry, and the order of the corners at a vertex does not depend on the number of
+    /// tasks.
     pub(super) fn new(n_vertices: usize, vertices: &[u32]) -> Self {
         let n_tasks = rayon::current_num_threads().min(MAX_TASKS);
         let width = n_vertices.div_ceil(n_tasks).max(1);

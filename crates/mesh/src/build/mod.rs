@@ -107,8 +107,8 @@ pub enum NonManifold {
     #[default]
     Split,
     /// Like [`Split`](Self::Split), but every polygon keeps its orientation. If two neighbors run along their common
-    /// edge in the same direction, the edge is split: each neighbor gets its own copy, and they are no longer connected
-    /// there.
+    /// edge in the same direction, the edge is split: each neighbor gets its own copy of the edge, and the copies are
+    /// not connected.
     SplitAsGiven,
     /// Reverse polygons where that makes the orientation consistent, and return an error if the result
     /// is not a manifold.
@@ -206,7 +206,7 @@ pub fn build(
     corners: &[u32],
     non_manifold: NonManifold,
 ) -> Result<BuildOutput, BuildError> {
-    // The argument is the peak size of all arrays together, in bytes, without the input.
+    // Building allocates at most this many bytes at the same time, not counting the input.
     crate::require_memory(32 * corners.len() + 16 * positions.len());
     let degenerate = check(&positions, offsets, corners)?;
     if degenerate.is_empty() {

@@ -37,7 +37,7 @@ impl Orientation {
         let opposite_sides = opposite_sides(polygons, buckets);
         let mut orientation = Self::default();
         let mut is_visited = vec![false; polygons.n()];
-        // For each polygon: whether its orientation is opposite to that of the first polygon in the same part.
+        // For each polygon: whether its orientation is opposite to the orientation of the first polygon of its part.
         let mut is_reversed = vec![false; polygons.n()];
         let mut part = Vec::new();
         for first in 0..polygons.n() {

@@ -15,10 +15,10 @@ use crate::parallel::BLOCK;
 pub(super) struct PairedSides {
     /// For each side, the other side of its edge, or `NONE` on the boundary.
     pub(super) twin: Vec<u32>,
-    /// For each vertex, the outgoing half-edge that the mesh will store for it.
+    /// For each vertex, the outgoing half-edge that the mesh will store for the vertex.
     pub(super) outgoing: Vec<Outgoing>,
-    /// The vertices whose faces form more than one fan, in ascending order. The `outgoing` of such a vertex can belong
-    /// to any of its fans.
+    /// The vertices whose faces form more than one fan, in ascending order. For a vertex with several fans, the entry
+    /// of `outgoing` can belong to any of these fans.
     pub(super) pinched: Vec<u32>,
     /// The edges with more than two sides, or with two sides that run in the same direction, ordered by their
     /// vertices.

@@ -30,7 +30,7 @@ impl BuildReport {
         *self == Self::default()
     }
 
-    /// Returns all repairs in one line, with the first elements of each kind.
+    /// Describes all repairs in one line of text. For each kind of repair, the text lists the first repaired elements.
     pub fn summary(&self) -> String {
         let mut repairs = self.repairs();
         repairs.extend(self.dropped());

@@ -15,7 +15,7 @@ use crate::VertexId;
 pub(super) struct Split<'a> {
     /// For each corner, its vertex after the split.
     pub(super) origins: Cow<'a, [u32]>,
-    /// Pairs of a vertex that was split and its copy.
+    /// Each pair consists of a vertex that was split and one of its copies.
     pub(super) copies: Vec<(VertexId, VertexId)>,
 }
 
@@ -24,7 +24,7 @@ pub(super) struct Split<'a> {
 ///
 /// # Errors
 ///
-/// Returns an error if, with the copies, there would be more vertices than ids.
+/// Returns an error if the number of vertices, including the copies, would exceed the number of ids.
 pub(super) fn split_vertices<'a>(
     positions: &mut Vec<DVec3>,
     polygons: &Polygons<'a>,

@@ -27,8 +27,8 @@ pub(super) struct Star {
     /// For each corner, the next corner clockwise around the vertex, as an index into these lists; `NONE` on the
     /// boundary.
     pub(super) after: Vec<u32>,
-    /// The index, in these lists, of a corner at the start of an open fan: no corner precedes it. 0 if all fans are
-    /// closed.
+    /// The index, in these lists, of the first corner that has no predecessor and therefore starts an open fan. 0 if
+    /// all fans are closed.
     start: usize,
     is_closed: bool,
     /// Whether any edge at the vertex is known to be non-manifold. The flag can be false in spite of a non-manifold
@@ -74,7 +74,7 @@ impl Outgoing {
 
 /// A fan: corners at one vertex that are connected through shared edges.
 pub(super) struct Fan {
-    /// An outgoing half-edge of the vertex: the boundary half-edge if the fan has one.
+    /// An outgoing half-edge of the vertex: the boundary half-edge of an open fan, or any half-edge of a closed fan.
     pub(super) outgoing: Outgoing,
     pub(super) corners: Vec<u32>,
 }
@@ -162,8 +162,9 @@ impl Star {
         self.start = start.unwrap_or(0);
     }
 
-    /// Returns the outgoing half-edge of one fan. This is the fan of the first corner without a predecessor. If all
-    /// fans are closed, it is the fan of the first corner. `corners` are those passed to [`set`](Self::set).
+    /// Returns an outgoing half-edge of the vertex. If any fan is open, this is the boundary half-edge of the fan that
+    /// starts at the first corner without a predecessor. If all fans are closed, the half-edge starts at the first
+    /// corner. `corners` must be the corners that were passed to [`set`](Self::set).
     pub(super) fn outgoing(&self, corners: &[u32]) -> Outgoing {
         if self.is_closed {
             Outgoing::along_side(corners[self.start])
@@ -172,7 +173,7 @@ impl Star {
         }
     }
 
-    /// Whether the corners form one fan: all of them are reached from the start.
+    /// Whether the corners form one fan: a walk around the vertex from the corner `start` reaches all corners.
     pub(super) fn is_one_fan(&self) -> bool {
         let mut n_reached = 1;
         let mut i = self.after[self.start];
@@ -183,7 +184,7 @@ impl Star {
         n_reached == self.after.len()
     }
 
-    /// Returns the fans, in the order of their lowest corners. `corners` are those passed to
+    /// Returns the fans, in the order of their lowest corners. `corners` must be the corners that were passed to
     /// [`set`](Self::set).
     pub(super) fn fans(&self, corners: &[u32]) -> Vec<Fan> {
         let mut predecessor = vec![NONE; corners.len()];

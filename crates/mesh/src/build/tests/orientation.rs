@@ -85,8 +85,8 @@ fn reversed_faces_of_any_shape_are_restored() {
             assert_eq!(built.mesh.defects(), []);
             check_maps(&offsets, &input, &built);
 
-            // All faces are in one part. The majority keeps its orientation; in a tie, face 0 keeps its
-            // orientation.
+            // All faces are in one part. The orientation of the majority of the faces is kept. In a tie, the
+            // orientation of face 0 is kept.
             let unflipped: Vec<usize> = (0..n).filter(|f| !flipped.contains(f)).collect();
             let flipped_are_minority = flipped.len() < unflipped.len()
                 || flipped.len() == unflipped.len() && unflipped[0] == 0;

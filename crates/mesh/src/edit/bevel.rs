@@ -14,16 +14,17 @@ impl Mesh {
     ///         |                    |
     /// ```
     ///
-    /// `v` dies. The n edges of `v` keep their ids and end at the cuts. The new elements are n vertices, the n edges
-    /// from each new vertex to the next, and one face, whose first corner is the first new vertex. The new vertices and
-    /// edges are in clockwise order, starting at the first edge of [`vertex_half_edges`](Self::vertex_half_edges). The
-    /// numbers of vertices, edges and faces grow by n - 1, n and 1. A face that has k corners at v gains k corners.
+    /// `v` dies. The n edges of `v` keep their ids and end at the cuts. The new elements are n vertices, n edges that
+    /// each join a new vertex to the next, and one face, whose first corner is the first new vertex. The new vertices
+    /// and edges are in clockwise order around `v`, starting at the first edge of
+    /// [`vertex_half_edges`](Self::vertex_half_edges). The numbers of vertices, edges and faces grow by n - 1, n and 1.
+    /// A face that has k corners at v gains k corners.
     ///
     /// At a cut, vertex attributes are interpolated between v and the other end of the edge. Corner attributes are
     /// interpolated within their face, separately on each side of a seam. Attributes that are not interpolated are
-    /// copied from v. The new face has the values of the face to the left of the first edge. At each cut, the corner of
-    /// the new face has the same values as another corner at this cut: the corner in the face to the left of the cut
-    /// edge, as seen from v. New edges have zero values.
+    /// copied from v. The new face has the values of the face to the left of the first edge in
+    /// [`vertex_half_edges`](Self::vertex_half_edges). At each cut, the corner of the new face has the same values as
+    /// the corner in the face to the left of the cut edge, as seen from v. New edges have zero values.
     ///
     /// Returns the new face.
     ///
@@ -79,7 +80,7 @@ impl Mesh {
     /// ```
     ///
     /// `e` and its ends a, b die. The n other edges at a and b keep their ids and end at the cuts. The new elements are
-    /// n vertices, the n edges from each new vertex to the next, and one face, whose first corner is the first new
+    /// n vertices, n edges that each join a new vertex to the next, and one face, whose first corner is the first new
     /// vertex. The new vertices and edges are in clockwise order around e. The cuts at a (the origin of the first
     /// half-edge of e) come first, starting with the edge after e. The cuts at b follow. The numbers of vertices, edges
     /// and faces grow by n - 2, n - 1 and 1. The faces beside e keep their number of corners. Any other face that has k
@@ -170,9 +171,8 @@ impl Mesh {
     /// Cuts the half-edges of `cuts` at their fractions, and connects the cuts by a new face with the values
     /// of `f`.
     ///
-    /// The half-edges must be in clockwise order. On the face to the right of a half-edge h of `cuts`, the next
-    /// half-edge of `cuts` must follow the twin of h. Only a half-edge of the beveled edge can be between these two
-    /// half-edges.
+    /// The half-edges must be in clockwise order. Around the face to the right of a half-edge h of `cuts`, the twin of
+    /// h must be followed by the next half-edge of `cuts`; only a half-edge of the beveled edge is allowed in between.
     fn join_cuts(&mut self, cuts: &[(HalfEdgeId, f64)], f: FaceId) -> FaceId {
         self.drop_columns_by_rule();
         let n = cuts.len();

@@ -11,20 +11,20 @@ impl Mesh {
     ///    --a --h-> b--          --a --- b--
     /// ```
     ///
-    /// If the holes belong to one component of the mesh, this component gets a handle. If they belong to two
-    /// components, these become one. Let n be the number of edges of the longer loop, and m that of the shorter loop.
-    /// The band has n new edges and n faces: m quads, and n - m triangles that are spread evenly between the quads. One
-    /// side of each triangle is an edge of the longer loop. Choose `h` and `g` so that they face each other; otherwise
-    /// the band is twisted.
+    /// If both holes belong to one component of the mesh, this component gets a handle. If the holes belong to two
+    /// components, the two components become one. Let n be the number of edges of the longer loop, and m the number of
+    /// edges of the shorter loop. The band has n new edges and n faces: m quads, and n - m triangles that are spread
+    /// evenly between the quads. One side of each triangle is an edge of the longer loop. Choose `h` and `g` so that
+    /// they face each other; otherwise the band is twisted.
     ///
-    /// All existing ids stay the same. New edges and faces are numbered along the longer loop (that of `h` if both have
-    /// the same length). The first face lies between `h` and `g`. The first new edge joins the origin of `h` to the
-    /// target of `g`, or, if the loop of `g` is longer, the origin of `g` to the target of `h`. A new face gets the
-    /// values of the old face that shares its edge of the longer loop. Each new corner lies on one of the two loops. If
-    /// the face of the corner has an edge of this loop, the corner gets the values of the existing corner at the same
-    /// vertex on the other side of this edge. A triangle has no edge of the shorter loop, so its corner at the shorter
-    /// loop gets its values in this way from the edge of the last quad before the triangle. New edges have zero
-    /// attribute values.
+    /// All existing ids stay the same. New edges and faces are numbered along the longer loop (the loop of `h` if both
+    /// loops have the same length). The first face lies between `h` and `g`. The first new edge joins the origin of `h`
+    /// to the target of `g`, or, if the loop of `g` is longer, the origin of `g` to the target of `h`. Each new face
+    /// has one edge of the longer loop, and gets the values of the old face on the other side of this edge. Each new
+    /// corner lies on one of the two loops. If the new face has an edge of this loop, the corner gets the values of the
+    /// existing corner at the same vertex on the other side of this edge. A triangle has no edge of the shorter loop.
+    /// For the corner of a triangle at the shorter loop, the edge of the last quad before the triangle is used instead.
+    /// New edges have zero attribute values.
     ///
     /// Returns the new faces.
     ///

@@ -24,18 +24,19 @@ impl Mesh {
     ///
     /// Vertex attributes of v are interpolated between the two ends, except attributes whose rule does not interpolate:
     /// these keep their values at v. The corners at v of the faces beside `e` are interpolated within their face,
-    /// separately on each side of a seam. Other faces can also have corners at the ends of `e`. For each attribute,
-    /// such a corner is compared with the corners of the faces beside `e` at the same end. If its old value is equal to
-    /// that of one of these corners, it gets the new value of that corner. Otherwise, it keeps its old value. When two
-    /// edges become one, the remaining edge gets the larger of the two values of each floating-point attribute, so that
-    /// creases are preserved. A tag is set if either edge had this tag. Attributes of other types keep the value of the
-    /// remaining edge.
+    /// separately on each side of a seam. Other faces can also have corners at the ends of `e`. For each attribute, the
+    /// old value of this corner is compared with the old values at the same end in the faces beside `e`. If the value
+    /// is equal to the value of a face beside `e`, the corner gets the new value of that face at v. Otherwise, the
+    /// corner keeps its old value. When two edges become one, the remaining edge gets the larger of the two values of
+    /// each floating-point attribute, so that creases are preserved. A tag is set if either edge had this tag.
+    /// Attributes of other types keep the value of the remaining edge.
     ///
     /// A collapse is refused if it would change the topology of the surface or make two elements coincide. The test is
     /// the link condition of Dey, Edelsbrunner, Guha and Nekhayev ("Topology preserving edge contraction", 1999),
-    /// extended to polygons. For this test, each hole counts as closed by a cone: triangles that join the edges of the
-    /// hole to an additional vertex. The two ends of `e` are allowed to share a neighbor only if this neighbor is a
-    /// corner of a triangle beside `e`. They are allowed to share a face only if this face is beside `e`.
+    /// extended to polygons. For this test, each hole is treated as if it were closed by a cone of triangles, which
+    /// join the edges of the hole to an additional vertex. The two ends of `e` are allowed to share a neighbor only if
+    /// this neighbor is a corner of a triangle beside `e`. The two ends are allowed to share a face only if this face
+    /// is beside `e`.
     ///
     /// Returns v.
     ///
@@ -51,8 +52,8 @@ impl Mesh {
     /// - [`EditError::Vanishes`] if no faces would be left, as for the edges of a single triangle. This error is also
     ///   returned if the only faces left at the merged vertex would be two faces back to back, as for a tetrahedron.
     /// - [`EditError::SameFace`] if one face is on both sides of `e`, or if two edges would become one edge with the
-    ///   same face on both sides. [`EditError::SameOpposite`] if two triangles beside `e` share a second edge. In both
-    ///   cases a collapse would be possible, but it is not implemented, because such edges are rare.
+    ///   same face on both sides. [`EditError::SameOpposite`] if two triangles beside `e` share a second edge. In these
+    ///   two cases, a collapse would be possible, but it is not implemented, because these cases are rare.
     /// - [`EditError::NoSuchEdge`].
     ///
     /// After an error, the mesh is unchanged.
@@ -250,7 +251,7 @@ impl Mesh {
     }
 
     /// Requires that the merged vertex would have only two edges and two faces. Returns whether these two faces would
-    /// lie back to back. This is the case if every vertex of one of the faces would have only two edges.
+    /// lie back to back. Two faces lie back to back if every vertex of one of them has only two edges.
     fn would_fold(&self, e: EdgeId, apexes: [Option<VertexId>; 2]) -> bool {
         let [ab, ba] = e.half_edges();
         // Finds one of the two faces at the merged vertex. A face beside e remains after the collapse if it is not a
@@ -322,7 +323,7 @@ impl Mesh {
         if !self.has_corner_columns() {
             return;
         }
-        // For each of the two sides of the edge: the corners of the face on this side, at a and at b.
+        // For each side of the edge, the corners of the face on this side: first the corner at a, then the corner at b.
         let [ab, ba] = e.half_edges();
         let corners = [[ab, self.next(ab)], [self.next(ba), ba]];
         let sides = [0, 1].map(|i| Some(corners[i]).filter(|_| self.face(corners[i][i]).is_some()));
@@ -379,7 +380,7 @@ impl<I: Id + Ord> SmallIdSet<I> {
         self.n += 1;
     }
 
-    /// Must be called after the last `push`, before `has` and `count`.
+    /// Sorts the ids. Must be called after the last `push`, and before `has` and `count`.
     fn sort(&mut self) {
         self.on_heap.sort_unstable();
     }

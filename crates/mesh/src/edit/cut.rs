@@ -24,11 +24,11 @@ impl Mesh {
     /// ```
     ///
     /// The cuts can divide the faces around a vertex into several parts. The part with the lowest face id then keeps
-    /// the vertex, and each other part gets a copy of the vertex. The copies are ordered by the lowest face id of their
-    /// parts. New vertices are numbered in the order of the old vertices, and new edges in the order of `edges`. Faces
-    /// keep their ids. The copies of vertices and edges have the values of the originals, and corners keep their
-    /// values. Positions do not change: both sides of a cut coincide. [`stitch_edges`](Self::stitch_edges) is the
-    /// inverse.
+    /// the vertex, and each other part gets a copy of the vertex. The copies of a vertex are ordered by the lowest face
+    /// id of their parts. New vertices are numbered in the order of the old vertices, and new edges in the order of
+    /// `edges`. Faces keep their ids. The copies of vertices and edges have the values of the originals, and corners
+    /// keep their values. Positions do not change: both sides of a cut coincide. [`stitch_edges`](Self::stitch_edges)
+    /// is the inverse.
     ///
     /// An edge cannot be cut if neither of its ends would be split. The cut would then be a hole with two edges (a
     /// slit). A slit cannot be opened, and a list of polygons cannot represent it. The function [`slits`](Self::slits)
@@ -78,7 +78,8 @@ impl Mesh {
         self.check_room(2 * edges.len())?;
 
         self.drop_columns_by_rule();
-        // The fans are read before the edges are duplicated.
+        // The half-edges around each vertex are listed before the edges are duplicated, because `duplicate_edges`
+        // changes the links between half-edges.
         let vertices = sorted_unique(sorted.iter().flat_map(|&e| self.edge_vertices(e)));
         let is_cut = |h: HalfEdgeId| sorted.binary_search(&h.edge()).is_ok();
         let fans: Vec<Vec<HalfEdgeId>> = vertices
@@ -146,16 +147,16 @@ impl Mesh {
     /// Adds a copy of each edge. The copy gets the face of the second half-edge of the edge. The caller must set the
     /// `next` of the half-edges without a face.
     fn duplicate_edges(&mut self, edges: &[EdgeId]) -> Vec<EdgeId> {
-        // The half-edges before the second half-edges of all edges are found while the mesh is complete. `prev` is then
-        // fast, even in a face with many corners.
+        // Find the half-edge before the second half-edge of each edge while the mesh is still valid, because `prev` is
+        // then fast, even in a face with many corners.
         let second_halves = edges.iter().map(|e| e.half_edges()[1]);
         let before: Vec<HalfEdgeId> = second_halves.map(|h| self.prev(h)).collect();
         let pairs = edges.iter().zip(before);
         pairs.map(|(&e, h)| self.duplicate_edge(e, h)).collect()
     }
 
-    /// Adds a copy of `e` that gets the face of the second half-edge of `e`. `before` was the half-edge before that
-    /// half-edge.
+    /// Adds a copy of `e` that gets the face of the second half-edge of `e`. `before` is the half-edge that preceded
+    /// the second half-edge of `e` before any edge was duplicated.
     fn duplicate_edge(&mut self, e: EdgeId, before: HalfEdgeId) -> EdgeId {
         let [_, old] = e.half_edges();
         let (after, face) = (self.next(old), self.face(old));

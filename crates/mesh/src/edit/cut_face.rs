@@ -17,8 +17,8 @@ use crate::{EditError, FaceId, HalfEdgeId, Mesh};
 /// Each part starts with its lowest half-edge. The parts are ordered by their first half-edges. Returns `None`
 /// if diagonals cross, or if a part would have fewer than three sides.
 pub fn polygon_parts(n: usize, diagonals: &[[u32; 2]]) -> Option<Vec<Vec<usize>>> {
-    // The diagonals at each corner, counter-clockwise from the side that starts at the corner. Of the diagonals at a
-    // corner, the one to the nearest corner ahead comes first. Each entry is (corner, distance to the other corner,
+    // The diagonals at each corner, counter-clockwise from the side that starts at the corner. At each corner, the
+    // diagonal to the nearest following corner comes first. Each entry is (corner, distance to the other corner,
     // half-edge).
     let mut outgoing: Vec<(usize, usize, usize)> = Vec::with_capacity(2 * diagonals.len());
     for (k, diagonal) in diagonals.iter().enumerate() {
@@ -36,8 +36,8 @@ pub fn polygon_parts(n: usize, diagonals: &[[u32; 2]]) -> Option<Vec<Vec<usize>>
     for (i, &(corner, _, h)) in outgoing.iter().enumerate() {
         let is_first = i == 0 || outgoing[i - 1].0 != corner;
         next[twin(h)] = if is_first { corner } else { clockwise };
-        // The last diagonal at the corner follows the side that ends at the corner. Each diagonal overwrites the entry
-        // of the diagonal before it, so that the entry of the last diagonal remains.
+        // The side that ends at the corner is followed by the last diagonal at the corner. Each diagonal overwrites
+        // this entry, so the entry of the last diagonal remains.
         next[(corner + n - 1) % n] = h;
         clockwise = h;
     }
@@ -56,8 +56,8 @@ pub fn polygon_parts(n: usize, diagonals: &[[u32; 2]]) -> Option<Vec<Vec<usize>>
             parts.push(part);
         }
     }
-    // Diagonals that do not cross divide the face into one part more than there are diagonals. With diagonals that cross,
-    // the traversal above finds fewer parts, by Euler's formula.
+    // If k diagonals do not cross, they divide the face into k + 1 parts. If diagonals cross, the traversal above finds
+    // fewer parts, by Euler's formula.
     let is_flat = parts.len() == diagonals.len() + 1;
     (is_flat && parts.iter().all(|part| part.len() >= 3)).then_some(parts)
 }
@@ -66,10 +66,10 @@ impl Mesh {
     /// Cuts a face along diagonals, given as pairs of corner indices. The face is divided into the parts that
     /// [`polygon_parts`] returns.
     ///
-    /// The diagonals become edges, in order, each from its first corner to its second. The first part keeps
-    /// the id and the first corner of the face; the other parts become new faces, in order, with the values
-    /// of the old face. Corners at diagonals have the values of the old corners; new edges have zero values.
-    /// A diagonal can join two vertices that already share an edge.
+    /// The diagonals become edges, in order, each from its first corner to its second. The first part keeps the id and
+    /// the first corner of the face. The other parts become new faces, numbered in order, with the values of the old
+    /// face. Corners at diagonals have the values of the old corners; new edges have zero values. A diagonal can join
+    /// two vertices that already share an edge.
     ///
     /// Returns all parts as faces, in the order of [`polygon_parts`].
     ///

@@ -12,8 +12,8 @@ impl Mesh {
     ///    +-----+-----+          +-----+
     /// ```
     ///
-    /// Edges that have no other face are deleted too. Vertices are not deleted; a vertex without other edges
-    /// becomes isolated. Other ids and attribute values do not change.
+    /// Edges that have no other face are deleted too. Vertices are not deleted; a vertex that loses all of its edges
+    /// becomes isolated. The ids and attribute values of the remaining elements do not change.
     ///
     /// # Errors
     ///
@@ -24,7 +24,7 @@ impl Mesh {
         self.delete_faces(&[f])
     }
 
-    /// Deletes several faces at once: all of them, or none.
+    /// Deletes several faces at once. If the deletion is refused, none of the faces is deleted.
     ///
     /// ```text
     ///    +---+---+---+                  +---+

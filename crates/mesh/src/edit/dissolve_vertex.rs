@@ -61,7 +61,7 @@ impl Mesh {
 
     /// Removes a vertex like [`dissolve_vertex`](Self::dissolve_vertex); `seams` decides what happens if corner
     /// attributes differ across an edge at `v` (a seam). With [`Seams::Drop`], the vertex is removed. At the other end
-    /// of this edge, two corners with different values become one corner. This corner keeps the value of the face that
+    /// of a seam edge, two corners with different values become one corner, which keeps the value of the face that
     /// follows the edge counter-clockwise around `v`.
     ///
     /// # Errors
@@ -99,7 +99,8 @@ impl Mesh {
                 return Err(EditError::FewEdges(self.target(h)));
             }
         }
-        // A vertex of a very large face is removed without a walk around that face.
+        // To save time, the edit does not walk around the largest face at `v`, which can have many more corners than
+        // the other faces.
         let large = self.spoke_of_largest_face(&spokes);
         let rim = self.rim_around(spokes.iter().copied().filter(|&h| h != large));
         if let Some(v) = self.repeated_after_merge(&spokes, large, &rim) {
@@ -240,7 +241,7 @@ impl Mesh {
         let (x, y) = if x.edge() < y.edge() { (x, y) } else { (y, x) };
         let (before, after) = (self.prev_on_face(y.twin()), self.next(y));
         let (v, b) = (self.origin(x), self.target(y));
-        // Half-edge x now leaves b. So x now stores the corner that the twin of y stored before.
+        // Half-edge x now leaves b. Therefore, x now stores the corner that the twin of y stored before.
         self.copy_values(y.twin(), x);
         self.set_next(x.twin(), after);
         self.set_next(before, x);

@@ -22,7 +22,7 @@ impl Mesh {
     /// The rim consists of the half-edges h of `faces` whose twin has no face, or has a face that is not listed in
     /// `faces`. If the rim has n half-edges, the numbers of vertices, edges and faces grow by n, 2n and n.
     ///
-    /// **Ids.** The extruded faces keep their ids and the order of their corners, so that the same faces can be
+    /// **Ids.** The extruded faces keep their ids and the order of their corners. Therefore, the same faces can be
     /// extruded again. The edges and vertices inside the faces keep their ids too. The vertices and edges of the rim
     /// stay in place with the rest of the mesh, and the moved faces get new vertices and edges. The new elements are
     /// numbered in the order of the half-edges h: in order of `faces`, and counter-clockwise from the first half-edge
@@ -94,7 +94,8 @@ impl Mesh {
             edges.push((top.half_edges(), upright.half_edges()));
         }
 
-        // The values of attributes are copied first, while each face still has all its corners.
+        // Attribute values are copied before the faces are linked to the new edges, while each face still has its old
+        // corners.
         let mut sides = Vec::with_capacity(rim.bases.len());
         for (i, &h) in rim.bases.iter().enumerate() {
             let ([top, top_back], [_, down]) = edges[i];

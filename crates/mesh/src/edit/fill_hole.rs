@@ -22,8 +22,8 @@ impl Mesh {
     ///
     /// The new face has the values of the face beside `h`. Each new corner lies at the origin of a half-edge of the
     /// hole. The corner has the values of the corner at the same vertex in the face on the other side of that
-    /// half-edge. So an edge of the hole becomes a seam only if the corners at one of its ends already had different
-    /// values.
+    /// half-edge. Therefore, an edge of the hole becomes a seam only if the existing corners at one of its ends already
+    /// had different values.
     ///
     /// Returns the new face.
     ///
@@ -122,7 +122,7 @@ impl Mesh {
         Ok(triangles)
     }
 
-    /// Returns the half-edges around the hole of `h`, starting with `h`, after checking that the hole can be filled.
+    /// Checks that the hole of `h` can be filled, and returns the half-edges around the hole, starting with `h`.
     ///
     /// # Errors
     ///
@@ -145,7 +145,7 @@ impl Mesh {
         self.next(h.twin())
     }
 
-    /// Sets the values of the new face `f` to those of the face on the other side of the boundary half-edge `h`.
+    /// Copies the values of the face on the other side of the boundary half-edge `h` to the new face `f`.
     pub(super) fn copy_face_beside(&mut self, h: HalfEdgeId, f: FaceId) {
         if let Some(beside) = self.face(h.twin()) {
             self.copy_values(beside, f);

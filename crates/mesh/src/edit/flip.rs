@@ -8,7 +8,7 @@ pub enum Seams {
     /// Refuse the edit with [`EditError::Seam`].
     #[default]
     Refuse,
-    /// Do the edit. Each edit documents which values remain.
+    /// Do the edit, although some values are lost. Each edit documents which values remain.
     Drop,
 }
 
@@ -25,11 +25,11 @@ impl Mesh {
     /// ```
     ///
     /// Between two triangles, the edge becomes the other diagonal of the quadrilateral that the triangles form. After
-    /// four flips of such an edge, the mesh is as before, except that vertices and faces possibly store different
-    /// half-edges. All ids stay the same. Before the flip, `e` runs from a to b; afterwards from d to c, where c
-    /// follows b on face f, and d follows a on face g. The first half-edge of `e` stays on f. Attributes of vertices,
-    /// edges and faces stay with their ids. The new corners at c and d get the values of the corner at the same vertex
-    /// in the other face.
+    /// four flips of an edge between two triangles, the mesh is as before, except that vertices and faces possibly
+    /// store different half-edges. All ids stay the same. Before the flip, `e` runs from a to b; afterwards from d to
+    /// c, where c follows b on face f, and d follows a on face g. The first half-edge of `e` stays on f. Attributes of
+    /// vertices, edges and faces stay with their ids. The new corners at c and d get the values of the corner at the
+    /// same vertex in the other face.
     ///
     /// # Errors
     ///

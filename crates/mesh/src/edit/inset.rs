@@ -110,7 +110,7 @@ impl Mesh {
     /// the corresponding element of `from` and the mean of all elements of `from`.
     fn mix_with_mean<I: Id>(&mut self, from: &[I], t: f64, to: &[I]) {
         let &[.., last] = to else { return };
-        // The mean is stored at the last element of `to` until the values of this element are set.
+        // The last element of `to` stores the mean until its own values are set at the end of the loop.
         self.average_values(from, last);
         for (&from, &to) in from.iter().zip(to) {
             self.mix_values(from, last, t, to);

@@ -61,7 +61,7 @@ pub enum EditError {
     /// The two vertices opposite the edge are the same vertex.
     #[error("both triangles at {0} have the same opposite vertex {1}")]
     SameOpposite(EdgeId, VertexId),
-    /// The same face lies on both sides of the edge, or would after the edit.
+    /// The same face lies on both sides of the edge, or would lie on both sides after the edit.
     #[error("the same face is on both sides of {0}")]
     SameFace(EdgeId),
     /// The edit would make a second edge between the same two vertices.
@@ -85,7 +85,7 @@ pub enum EditError {
     /// one of the vertices several times.
     #[error("several cuts from {0} to {1} are possible")]
     SeveralCuts(VertexId, VertexId),
-    /// The edit would remove the last faces of a component, or leave two faces that lie back to back.
+    /// The edit would remove the last faces of a component, or would leave two faces that lie back to back.
     #[error("no valid faces would be left around {0}")]
     Vanishes(EdgeId),
     /// The ends of the edge have a common neighbor that is not a corner of a triangle at the edge, so the ends
@@ -120,7 +120,7 @@ pub enum EditError {
     /// The two corners are the same, adjacent, or at the same vertex.
     #[error("{0} and {1} are the same corner, adjacent corners, or corners at the same vertex")]
     Adjacent(HalfEdgeId, HalfEdgeId),
-    /// The edit needs whole components, and this face shares an edge with a face that was not listed.
+    /// The listed faces must form whole components, but this face shares an edge with a face that was not listed.
     #[error(
         "the faces must form whole connected components, but {0} shares an edge with a face that was not listed"
     )]
@@ -152,7 +152,7 @@ pub enum EditError {
 }
 
 impl EditError {
-    /// Returns the elements that the message mentions, in the same order.
+    /// Returns the elements that the error message mentions, in the order of the message.
     pub fn elements(self) -> Vec<Element> {
         match self {
             Self::NoSuchVertex(v)

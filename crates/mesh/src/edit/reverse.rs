@@ -56,8 +56,8 @@ impl Mesh {
         }
 
         self.drop_columns_by_rule();
-        // A reversed half-edge starts at its old target. So the values of the corner at the origin of next(h) are now
-        // stored at h.
+        // A reversed half-edge starts at its old target. Therefore, the values of the corner at the origin of next(h)
+        // are now stored at h.
         for &f in faces {
             let corners: Vec<HalfEdgeId> = self.face_half_edges(f).collect();
             for pair in corners.windows(2) {

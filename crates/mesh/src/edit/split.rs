@@ -83,7 +83,7 @@ impl Mesh {
         let m = self.push_vertex((1.0 - t) * self.position(a) + t * self.position(b));
         self.mix_values(a, b, t, m);
 
-        // The new edge m-b, whose half-edges lie on the faces of e.
+        // Add the new edge m-b, whose half-edges lie on the same faces as the half-edges of e.
         let new = self.push_edge(m, b);
         self.copy_values(e, new);
         let [mb, bm] = new.half_edges();
@@ -97,7 +97,7 @@ impl Mesh {
         self.mix_values(bm, at_a, 1.0 - t, ma);
         self.set_next(am, mb);
         if after_b == ma {
-            // e is the only edge of b.
+            // b has no other edge than e.
             self.set_next(mb, bm);
         } else {
             self.set_next(mb, after_b);

@@ -57,8 +57,8 @@ impl Mesh {
         Ok(self.insert_edge(x, y, x))
     }
 
-    /// Splits the face that has both vertices as corners, by an edge between them. Works like [`split_face`],
-    /// but takes vertices.
+    /// Splits the face that has both vertices as corners, by an edge between them. This function is like
+    /// [`split_face`], but takes vertices instead of half-edges.
     ///
     /// The new edge runs from `v` to `w`. The sides counter-clockwise from `v` to `w` belong to the new face; the
     /// sides from `w` to `v` belong to the old face. Takes time proportional to the number of corners of the

@@ -27,8 +27,8 @@ impl Mesh {
     /// before the split, two edges joined v to the same vertex or a face contained v twice. To undo a collapse that
     /// removed triangles, call `split_vertex`, then `split_face`.
     ///
-    /// The new vertex is at `position` and has the attributes of v. On each side of the new edge, the two corners at
-    /// its ends have the values of the old corner. The new edge has zero values.
+    /// The new vertex is at `position` and has the attributes of v. On each side of the new edge, the corners at both
+    /// ends of this edge have the values of the old corner on this side. The new edge has zero values.
     ///
     /// Returns the new edge.
     ///

@@ -2,12 +2,12 @@
 
 use crate::{EdgeId, EditError, HalfEdgeId, Mesh, VertexId};
 
-/// Two half-edges without faces whose edges are to become one edge. The origin of each half-edge is merged with the
-/// target of the other.
+/// Two half-edges without faces, whose edges will be merged into one edge. The origin of each half-edge is merged with
+/// the target of the other.
 type Pair = [HalfEdgeId; 2];
 
-/// When the edges of a pair are merged, one half-edge with a face is replaced. Returns this half-edge, which belongs to
-/// the edge with the higher id.
+/// Returns the half-edge that is replaced when the edges of a pair are merged: the half-edge with a face on the edge
+/// with the higher id.
 fn replaced([h, g]: Pair) -> HalfEdgeId {
     h.max(g).twin()
 }
@@ -23,12 +23,13 @@ impl Mesh {
     ///       /   \                   /   \
     /// ```
     ///
-    /// The ends a and a' in the picture become one vertex, and b and b' become one vertex. The two vertices of one of
-    /// these pairs can already be the same vertex. In each pair, the vertex with the lower id remains and keeps its
-    /// position and values; the other vertex dies. The edge with the lower id remains, keeps its values and gets both
-    /// faces; the other edge dies. Corners keep their values, so different UVs form a seam. If the stitch would leave a
-    /// hole with only two edges, these two edges are stitched too, because a list of polygons cannot represent such a
-    /// hole. To close a whole cut, stitch its pairs of edges one after the other, starting at an end of the cut.
+    /// The ends a and a' in the picture become one vertex, and b and b' become one vertex. At one end, the two vertices
+    /// can already be the same vertex before the stitch. Of the two vertices at each end, the vertex with the lower id
+    /// remains and keeps its position and values; the other vertex dies. The edge with the lower id remains, keeps its
+    /// values and gets both faces; the other edge dies. Corners keep their values, so different UVs form a seam. If the
+    /// stitch would leave a hole with only two edges, these two edges are stitched too, because a list of polygons
+    /// cannot represent such a hole. To close a whole cut, stitch its pairs of edges one after the other, starting at
+    /// an end of the cut.
     ///
     /// The order of `h` and `g` does not matter. The orientation of the faces always matches, because both
     /// half-edges have the surface on their right.
@@ -77,8 +78,8 @@ impl Mesh {
             pairs.push([before_h, after_g]);
         }
         self.check_stitch(&pairs, [at_origin, at_target])?;
-        // The half-edges before the replaced half-edges are found while the mesh is complete. `prev` is then fast, even
-        // in a face with many corners.
+        // Find the half-edge before each replaced half-edge while the mesh is still valid, because `prev` is then fast,
+        // even in a face with many corners.
         let before: Vec<HalfEdgeId> = pairs
             .iter()
             .map(|&pair| self.prev(replaced(pair)))
@@ -106,8 +107,8 @@ impl Mesh {
         Ok(edges[0])
     }
 
-    /// Checks that the mesh stays valid after the merge. Each of `pairs` has two half-edges whose edges are merged, and
-    /// each of `ends` two vertices that are merged.
+    /// Checks that the mesh would be valid after the edges of `pairs` and the vertices of `ends` were merged. Each of
+    /// `pairs` has two half-edges whose edges are merged, and each of `ends` two vertices that are merged.
     fn check_stitch(&self, pairs: &[Pair], ends: [[VertexId; 2]; 2]) -> Result<(), EditError> {
         for [x, y] in pairs {
             if self.face(x.twin()) == self.face(y.twin()) {
@@ -151,8 +152,8 @@ impl Mesh {
         self.kill(from);
     }
 
-    /// Merges the edges of two half-edges without faces. The edge with the lower id remains. `before` was the half-edge
-    /// before the half-edge that is replaced.
+    /// Merges the edges of two half-edges without faces. The edge with the lower id remains. `before` is the half-edge
+    /// that preceded the replaced half-edge before any edges were merged.
     fn merge_edges(&mut self, pair: Pair, before: HalfEdgeId) -> EdgeId {
         let (kept, old) = (pair[0].min(pair[1]), replaced(pair));
         // If another half-edge has already replaced `before` in the face, `next` leads from `before` to that half-edge.

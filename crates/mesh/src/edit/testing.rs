@@ -127,9 +127,9 @@ pub(super) fn checked_edit_mesh(
     checked_edit(before, edit).map(|(mesh, ())| mesh)
 }
 
-/// Applies an edit to a copy of the mesh and checks the result. A refused edit must leave every array
-/// unchanged. After an accepted edit, the mesh must be valid and have no additional parallel edges, and undo
-/// and redo must restore the same bytes.
+/// Applies an edit to a copy of the mesh and checks the result. A refused edit must leave every array unchanged. After
+/// an accepted edit, the mesh must be valid and must not have more parallel edges than before. Undo must restore the
+/// old mesh, and redo must restore the edited mesh.
 pub(super) fn checked_edit<T: Debug>(
     mesh: &Mesh,
     edit: impl Fn(&mut Mesh) -> Result<T, EditError>,

@@ -28,8 +28,8 @@
 //!
 //! **What is stored.** The record of each completed step is stored, unless the state of an input file of the step, or
 //! of the scene before the step, is unknown. Removed elements leave gaps in the arrays of a mesh. Storing a mesh would
-//! close its gaps and renumber its elements, so scenes with such meshes are not stored. All other scenes, and all
-//! output files, are stored if they have fewer than [`ALWAYS_STORED`] bytes. A larger scene is stored if storing it
+//! close its gaps and renumber its elements, so a scene with gaps in its meshes is not stored. All other scenes, and
+//! all output files, are stored if they have fewer than [`ALWAYS_STORED`] bytes. A larger scene is stored if storing it
 //! takes at most as long as the steps that ran since a scene was last stored or loaded. The time for storing is
 //! estimated from [`BYTES_PER_SECOND`]. Therefore, even a run that stores all of its results takes at most about twice
 //! as long as a run without the cache. If a scene without gaps is not stored, computing the scene again in a later run

@@ -1,5 +1,5 @@
-//! Tests of the step cache. They check which steps run again and why, and that the outcome is the same as without the
-//! cache.
+//! Tests of the step cache. The tests check which steps run again and why, and that the outcome is the same as without
+//! the cache.
 
 mod damage;
 mod law;

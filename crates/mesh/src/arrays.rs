@@ -362,7 +362,7 @@ impl Mesh {
         self.attributes.insert(domain, column);
     }
 
-    /// Removes a column and returns it; `None` if there is no such column.
+    /// Removes a column and returns it; `None` if the domain has no column with this name.
     pub fn remove_column(&mut self, domain: Domain, name: &str) -> Option<Column> {
         let removed = self.attributes.remove(domain, name);
         if let (Some(journal), Some(column)) = (&mut self.journal, &removed) {

@@ -13,9 +13,9 @@
 //! entries: an undo truncates the arrays to their old lengths. An undo in turn records the values that it
 //! overwrites; this record is the change that redoes the edits.
 //!
-//! Before an edit starts, a long journal with only one level is shortened: if its entries (without copies of whole
-//! arrays) take at least as much memory as the mesh plus 64 KiB, one copy of the old mesh replaces the entries. If a
-//! level of the journal has a copy of the mesh, no further entries are recorded for this level.
+//! Before an edit starts, the size of the entries is checked (without copies of whole arrays). If the journal has only
+//! one level and its entries take at least as much memory as the mesh plus 64 KiB, one copy of the old mesh replaces
+//! the entries. If a level of the journal has a copy of the mesh, no further entries are recorded for this level.
 
 use bytemuck::cast_slice_mut;
 use glam::DVec3;
@@ -290,8 +290,8 @@ impl Mesh {
     /// # Panics
     ///
     /// Panics if a journal is open. If the change belongs to a different mesh, or to a different state of this mesh,
-    /// the result is unspecified: the mesh can become invalid, and the call panics if the change refers to an element
-    /// that does not exist.
+    /// the result is unspecified and can be an invalid mesh. The call panics if the change refers to an element that
+    /// does not exist.
     ///
     /// # Examples
     ///

@@ -27,8 +27,7 @@ impl Marks {
         }
     }
 
-    /// Removes the mark of `i`. Also drops words of 64 bits at the end of the list if they are zero, so that equal sets
-    /// compare equal.
+    /// Removes the mark of `i`. Also drops zero words at the end of the list, so that equal sets have equal lists.
     pub(crate) fn remove(&mut self, i: usize) {
         if self.has(i) {
             self.words[i / 64] &= !(1 << (i % 64));

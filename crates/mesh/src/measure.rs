@@ -131,8 +131,8 @@ impl Mesh {
     }
 
     /// Returns a function that computes the same angle as [`dihedral_angle`](Self::dihedral_angle). The normal of each
-    /// face is computed only once. This saves time if the angles of many edges are needed, because the time to compute
-    /// a normal is proportional to the number of corners of the face.
+    /// face is computed only once. If the angles of many edges are needed, the returned function saves time, because
+    /// the time to compute a normal is proportional to the number of corners of the face.
     pub fn dihedral_angles(&self) -> impl Fn(EdgeId) -> Option<f64> {
         let normals = self.face_normals();
         move |e| self.angle_of_faces(e, |f| normals[f.index()])

@@ -1,7 +1,7 @@
 //! Prefetching memory for later edits.
 //!
-//! If the edits of a large mesh are in random order, each edit waits for memory several times: for the half-edges of
-//! its edge, for the neighboring half-edges, and for the vertices and faces of these half-edges. Each address depends
+//! If the edges of a large mesh are edited in random order, each edit waits for memory several times: first for the
+//! half-edges of the edge, then for the neighboring half-edges, then for their vertices and faces. Each address depends
 //! on the previous one, but the memory for later edits can be prefetched during the current edit. Flipping all edges of
 //! a mesh with 1 M triangles and an open journal took 1.0 s with prefetching and 1.5 s without. In this measurement,
 //! the elements were in random order in memory. Prefetching saves no time if neighboring elements are near each other

@@ -12,8 +12,8 @@ use crate::{EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 /// An iterator over the half-edges around a face, or over the outgoing half-edges of a vertex. Visits each
 /// half-edge once.
 ///
-/// `Orbit` is a named type without a destructor. So `if let Some(h) = mesh.vertex_half_edges(v).find(..)` does
-/// not borrow the mesh for the block that follows.
+/// `Orbit` is a named type without a destructor. Therefore, `if let Some(h) = mesh.vertex_half_edges(v).find(..)` does
+/// not borrow the mesh in the block that follows.
 #[derive(Clone, Debug)]
 pub struct Orbit<'m> {
     mesh: &'m Mesh,
@@ -97,8 +97,8 @@ impl Mesh {
     }
 
     /// Returns the half-edge whose `next` is `h`. Walks around the face of `h` and around the origin of `h` at the same
-    /// time, so the time is proportional to the number of corners of the face or to the valence of the origin,
-    /// whichever is smaller.
+    /// time. The time is proportional to the smaller of two numbers: the number of corners of the face, and the valence
+    /// of the origin.
     #[inline]
     pub fn prev(&self, h: HalfEdgeId) -> HalfEdgeId {
         // The walk around the face starts two half-edges after `h`, so in a triangle it ends at once.
@@ -128,8 +128,8 @@ impl Mesh {
         prev.expect("an orbit contains its start")
     }
 
-    /// Returns the half-edge from `v` to `w`, if they share an edge. If there are several such half-edges,
-    /// returns the first in the order of [`vertex_half_edges`](Self::vertex_half_edges).
+    /// Returns the half-edge from `v` to `w`, if they share an edge. If several edges join `v` and `w`, returns the
+    /// first half-edge in the order of [`vertex_half_edges`](Self::vertex_half_edges).
     pub fn find_half_edge(&self, v: VertexId, w: VertexId) -> Option<HalfEdgeId> {
         self.vertex_half_edges(v).find(|&h| self.target(h) == w)
     }

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use crate::{Store, StoreError};
 
-/// A folder that is removed with its content when this value is dropped. The parent folders that were created together
-/// with this folder are removed after it, if they are empty.
+/// A folder that is removed with its content when this value is dropped. Afterwards, the parent folders that were
+/// created together with this folder are removed if they are empty.
 #[derive(Debug)]
 pub struct TemporaryFolder<'s> {
     store: &'s dyn Store,

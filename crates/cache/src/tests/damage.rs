@@ -194,6 +194,6 @@ fn a_step_that_changes_one_array_stores_one_array() {
     place.run(&steps("Sheet(columns: 700)"));
     let before = place.cache.size().unwrap().blobs;
     place.run(&steps("Sheet(columns: 700), Lift(by: 1)"));
-    // Only the array of positions was added to the cache.
+    // Of the arrays of the scene, only the array of positions was added to the cache.
     assert_eq!(place.cache.size().unwrap().blobs, before + 1);
 }

@@ -69,8 +69,8 @@ impl Attributes {
         self.find(domain, name).ok().map(|i| &self.of(domain)[i])
     }
 
-    /// Returns the index of the column with this name. If there is no such column, returns, as an error, the index at
-    /// which to insert it.
+    /// Returns the index of the column with this name. If the domain has no column with this name, returns, as an
+    /// error, the index at which to insert the column.
     fn find(&self, domain: Domain, name: &str) -> Result<usize, usize> {
         self.of(domain)
             .binary_search_by(|c| c.name.as_str().cmp(name))
@@ -96,7 +96,7 @@ impl Attributes {
         }
     }
 
-    /// Removes a column and returns it; `None` if there is no such column.
+    /// Removes a column and returns it; `None` if the domain has no column with this name.
     pub fn remove(&mut self, domain: Domain, name: &str) -> Option<Column> {
         let index = self.find(domain, name).ok();
         index.map(|i| self.columns[domain as usize].remove(i))

@@ -22,10 +22,10 @@
 //!   the same orientation as the first polygon of the part, and the second group the opposite orientation. The smaller
 //!   group is reversed. If both groups have the same size, the second group is reversed. If a part cannot get a
 //!   consistent orientation, none of its polygons is reversed. The first corner of a reversed polygon stays the first.
-//! - Two kinds of edges between vertices a and b are not manifold: edges with more than two sides, and edges with two
-//!   sides that run in the same direction even after polygons have been reversed. On such an edge, the k-th side from a
-//!   to b is paired with the k-th side from b to a. The sides are counted in the order of the corners. Unpaired sides
-//!   become boundary edges.
+//! - An edge between vertices a and b is not manifold if it has more than two sides, or if it has two sides that still
+//!   run in the same direction after polygons have been reversed. On a non-manifold edge, the k-th side from a to b is
+//!   paired with the k-th side from b to a. The sides are counted in the order of the corners. Unpaired sides become
+//!   boundary edges.
 //! - If the faces around a vertex form several fans, the fan that contains the first corner at the vertex keeps the
 //!   vertex. Each other fan gets a copy of the vertex. The copies come after all other vertices.
 //! - A polygon that has fewer than three corners, or that contains a vertex twice, is dropped.
@@ -102,8 +102,8 @@ pub enum BuildError {
 /// How polygons that do not form a manifold are handled.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum NonManifold {
-    /// Reverse polygons where this makes their orientation consistent with that of their neighbors. Then split edges
-    /// and vertices until the mesh is a manifold. The [`BuildReport`] lists all of these repairs.
+    /// Reverse polygons where this makes the orientation of neighbors consistent. Then split edges and vertices until
+    /// the mesh is a manifold. The [`BuildReport`] lists all of these repairs.
     #[default]
     Split,
     /// Like [`Split`](Self::Split), but every polygon keeps its orientation. If two neighbors run along their common
@@ -198,8 +198,8 @@ impl Mesh {
 /// # Errors
 ///
 /// Returns an error in the same cases as [`Mesh::from_polygons`], and [`BuildError::BadOffsets`] if the offsets do not
-/// divide the corners into polygons. If `non_manifold` refuses non-manifold input, returns [`BuildError::Degenerate`],
-/// [`BuildError::NonManifoldEdge`] or [`BuildError::NonManifoldVertex`] for such input.
+/// divide the corners into polygons. If `non_manifold` refuses non-manifold input and the input is not a manifold,
+/// returns [`BuildError::Degenerate`], [`BuildError::NonManifoldEdge`] or [`BuildError::NonManifoldVertex`].
 pub fn build(
     positions: Vec<DVec3>,
     offsets: &[u32],

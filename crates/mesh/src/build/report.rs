@@ -10,11 +10,11 @@ pub struct BuildReport {
     /// The edges that had more than two sides, or two sides that ran in the same direction. Each edge is a pair of
     /// vertices, the lower one first.
     pub split_edges: Vec<[VertexId; 2]>,
-    /// The vertices that joined several fans. Each entry is a pair: such a vertex, and one of its copies. Each fan
+    /// The vertices whose faces formed several fans. Each entry is a pair of a vertex and one of its copies. Each fan
     /// except the first got a separate copy of the vertex.
     pub split_vertices: Vec<(VertexId, VertexId)>,
-    /// The indices, in ascending order, of the polygons that were reversed to make their orientation consistent with
-    /// that of their neighbors.
+    /// The indices, in ascending order, of the polygons that were reversed to agree with the orientation of their
+    /// neighbors.
     pub reversed_faces: Vec<usize>,
     /// For each connected part without a consistent orientation, such as a Moebius strip, the index of
     /// its first polygon. The polygons of these parts are not reversed. Edges along which two polygons

@@ -37,9 +37,8 @@ pub(super) struct Star {
     pub(super) has_non_manifold_edge: bool,
 }
 
-/// An outgoing half-edge of a vertex: the side that starts at a corner, the boundary half-edge that is the twin of such
-/// a side, or none. If c is the index of the corner, the stored value is 2c for a side and 2c + 1 for a boundary
-/// half-edge.
+/// An outgoing half-edge of a vertex, or none. The half-edge is the side that starts at a corner c (stored as 2c), or
+/// the boundary half-edge that is the twin of this side (stored as 2c + 1).
 #[derive(Clone, Copy, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(transparent)]
 pub(super) struct Outgoing(u32);
@@ -227,9 +226,9 @@ impl Star {
         fans
     }
 
-    /// Returns the neighbors that share a non-manifold edge with the vertex: along such an edge, several
-    /// sides run in the same direction. Each entry is `(neighbor, number of sides to the neighbor, number
-    /// of sides from the neighbor)`.
+    /// Returns the neighbors that share a non-manifold edge with the vertex. Along a non-manifold edge, several sides
+    /// run in the same direction. Each entry is `(neighbor, number of sides to the neighbor, number of sides from the
+    /// neighbor)`.
     pub(super) fn non_manifold_edges(&self) -> Vec<(u32, usize, usize)> {
         let sides = self
             .to

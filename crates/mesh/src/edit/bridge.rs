@@ -64,8 +64,8 @@ impl Mesh {
         // directions.
         short[1..].reverse();
         let (n, m) = (long.len(), short.len());
-        // Rung i is a new edge between the loops. It runs from the origin of half-edge i of the long loop to the target
-        // of half-edge `short_index(i)` of the short loop. `short_index` rounds up, so that the first face is a quad.
+        // Rung i is a new edge between the loops, from the origin of half-edge i of the long loop to the target of
+        // half-edge `short_index(i)` of the short loop. `short_index` rounds up, so that the first face is a quad.
         let short_index = |i: usize| (i * m).div_ceil(n);
         let rungs: Vec<_> = (0..n)
             .map(|i| (self.origin(long[i]), self.target(short[short_index(i) % m])))

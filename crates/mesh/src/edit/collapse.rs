@@ -126,7 +126,7 @@ impl Mesh {
         }
         self.kill(e);
         self.kill(removed);
-        // If a face beside e was a triangle, it now has only two edges. Of these two edges, the one that ends at the
+        // If a face beside e was a triangle, it now has only two edges. Of these two edges, the edge that ends at the
         // removed vertex is removed. Around the face of the first half-edge of e, the edge at b comes after e, and the
         // edge at a comes before e. Around the face of the second half-edge, the edge at a comes after e, and the edge
         // at b comes before e.
@@ -196,8 +196,8 @@ impl Mesh {
             h = self.next(h.twin());
         }
         // For each triangle beside the edge, the collapse merges the two edges that lead to the apex of the triangle.
-        // The collapse is refused if it would merge more than these two edges at an apex. This happens if there are
-        // parallel edges, or if the apex is the third corner of a hole with three edges.
+        // The collapse is refused if it would merge more than these two edges at an apex, because of parallel edges or
+        // of a hole with three edges whose third corner is the apex.
         for (i, x) in apexes.into_iter().enumerate() {
             let merged = apexes.iter().filter(|&&apex| apex == x).count();
             if let Some(x) = x.filter(|&x| shared[i].min(vertices.count(x)) > merged) {

@@ -34,17 +34,17 @@ impl Mesh {
     ///    +---+---+---+          +---+   +---+
     /// ```
     ///
-    /// Only the final mesh is checked: a list of faces can be accepted even if the deletion of one of its faces alone
-    /// would be refused. Edges that have no other face are deleted too. Vertices are not deleted; a vertex that loses
-    /// all of its edges becomes isolated. The ids and attribute values of the remaining elements do not change. An
-    /// empty list changes nothing. This function takes time proportional to the number of listed faces plus the number
-    /// of edges at their corners.
+    /// Only the mesh after the deletion of all listed faces is checked. Therefore, a list of faces can be accepted even
+    /// if the deletion of one of its faces alone would be refused. Edges that have no other face are deleted too.
+    /// Vertices are not deleted; a vertex that loses all of its edges becomes isolated. The ids and attribute values of
+    /// the remaining elements do not change. An empty list changes nothing. This function takes time proportional to
+    /// the number of listed faces plus the number of edges at their corners.
     ///
     /// # Errors
     ///
     /// Returns [`EditError::Pinch`] if the remaining faces around a vertex would not form one fan; the error names the
-    /// lowest such vertex. Returns [`EditError::FaceListedTwice`] or [`EditError::NoSuchFace`] if a face is listed
-    /// twice or does not exist. After an error, the mesh is unchanged.
+    /// lowest vertex for which this is the case. Returns [`EditError::FaceListedTwice`] or [`EditError::NoSuchFace`] if
+    /// a face is listed twice or does not exist. After an error, the mesh is unchanged.
     ///
     /// # Examples
     ///

@@ -214,7 +214,7 @@ mod tests {
         let f = mesh.dissolve_edge_with(e, Seams::Drop).unwrap();
         for h in mesh.face_half_edges(f) {
             let v = mesh.origin(h);
-            // The corners of face 0 keep their values, including those at the ends of the edge.
+            // All corners of face 0 keep their values, including the corners at the ends of the edge.
             let shift = if [2, 5].contains(&v.index()) {
                 10.0
             } else {
@@ -237,8 +237,8 @@ mod tests {
 
     #[test]
     fn faces_with_another_common_vertex_are_not_merged() {
-        // The tube has three squares. Two of these squares are merged into one face. Both side edges of the third
-        // square are then edges of the merged face.
+        // The tube has three squares. Two of these squares are merged into one face. After this merge, both side edges
+        // of the third square are edges of the merged face.
         let mut tube = shapes::cylinder(3, false);
         tube.dissolve_edge(between(&tube, 1, 4)).unwrap();
         let refused = refused(&tube, between(&tube, 2, 5));

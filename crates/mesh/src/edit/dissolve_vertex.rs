@@ -23,13 +23,13 @@ impl Mesh {
     ///    |           |        |           |
     /// ```
     ///
-    /// Of the merged faces, the one with the lowest id remains and keeps its values; the others die. If two edges
-    /// become one, the edge with the lower id remains and keeps its values. `v` and its other edges die. The Euler
-    /// characteristic V - E + F stays the same. All other ids and values stay the same. This edit is the inverse of
-    /// [`poke_face`](Self::poke_face), and of [`split_edge`](Self::split_edge) if the split cut no triangles.
+    /// Of the merged faces, the face with the lowest id remains and keeps its values; the other merged faces die. If
+    /// two edges become one, the edge with the lower id remains and keeps its values. `v` and its other edges die. The
+    /// Euler characteristic V - E + F stays the same. All other ids and values stay the same. This edit is the inverse
+    /// of [`poke_face`](Self::poke_face), and of [`split_edge`](Self::split_edge) if the split cut no triangles.
     ///
-    /// Returns the merged face. If `v` has two edges, returns the face beside these edges. If there are two such
-    /// faces, returns the one with the lower id.
+    /// Returns the merged face. If `v` has two edges, returns the face beside these edges. If `v` has two edges and two
+    /// faces, returns the face with the lower id.
     ///
     /// # Errors
     ///

@@ -36,8 +36,8 @@ impl Mesh {
     ///
     /// **Attributes.** The copies of the vertices and edges of the rim have the values of the originals. The new edges
     /// that join a vertex v to its copy v' have zero values. A side face has the values of the extruded face f that
-    /// shares an edge with it. The corners of the side face at v and v' both have the values that f had at its corner
-    /// at v, so that there is no seam between f and the side face. Normals do not change.
+    /// shares an edge with it. At v and v', the corners of the side face have the values of the old corner of f at v.
+    /// Therefore, there is no seam between f and the side face. Normals do not change.
     ///
     /// Returns the side faces, in the order of the half-edges of the rim.
     ///

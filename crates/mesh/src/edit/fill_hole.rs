@@ -56,8 +56,8 @@ impl Mesh {
     }
 
     /// Fills a hole with triangles, by cutting off ears. `h` is a half-edge of the hole: it has no face. Each number in
-    /// `ears` is the index of a vertex on the rim; the origin of `h` has the index 0. This vertex is cut off by a
-    /// triangle whose other two corners are the current neighbors of the vertex on the rim.
+    /// `ears` is the index of a vertex on the rim; the origin of `h` has the index 0. A triangle cuts off this vertex:
+    /// its other two corners are the two remaining vertices of the rim next to this vertex.
     ///
     /// ```text
     ///    +-----+-----+          +-----+-----+

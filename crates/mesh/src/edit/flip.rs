@@ -116,8 +116,8 @@ impl Mesh {
     }
 
     /// Returns the half-edge before `h` around its face, or around its hole. Walks around the face (or the hole) and
-    /// around the origin of `h` at the same time. So the time is proportional to the number of edges of the face or the
-    /// hole, or to the valence of the origin, whichever is smaller.
+    /// around the origin of `h` at the same time. The time is proportional to the smaller of two numbers: the number of
+    /// edges of the face or hole, and the valence of the origin.
     #[inline]
     pub(super) fn prev_on_face(&self, h: HalfEdgeId) -> HalfEdgeId {
         let (mut before, mut around) = (self.next(h), h.twin());

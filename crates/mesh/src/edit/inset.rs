@@ -28,10 +28,10 @@ impl Mesh {
     /// half-edge.
     ///
     /// Each new vertex, and each corner at a new vertex, gets values that are interpolated with t = `fraction`. At t =
-    /// 0, they are the values at the outer corner; at t = 1, the mean of the values at all corners of the face.
-    /// Attributes that are not interpolated are copied from the outer corner. Inner edges have the values of the outer
-    /// edges, the edges between outer and inner vertices have zero values, and the faces of the ring have the values of
-    /// `f`.
+    /// 0, the interpolated values are the values at the outer corner; at t = 1, they are the mean of the values at all
+    /// corners of the face. Attributes that are not interpolated are copied from the outer corner. Inner edges have the
+    /// values of the outer edges, the edges between outer and inner vertices have zero values, and the faces of the
+    /// ring have the values of `f`.
     ///
     /// Returns the faces of the ring, in the order of the half-edges of `f`.
     ///

@@ -81,7 +81,7 @@ pub enum EditError {
     /// neighboring corners.
     #[error("no face can be cut from {0} to {1}")]
     NoCut(VertexId, VertexId),
-    /// It is not clear which face to cut or where: several faces have both vertices as corners, or one face contains
+    /// The cut between the two vertices is ambiguous: several faces have both vertices as corners, or one face contains
     /// one of the vertices several times.
     #[error("several cuts from {0} to {1} are possible")]
     SeveralCuts(VertexId, VertexId),
@@ -94,15 +94,15 @@ pub enum EditError {
         "both ends of {0} are neighbors of {1}, which is not a corner of a triangle at the edge"
     )]
     Link(EdgeId, VertexId),
-    /// Both ends of the edge are on the boundary, but the edge is not. Collapsing such an edge would split one
-    /// boundary loop in two, or merge two loops.
+    /// Both ends of the edge are on the boundary, but the edge is not. Collapsing this edge would split one boundary
+    /// loop in two, or merge two boundary loops.
     #[error("{0} is inside the surface, but both of its ends are on the boundary")]
     JoinsBoundaries(EdgeId),
     /// Corner attributes differ between the two sides of the edge, and the edit would lose the difference.
     #[error("{0} is a seam of corner attributes")]
     Seam(EdgeId),
-    /// The position along the edge is not between 0 (one end) and 1 (the other end). Only a collapse allows 0 and 1
-    /// themselves.
+    /// The position along the edge is not between 0 (one end) and 1 (the other end). A collapse allows positions from 0
+    /// to 1, inclusive; other edits require a position strictly between 0 and 1.
     #[error(
         "the position along the edge must be between 0 and 1, not {0} (only a collapse accepts 0 and 1)"
     )]

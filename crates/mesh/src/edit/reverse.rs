@@ -42,7 +42,7 @@ impl Mesh {
         if faces.is_empty() {
             return Err(EditError::NoElements);
         }
-        // All half-edges of the components, including those around holes.
+        // All half-edges of the components, including the half-edges around holes.
         let mut half_edges: Vec<HalfEdgeId> = Vec::new();
         for &f in faces {
             for h in self.face_half_edges(f) {

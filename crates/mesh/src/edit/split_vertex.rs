@@ -19,11 +19,11 @@ impl Mesh {
     ///
     /// `x` and `y` denote the corners at their origin: `x` denotes the corner in f, and `y` the corner in g. The new
     /// edge runs from v to w. The first half-edge of the new edge is on f, the second half-edge is on g, and both faces
-    /// gain a corner. f or g can be a hole; then the new edge is on the boundary. The mesh gains one vertex and one
-    /// edge. All existing ids stay the same.
+    /// gain a corner. If f or g is a hole, the new edge is on the boundary. The mesh gains one vertex and one edge. All
+    /// existing ids stay the same.
     ///
     /// [`split_face`](Self::split_face) is the corresponding edit for faces. To undo the split, collapse the new edge
-    /// to the old position with [`collapse_edge_to`](Self::collapse_edge_to). This collapse can be refused only if,
+    /// to the old position with [`collapse_edge_to`](Self::collapse_edge_to). The collapse can be refused only if,
     /// before the split, two edges joined v to the same vertex or a face contained v twice. To undo a collapse that
     /// removed triangles, call `split_vertex`, then `split_face`.
     ///

@@ -28,8 +28,8 @@ impl Mesh {
     /// remains and keeps its position and values; the other vertex dies. The edge with the lower id remains, keeps its
     /// values and gets both faces; the other edge dies. Corners keep their values, so different UVs form a seam. If the
     /// stitch would leave a hole with only two edges, these two edges are stitched too, because a list of polygons
-    /// cannot represent such a hole. To close a whole cut, stitch its pairs of edges one after the other, starting at
-    /// an end of the cut.
+    /// cannot represent a hole with two edges. To close a whole cut, stitch its pairs of edges one after the other,
+    /// starting at an end of the cut.
     ///
     /// The order of `h` and `g` does not matter. The orientation of the faces always matches, because both
     /// half-edges have the surface on their right.

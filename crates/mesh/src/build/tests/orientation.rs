@@ -108,7 +108,7 @@ fn reversed_faces_of_any_shape_are_restored() {
 
 #[test]
 fn in_a_tie_the_orientation_of_the_first_face_is_kept() {
-    // A strip of four triangles; the orientation of the first two is opposite to that of the last two.
+    // The polygons are a strip of four triangles. The first two triangles and the last two have opposite orientations.
     let strip: [&[u32]; 4] = [&[0, 2, 1], &[1, 2, 3], &[2, 3, 4], &[3, 5, 4]];
     let (_, report) = mesh(6, &strip);
     assert_eq!(report.reversed_faces, [2, 3]);

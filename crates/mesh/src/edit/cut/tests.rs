@@ -50,8 +50,8 @@ fn a_path_from_the_boundary_splits_its_vertices() {
     assert_eq!((cut.n_vertices(), cut.n_edges()), (18, 26));
     assert_eq!((cut.n_faces(), cut.n_boundary_loops()), (9, 1));
     assert_eq!(cut.euler_characteristic(), 1);
-    // The faces to the left of the path have lower ids than those to the right, so they keep the vertices 9 and
-    // 13.
+    // The faces to the left of the path have lower ids than the faces to the right. Therefore, the left faces keep the
+    // vertices 9 and 13.
     let v = VertexId::new;
     assert_eq!(polygons(&cut)[3], [4, 5, 9, 8]);
     assert_eq!(polygons(&cut)[4], [5, 6, 10, 16]);
